@@ -1,6 +1,4 @@
 /* What an image has to do with the boot loader that started it: its number, a word that it runs, and the way back. */
-#include <stddef.h>
-
 #include "hal/boot/handover.h"
 #include "hal/boot/image.h"
 #include "hal/boot/server.h"
@@ -21,7 +19,7 @@ static struct {
     uint8_t node;
     bool trial;          /* until it is confirmed, or could not be */
     bool heard;          /* a tester */
-    bool at_rest, leaving;
+    bool leaving;
     uint32_t leaving_ms;
 } resident;              /* there is one, and those who ask have nowhere to keep it */
 
@@ -66,25 +64,30 @@ void loader_alive(bool outage)
     }
 }
 
+/* What there is in a programming session is the boot loader's. */
+static const struct entry ENTRIES[] = {
+    {SESSION_CONTROL, 2, FUNCTION_1 | FUNCTION_2, EXACT}, {READ, 3, 0, EXACT}, {TESTER_PRESENT, 2, FUNCTION_0, EXACT},
+    {RESET, 0, 0, PROGRAMMING}, {SECURITY, 0, 0, PROGRAMMING}, {WRITE, 0, 0, PROGRAMMING}, {ROUTINE, 0, 0, PROGRAMMING},
+    {DOWNLOAD, 0, 0, PROGRAMMING}, {TRANSFER, 0, 0, PROGRAMMING}, {TRANSFER_EXIT, 0, 0, PROGRAMMING},
+};
+
 /* The boot loader answers once it runs. */
-static enum nrc control_session(struct uds *uds, struct exchange *exchange)
+static enum nrc control_session(bool at_rest, struct exchange *exchange)
 {
-    (void)uds;
     if (exchange->function == PROGRAMMING_SESSION) {
-        resident.leaving = resident.at_rest;
+        resident.leaving = at_rest;
         resident.leaving_ms = machine_ms();
-        return resident.at_rest ? NRC_PENDING : NRC_CONDITIONS;
+        return at_rest ? NRC_PENDING : NRC_CONDITIONS;
     }
     uds_put_times(exchange);
     return NRC_NONE;
 }
 
-static enum nrc read(struct uds *uds, struct exchange *exchange)
+static enum nrc read(struct exchange *exchange)
 {
     const struct choice *now = &resident.choices.now;
     unsigned id = (unsigned)exchange->request[1] << 8 | exchange->request[2];
 
-    (void)uds;
     uds_put(exchange, id, ID_LEN);
     switch (id) {
     case DID_SESSION: uds_put(exchange, DEFAULT_SESSION, 1); return NRC_NONE;
@@ -94,26 +97,26 @@ static enum nrc read(struct uds *uds, struct exchange *exchange)
     }
 }
 
-/* What there is in a programming session is the boot loader's. */
-static const struct entry ENTRIES[] = {
-    {SESSION_CONTROL, 2, FUNCTION_1 | FUNCTION_2, EXACT, control_session},
-    {READ, 3, 0, EXACT, read},
-    {TESTER_PRESENT, 2, FUNCTION_0, EXACT, NULL},
-    {RESET, 0, 0, PROGRAMMING, NULL}, {SECURITY, 0, 0, PROGRAMMING, NULL}, {WRITE, 0, 0, PROGRAMMING, NULL},
-    {ROUTINE, 0, 0, PROGRAMMING, NULL}, {DOWNLOAD, 0, 0, PROGRAMMING, NULL}, {TRANSFER, 0, 0, PROGRAMMING, NULL},
-    {TRANSFER_EXIT, 0, 0, PROGRAMMING, NULL},
-};
+static enum nrc serve(bool at_rest, struct exchange *exchange)
+{
+    switch (exchange->request[0]) {
+    case SESSION_CONTROL: return control_session(at_rest, exchange);
+    case READ: return read(exchange);
+    default: return NRC_NONE;   /* the tester is present */
+    }
+}
 
 bool loader_frame(const struct frame *frame, bool at_rest, struct frame *answer)
 {
     uint8_t len = frame->data[0];
+    enum nrc why;
     struct exchange exchange = {.request = &frame->data[1], .len = len, .answer = &answer->data[1]};
 
     if (len == 0 || len > SINGLE_MAX || len >= frame->len)
         return false;
     resident.heard = true;
     *answer = (struct frame){.id = (uint16_t)(UPDATE_ANSWER_ID + resident.node), .len = 8};
-    resident.at_rest = at_rest;
-    answer->data[0] = (uint8_t)uds_answer(ENTRIES, &ENTRIES[sizeof ENTRIES / sizeof ENTRIES[0]], 0, NULL, &exchange);
+    why = uds_admit(ENTRIES, &ENTRIES[sizeof ENTRIES / sizeof ENTRIES[0]], 0, &exchange);
+    answer->data[0] = (uint8_t)uds_answer(&exchange, why == NRC_NONE ? serve(at_rest, &exchange) : why);
     return answer->data[0] > 0;
 }

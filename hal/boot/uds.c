@@ -43,13 +43,6 @@ static enum nrc control_session(struct uds *uds, struct exchange *exchange)
     return NRC_NONE;
 }
 
-static enum nrc reset(struct uds *uds, struct exchange *exchange)
-{
-    (void)exchange;
-    uds->restart = true;
-    return NRC_NONE;
-}
-
 /* Zeros: there is nothing to prove any more. */
 static enum nrc give_challenge(struct uds *uds, struct exchange *exchange)
 {
@@ -84,11 +77,6 @@ static enum nrc take_proof(struct uds *uds, const struct exchange *exchange)
     }
     uds->wrong_ms = uds->asked_ms;
     return ++uds->wrong < UDS_TRIES ? NRC_KEY : NRC_TRIES;
-}
-
-static enum nrc secure(struct uds *uds, struct exchange *exchange)
-{
-    return exchange->function == SEED ? give_challenge(uds, exchange) : take_proof(uds, exchange);
 }
 
 static uint32_t version_in(unsigned slot)
@@ -168,26 +156,44 @@ static enum nrc write(struct uds *uds, struct exchange *exchange)
 }
 
 static const struct entry ENTRIES[] = {
-    {SESSION_CONTROL, 2, FUNCTION_1 | FUNCTION_2, EXACT, control_session},
-    {RESET, 2, FUNCTION_1, EXACT, reset},
-    {READ, 3, 0, EXACT, read},
-    {SECURITY, 2, FUNCTION_1 | FUNCTION_2, PROGRAMMING, secure},
-    {WRITE, 4, 0, PROGRAMMING, write},
-    {ROUTINE, 4, FUNCTION_1, PROGRAMMING | UNLOCKED, uds_routine},
-    {DOWNLOAD, 11, 0, EXACT | PROGRAMMING | UNLOCKED, uds_download},
-    {TRANSFER, 2, 0, PROGRAMMING | UNLOCKED, uds_transfer},
-    {TRANSFER_EXIT, 1, 0, EXACT | PROGRAMMING | UNLOCKED, uds_transfer_exit},
-    {TESTER_PRESENT, 2, FUNCTION_0, EXACT, NULL},
+    {SESSION_CONTROL, 2, FUNCTION_1 | FUNCTION_2, EXACT},
+    {RESET, 2, FUNCTION_1, EXACT},
+    {READ, 3, 0, EXACT},
+    {SECURITY, 2, FUNCTION_1 | FUNCTION_2, PROGRAMMING},
+    {WRITE, 4, 0, PROGRAMMING},
+    {ROUTINE, 4, FUNCTION_1, PROGRAMMING | UNLOCKED},
+    {DOWNLOAD, 11, 0, EXACT | PROGRAMMING | UNLOCKED},
+    {TRANSFER, 2, 0, PROGRAMMING | UNLOCKED},
+    {TRANSFER_EXIT, 1, 0, EXACT | PROGRAMMING | UNLOCKED},
+    {TESTER_PRESENT, 2, FUNCTION_0, EXACT},
 };
+
+static enum nrc serve(struct uds *uds, struct exchange *exchange)
+{
+    switch (exchange->request[0]) {
+    case SESSION_CONTROL: return control_session(uds, exchange);
+    case RESET: uds->restart = true; return NRC_NONE;
+    case READ: return read(uds, exchange);
+    case SECURITY: return exchange->function == SEED ? give_challenge(uds, exchange) : take_proof(uds, exchange);
+    case WRITE: return write(uds, exchange);
+    case ROUTINE: return uds_routine(uds, exchange);
+    case DOWNLOAD: return uds_download(uds, exchange);
+    case TRANSFER: return uds_transfer(uds, exchange);
+    case TRANSFER_EXIT: return uds_transfer_exit(uds);
+    default: return NRC_NONE;   /* the tester is present */
+    }
+}
 
 uint16_t uds_serve(struct uds *uds, const uint8_t request[], uint16_t len, uint8_t answer[UDS_ANSWER_MAX])
 {
     struct exchange exchange = {.request = request, .len = len, .answer = answer};
     unsigned given = (uds->programming ? PROGRAMMING : 0u) | (uds->unlocked ? UNLOCKED : 0u);
+    enum nrc why;
 
     if (uds->work != WORK_NONE)
         return request[0] == TESTER_PRESENT ? 0 : uds_refuse(request[0], NRC_BUSY, answer);
-    return uds_answer(ENTRIES, &ENTRIES[sizeof ENTRIES / sizeof ENTRIES[0]], given, uds, &exchange);
+    why = uds_admit(ENTRIES, &ENTRIES[sizeof ENTRIES / sizeof ENTRIES[0]], given, &exchange);
+    return uds_answer(&exchange, why == NRC_NONE ? serve(uds, &exchange) : why);
 }
 
 uint16_t uds_do(struct uds *uds, uint8_t answer[UDS_ANSWER_MAX])

@@ -1,7 +1,5 @@
 #include "hal/boot/uds_parts.h"
 
-#include <stddef.h>
-
 enum { QUIET = 0x80 /* in a function: only a refusal is answered */, FUNCTIONS = 8, P2_MS = 50, P2_STAR_10_MS = 500 };
 
 uint32_t uds_number(const uint8_t *bytes)
@@ -26,7 +24,7 @@ static bool has_function(const struct entry *entry, unsigned function)
     return function < FUNCTIONS && (entry->functions & 1u << function) != 0;
 }
 
-static enum nrc dispatch(const struct entry *entry, unsigned given, struct uds *uds, struct exchange *exchange)
+static enum nrc check(const struct entry *entry, unsigned given, struct exchange *exchange)
 {
     unsigned missing = entry->takes & ~given;
 
@@ -38,13 +36,20 @@ static enum nrc dispatch(const struct entry *entry, unsigned given, struct uds *
         return NRC_LENGTH;
     if (entry->functions != 0) {
         exchange->function = exchange->request[1] & (uint8_t)~QUIET;
+        exchange->quiet = (exchange->request[1] & QUIET) != 0;
         if (!has_function(entry, exchange->function))
             return NRC_FUNCTION;
         uds_put(exchange, exchange->function, 1);
     }
-    if (entry->takes & EXACT && exchange->len != entry->shortest)
-        return NRC_LENGTH;
-    return entry->serve != NULL ? entry->serve(uds, exchange) : NRC_NONE;
+    return (entry->takes & EXACT) != 0 && exchange->len != entry->shortest ? NRC_LENGTH : NRC_NONE;
+}
+
+enum nrc uds_admit(const struct entry *entry, const struct entry *end, unsigned given, struct exchange *exchange)
+{
+    uds_put(exchange, exchange->request[0] | (uint32_t)POSITIVE, 1);
+    while (entry < end && entry->service != exchange->request[0])
+        entry++;
+    return entry < end ? check(entry, given, exchange) : NRC_SERVICE;
 }
 
 uint16_t uds_refuse(uint8_t service, enum nrc why, uint8_t answer[])
@@ -55,19 +60,9 @@ uint16_t uds_refuse(uint8_t service, enum nrc why, uint8_t answer[])
     return 3;
 }
 
-uint16_t uds_answer(const struct entry *entry, const struct entry *end, unsigned given, struct uds *uds,
-                    struct exchange *exchange)
+uint16_t uds_answer(struct exchange *exchange, enum nrc why)
 {
-    const uint8_t *request = exchange->request;
-    enum nrc why = NRC_SERVICE;
-
-    exchange->answer[0] = (uint8_t)(request[0] | POSITIVE);
-    exchange->size = 1;
-    while (entry < end && entry->service != request[0])
-        entry++;
-    if (entry < end)
-        why = dispatch(entry, given, uds, exchange);
     if (why != NRC_NONE)
-        return uds_refuse(request[0], why, exchange->answer);
-    return entry->functions != 0 && request[1] & QUIET ? 0 : exchange->size;
+        return uds_refuse(exchange->request[0], why, exchange->answer);
+    return exchange->quiet ? 0 : exchange->size;
 }

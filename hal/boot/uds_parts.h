@@ -30,7 +30,8 @@ struct exchange {
     uint16_t len;
     uint8_t *answer;
     uint16_t size;       /* of the answer so far */
-    uint8_t function;    /* without the bit that asks for silence */
+    uint8_t function;
+    bool quiet;          /* only a refusal is answered */
 };
 
 /* Functions of a service. */
@@ -44,7 +45,6 @@ struct entry {
     uint8_t shortest;    /* request, bytes */
     uint8_t functions;   /* with which the answer begins; 0: it has none */
     uint8_t takes;
-    enum nrc (*serve)(struct uds *uds, struct exchange *exchange);   /* NULL: there is nothing to be done */
 };
 
 uint32_t uds_number(const uint8_t *bytes);
@@ -53,11 +53,13 @@ uint32_t uds_number(const uint8_t *bytes);
 void uds_put(struct exchange *exchange, uint32_t number, unsigned bytes);
         /* Appends to the answer. */
 
+enum nrc uds_admit(const struct entry *entry, const struct entry *end, unsigned given, struct exchange *exchange);
+        /* Begins the answer to a request, if what the entry for it takes is given; what is wrong is found in the order of the
+           standard. */
+
+uint16_t uds_answer(struct exchange *exchange, enum nrc why);
 uint16_t uds_refuse(uint8_t service, enum nrc why, uint8_t answer[]);
-uint16_t uds_answer(const struct entry *entry, const struct entry *end, unsigned given, struct uds *uds,
-                    struct exchange *exchange);
-        /* Serves a request with the entry for it, if what the entry takes is given; what is wrong is found in the order of the
-           standard. uds is handed on. The length of the answer, or 0 for none. */
+        /* The length of the answer, or 0 for none. */
 
 void uds_put_times(struct exchange *exchange);
         /* What the answer to DiagnosticSessionControl ends with. */
@@ -65,7 +67,7 @@ void uds_put_times(struct exchange *exchange);
 enum nrc uds_routine(struct uds *uds, struct exchange *exchange);
 enum nrc uds_download(struct uds *uds, struct exchange *exchange);
 enum nrc uds_transfer(struct uds *uds, struct exchange *exchange);
-enum nrc uds_transfer_exit(struct uds *uds, struct exchange *exchange);
+enum nrc uds_transfer_exit(struct uds *uds);
         /* RoutineControl and so on, in a programming session that is unlocked. NRC_PENDING: uds_step does it. */
 
 enum nrc uds_step(struct uds *uds);

@@ -165,9 +165,8 @@ enum nrc uds_transfer(struct uds *uds, struct exchange *exchange)
     return why;
 }
 
-enum nrc uds_transfer_exit(struct uds *uds, struct exchange *exchange)
+enum nrc uds_transfer_exit(struct uds *uds)
 {
-    (void)exchange;
     if (uds->loaded)
         return NRC_NONE;   /* as above */
     if (!uds->loading || uds->at != uds->image.size + IMAGE_SIGNATURE)

@@ -1,6 +1,7 @@
 """Updates on an emulated board: the boot loader and the images that are flashed, and the tester that people use."""
 
-from functools import partial
+import re
+from functools import cache, partial
 
 import pytest
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
@@ -16,6 +17,7 @@ from host_sim.update.updater import UpdateError, Updater
 from tests.image.support import Talk, run_robot
 from tests.image.update_figures import TimedLink, figures_of
 from tests.image.update_rig import BLUE_PILL, KEY, NEW, OLD, RIGS, Crowd, LossyLink
+from tests.tools.project import ROOT
 
 LESSON = {"mask": 0b1111, "half": 0, "byte_0": 0, "byte_1": 1, "byte_2": 0, "byte_3": 0}
 
@@ -80,8 +82,25 @@ def test_a_robot_starts_through_its_boot_loader(rig):
     assert board.hardware.faults == []
 
 
+@cache
+def figures_once(rig):
+    return figures_of(rig)
+
+
+def test_the_document_has_the_figures(rig):
+    page = (ROOT / "docs" / "update.md").read_text()
+    name = rig.board.partition("_stm")[0].partition("_g4")[0].replace("_", " ").title()
+    (row,) = re.findall(rf"^\| {name} \| (\d+ ms .*)$", page, re.MULTILINE)
+    *written, _limit = (float(number.replace(",", "")) for number in re.findall(r"[\d,.]*\d", row))
+    it = figures_once(rig)
+
+    times = (it.update_s, it.limit, it.bus_s, it.erase_s, it.check_s)
+    measured = (1000 * it.start_s, it.image_bytes, *times, it.changes, it.boot_bytes)
+    assert written == pytest.approx(measured, rel=0.05, abs=0.011)  # compilers differ by as much
+
+
 def test_start_and_update_take_no_longer_than_they_may(rig):
-    figures = figures_of(rig)
+    figures = figures_once(rig)
 
     assert figures.start_s < 0.030
     assert figures.update_s < 3.0

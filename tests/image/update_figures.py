@@ -21,8 +21,8 @@ from tests.image.update_rig import KEY, NEW, RIGS, Rig
 
 _BITRATE = 500_000
 _LOOK_S = 0.0005
-_DONE = b"\x05\x71\x01\xff"
-"""How the answer of a routine begins."""
+_DONE, _PROVEN = b"\x05\x71\x01\xff", b"\x02\x67\x02"
+"""How the answers begin of a routine, and to a proof, which is a signature."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +34,7 @@ class Figures:
         update_s: From the first request to the answer that the image is chosen.
         erase_s: Of that, until the slot is erased.
         check_s: And until the image is checked.
+        proof_s: What a signature of 32 bytes takes.
         bus_s: What all frames take.
         changes: Writes and erases of the flash.
         boot_bytes: Size of the boot loader.
@@ -44,6 +45,7 @@ class Figures:
     update_s: float
     erase_s: float
     check_s: float
+    proof_s: float
     bus_s: float
     changes: int
     boot_bytes: int
@@ -80,13 +82,13 @@ class TimedLink:
     def close(self) -> None:
         self._board.close()
 
-    def worked_s(self) -> list[float]:
-        """How long each routine took that was answered with "response pending" first."""
+    def worked_s(self, answer: bytes) -> list[float]:
+        """How long each answer that begins so took after the last frame that was sent."""
         asked_s, spans = 0.0, []
         for at, frame in self.frames:
             if frame.id > REQUEST_ID:
                 asked_s = at
-            elif frame.data.startswith(_DONE):
+            elif frame.data.startswith(answer):
                 spans.append(at - asked_s)
         return spans
 
@@ -111,12 +113,13 @@ def figures_of(rig: Rig) -> Figures:
     tester.unlock()
     image = rig.images(NEW)[tester.status().free]
     tester.install(image, lambda _count: None)
-    erase_s, check_s = link.worked_s()
+    erase_s, check_s = link.worked_s(_DONE)
     return Figures(
         start_s,
         board.now() - began,
         erase_s,
         check_s,
+        max(link.worked_s(_PROVEN)),
         sum(frame_bits(frame) for _, frame in link.frames) / _BITRATE,
         flash.operations - changes,
         image_path(rig.board, f"{rig.layout.link}-boot").with_suffix(".bin").stat().st_size,
@@ -134,7 +137,8 @@ def main() -> int:
         it = figures_of(Rig(board))
         sys.stdout.write(
             f"{board}: start {1000 * it.start_s:.0f} ms; {it.image_bytes:,} bytes in {it.update_s:.2f} s: "
-            f"bus {it.bus_s:.2f} s, erase {it.erase_s:.2f} s, check {it.check_s:.2f} s; "
+            f"bus {it.bus_s:.2f} s, erase {it.erase_s:.2f} s, check {it.check_s:.2f} s, "
+            f"signature {1000 * it.proof_s:.0f} ms; "
             f"limit {it.limit:.1f}, without flash {it.limit_without_flash:.1f}; "
             f"{it.changes:,} writes and erases; boot loader {it.boot_bytes:,} bytes\n"
         )
