@@ -94,14 +94,14 @@ static bool measure_motors(struct calibration *calibration, const struct calibra
     return true;
 }
 
+/* It does not matter where turned begins: differences are taken. */
 static void turn(struct calibration *calibration, const struct calibrate_look *look)
 {
     for (unsigned side = 0; side < PINS_SIDES; side++) {
         int32_t more = (int16_t)(uint16_t)(look->counts[side] - calibration->counts[side]);
 
         calibration->counts[side] = look->counts[side];
-        if (calibration->beats > 0)
-            calibration->turned += side == 0 ? more : -more;
+        calibration->turned += side == 0 ? more : -more;
     }
 }
 

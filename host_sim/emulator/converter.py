@@ -5,7 +5,8 @@ from collections.abc import Callable, Mapping, Sequence
 
 from host_sim.emulator.registers import BoardError, Peripheral, Register
 
-_ADON, _CONT, _CALIBRATIONS, _DMA, _SCAN = 1, 1 << 1, 1 << 2 | 1 << 3, 1 << 8, 1 << 8
+_ADON, _CONT, _CALIBRATE, _FORGET, _DMA, _SCAN = 1, 1 << 1, 1 << 2, 1 << 3, 1 << 8, 1 << 8
+_CALIBRATIONS, _LOOKS = _CALIBRATE | _FORGET, 2
 _BEGIN, _SOFTWARE = 1 << 22, 7 << 17 | 1 << 20
 _SAMPLE_MAX, _PLACES_MAX = 4095, 6
 _G4_ON, _G4_START, _G4_REGULATOR, _G4_ASLEEP, _G4_CALIBRATE = 1, 1 << 2, 1 << 28, 1 << 29, 1 << 31
@@ -104,30 +105,51 @@ class Converter(Peripheral):
 
 
 class ConverterF1(Converter):
-    """That of an STM32F1."""
+    """That of an STM32F1. What calibrates it lasts for some looks at it."""
 
     data, hz_max = 0x4C, 14_000_000
 
     def __init__(self, base: int, hz: Callable[[], int], dma: Dma) -> None:
         """As in `Converter`."""
-        self._cr2 = Register("CR2", on_write=self._write_cr2)
+        self._calibrated = self._looks = 0
+        self._cr2 = Register("CR2", on_read=self._read_cr2, on_write=self._write_cr2)
         names = {0x00: "SR", 0x04: "CR1", 0x0C: "SMPR1", 0x10: "SMPR2", 0x2C: "SQR1", 0x30: "SQR2", 0x34: "SQR3"}
         registers = {offset: Register(name) for offset, name in {**names, self.data: "DR"}.items()}
         super().__init__(base, hz, dma, {**registers, 0x08: self._cr2})
+
+    def reset(self) -> None:
+        """As in `Peripheral`."""
+        super().reset()
+        self._calibrated = self._looks = 0
 
     def order(self) -> Sequence[int]:
         """As in `Converter`."""
         places = (self.registers[0x2C].value >> 20 & 15) + 1
         return [self.registers[0x34].value >> 5 * place & 31 for place in range(places)]
 
+    def _read_cr2(self) -> int:
+        self._looks -= 1
+        if self._looks <= 0:
+            self._cr2.value &= ~_CALIBRATIONS
+        return self._cr2.value
+
     def _write_cr2(self, value: int) -> None:
+        before = self._cr2.value
         if value & _ADON:
             self.switch_on()
-        if value & _CALIBRATIONS and not self._cr2.value & _ADON:
+        if value & _CALIBRATIONS and not before & _ADON:
             raise BoardError("ADC1 was calibrated before it was switched on")
-        whole = _ADON | _CONT | _DMA | _SOFTWARE | _BEGIN
-        self._begun = value & whole == whole and bool(self.registers[0x04].value & _SCAN)
-        self._cr2.value = value & ~_CALIBRATIONS
+        if before & _CALIBRATIONS:
+            raise BoardError("ADC1 was told to go on while it still calibrated")
+        if value & _CALIBRATIONS:
+            self._calibrated = value & _CALIBRATIONS | (self._calibrated if value & _CALIBRATE else 0)
+            self._looks = _LOOKS
+        if value & _BEGIN and self._calibrated != _CALIBRATIONS:
+            raise BoardError("ADC1 was begun before it was calibrated")
+        set_up = _ADON | _CONT | _DMA | _SOFTWARE
+        begins = value & before & set_up == set_up and value & _BEGIN
+        self._begun = bool(begins and self.registers[0x04].value & _SCAN)
+        self._cr2.value = value
 
 
 class ConverterG4(Converter):

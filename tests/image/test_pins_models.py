@@ -151,29 +151,67 @@ def converter():
     made = ConverterF1(0x40012400, lambda: 12_000_000, dma)
     for offset, value in ((0x08, 0x5A1), (0x0C, 2), (0x10, 0x4001244C), (0x14, 0x20000100)):
         write(dma, offset, value)
-    for offset, value in ((0x2C, 1 << 20), (0x34, 3 | 5 << 5), (0x04, 1 << 8), (0x08, 1), (0x08, 1 | 1 << 2)):
+    for offset, value in ((0x2C, 1 << 20), (0x34, 3 | 5 << 5), (0x04, 1 << 8), (0x08, 1)):
         write(made, offset, value)
     return made, dma
+
+
+SET_UP, BEGIN, RESET_CALIBRATION, CALIBRATE_F1 = 1 | 2 | 1 << 8 | 15 << 17, 1 << 22, 1 << 3, 1 << 2
+
+
+def begin(made):
+    for calibration in (RESET_CALIBRATION, CALIBRATE_F1):
+        write(made, 0x08, 1 | calibration)
+        assert read(made, 0x08) & calibration
+        assert read(made, 0x08) == 1
+    write(made, 0x08, SET_UP)
+    write(made, 0x08, SET_UP | BEGIN)
 
 
 def test_a_round_is_converted_in_its_order(converter):
     made, _ = converter
     assert made.convert({}) is None
-    write(made, 0x08, 1 | 2 | 1 << 8 | 15 << 17 | 1 << 22)
+    begin(made)
     assert made.convert({3: 700, 5: 9999}) == (0x20000100, (700).to_bytes(2, "little") + b"\xff\x0f")
-    assert read(made, 0x08) & 12 == 0
+    write(made, 0x08, 1)
+    write(made, 0x08, SET_UP | BEGIN)  # at once, and what it is to do is not set up yet
+    assert made.convert({3: 700}) is None
+    made.reset()
+    write(made, 0x08, 1)
+    with pytest.raises(BoardError, match="begun before it was calibrated"):
+        write(made, 0x08, SET_UP | BEGIN)
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        ([0, 1 | CALIBRATE_F1], "calibrated before it was switched on"),
+        ([1 | RESET_CALIBRATION, 1 | CALIBRATE_F1], "while it still calibrated"),
+        ([1 | CALIBRATE_F1, None, None, SET_UP, SET_UP | BEGIN], "begun before it was calibrated"),
+        ([1 | CALIBRATE_F1, None, None, 1 | RESET_CALIBRATION, None, None, SET_UP | BEGIN], "begun before it was"),
+    ],
+)
+def test_what_an_f1s_converter_cannot_do_is_refused(converter, words, why):
+    made, _ = converter
+    for value in words[:-1]:
+        if value is None:
+            read(made, 0x08)
+        else:
+            write(made, 0x08, value)
+    with pytest.raises(BoardError, match=why):
+        write(made, 0x08, words[-1])
 
 
 def test_samples_that_nobody_carries_off_are_lost(converter):
     made, dma = converter
-    write(made, 0x08, 1 | 2 | 1 << 8 | 15 << 17 | 1 << 22)
+    begin(made)
     write(dma, 0x08, 0)
     assert made.convert({3: 700}) is None
 
 
 def test_a_round_of_another_length_and_a_clock_too_fast_are_refused(converter):
     made, dma = converter
-    write(made, 0x08, 1 | 2 | 1 << 8 | 15 << 17 | 1 << 22)
+    begin(made)
     write(dma, 0x0C, 3)
     with pytest.raises(BoardError, match="converts 2 channels in a round, and DMA1 carries 3 off"):
         made.convert({})

@@ -10,7 +10,8 @@
 enum { ROOM = 64, NODE = 3 };
 
 static struct frame said[ROOM], heard[ROOM];
-static size_t said_count, heard_count, taken;
+static size_t said_count, heard_count, taken, looks;
+static uint64_t garbled;   /* bit n: what is heard as number n */
 static int result;
 static uint8_t tick;
 static struct input in;
@@ -29,10 +30,11 @@ int link_receive(struct link *link, struct frame *out, uint32_t wait_ms)
 {
     (void)link;
     TEST_ASSERT_EQUAL_UINT32(0, wait_ms);
+    looks++;
     if (taken == heard_count)
         return 0;
-    *out = heard[taken++];
-    return out->len > 8 ? LINK_E_GARBLED : 1;
+    *out = heard[taken];
+    return garbled >> taken++ & 1u ? LINK_E_GARBLED : 1;
 }
 
 int link_send(struct link *link, const struct frame *frame)
@@ -48,7 +50,7 @@ void setUp(void)
 
     result = 0;
     tick = 250;
-    said_count = heard_count = taken = 0;
+    said_count = heard_count = taken = garbled = 0;
     TEST_ASSERT_EQUAL_INT(0, telemetry_open(&port));
 }
 
@@ -68,6 +70,13 @@ static uint8_t counter(void)
 static void hear(const struct frame *frame)
 {
     heard[heard_count++] = *frame;
+}
+
+/* What was heard last has another identifier, and is whole. */
+static void rename_last(uint32_t id)
+{
+    heard[heard_count - 1].id = id + NODE - 1;
+    e2e_protect(&heard[heard_count - 1]);
 }
 
 static void hear_drive(uint8_t of_tick, uint8_t with, enum reason reason)
@@ -153,9 +162,24 @@ TEST(other_drives_are_not_done)
     TEST_ASSERT_EQUAL_INT(INPUT_SILENCE, telemetry_receive(&in));
     TEST_ASSERT_EQUAL_UINT(4, taken);
     TEST_ASSERT_EQUAL_INT16(0, driven().drive.left_mm_s);
-    heard[heard_count++].len = 9;   /* garbled */
+    hear_drive((uint8_t)(tick + 1), counter(), REASON_WANDER);
+    hear_drive(tick, (uint8_t)(counter() - 1), REASON_WANDER);
+    garbled = 1u << heard_count;
+    hear_drive(tick, counter(), REASON_WANDER);
+    TEST_ASSERT_EQUAL_INT(INPUT_SILENCE, telemetry_receive(&in));
     hear_drive(tick, counter(), REASON_WANDER);
     TEST_ASSERT_EQUAL_INT(INPUT_PEER, telemetry_receive(&in));
+}
+
+TEST(four_frames_are_taken_in_one_go_and_where_there_is_none_it_does_not_ask_again)
+{
+    garbled = 31;
+    heard_count = 5;
+    TEST_ASSERT_EQUAL_INT(INPUT_SILENCE, telemetry_receive(&in));
+    TEST_ASSERT_EQUAL_size_t(4, taken);
+    looks = 0;
+    TEST_ASSERT_EQUAL_INT(INPUT_SILENCE, telemetry_receive(&in));
+    TEST_ASSERT_EQUAL_size_t(2, looks);
 }
 
 TEST(an_order_is_said_before_each_senses_until_it_is_answered_and_then_the_next)
@@ -198,13 +222,41 @@ TEST(an_order_is_said_before_each_senses_until_it_is_answered_and_then_the_next)
 
 TEST(a_counter_that_an_earlier_session_has_used_is_left_behind)
 {
-    uint8_t with;
+    unsigned with;
 
     start(RESULT_OUT_OF_SEQUENCE, 0);
     with = e2e_counter(&said[0]);
-    sense();
-    TEST_ASSERT_EQUAL_UINT8((with + 7) % E2E_COUNTERS, e2e_counter(&said[0]));
+    for (unsigned i = 1; i <= 3; i++) {
+        sense();
+        TEST_ASSERT_EQUAL_UINT8((with + 7 * i) % E2E_COUNTERS, e2e_counter(&said[0]));
+        hear_answer(OPCODE_START, e2e_counter(&said[0]), RESULT_OUT_OF_SEQUENCE, 0);
+    }
     TEST_ASSERT_FALSE(driven().report.running);
+}
+
+TEST(what_is_garbled_or_answers_an_older_order_is_no_answer)
+{
+    uint8_t with;
+
+    start(RESULT_DONE, 0);
+    body_node_order(&(struct command){OPCODE_STOP, 0, 0});
+    sense();
+    with = e2e_counter(&said[0]);
+    hear_answer(OPCODE_STOP, (uint8_t)(with - 1), RESULT_DONE, 0);
+    garbled = 1u << heard_count;
+    hear_answer(OPCODE_STOP, with, RESULT_DONE, 0);
+    TEST_ASSERT_TRUE(driven().report.running);
+    hear_answer(OPCODE_STOP, with, RESULT_DONE, 0);
+    TEST_ASSERT_FALSE(driven().report.running);
+}
+
+TEST(an_answer_to_another_order_leaves_the_robot_as_it_was)
+{
+    start(RESULT_DONE, ANSWER_WANTS_RANGES);
+    body_node_order(&(struct command){OPCODE_SET, WHEEL_TRACK_MM, 163});
+    sense();
+    hear_answer(OPCODE_SET, e2e_counter(&said[0]), RESULT_DONE, 0);
+    TEST_ASSERT_TRUE(telemetry_wants_ranges() && driven().report.running);
 }
 
 TEST(a_robot_that_wants_distances_gets_them_before_its_senses)
@@ -216,6 +268,7 @@ TEST(a_robot_that_wants_distances_gets_them_before_its_senses)
     TEST_ASSERT_TRUE(telemetry_wants_ranges());
     sense();
     TEST_ASSERT_EQUAL_UINT(2, said_count);
+    TEST_ASSERT_EQUAL_HEX32(OCTET_RANGES_FRAME_ID + NODE - 1, said[0].id);
     TEST_ASSERT_TRUE(e2e_is_whole(&said[0], OCTET_RANGES_LENGTH));
     TEST_ASSERT_EQUAL_INT(0, octet_ranges_unpack(&got, said[0].data, said[0].len));
     TEST_ASSERT_EQUAL_UINT8(tick, got.tick);
@@ -258,6 +311,7 @@ TEST(a_body_that_is_opened_again_knows_nothing_of_before)
     hear_drive(tick, counter(), REASON_WANDER);
     TEST_ASSERT_EQUAL_INT(INPUT_PEER, telemetry_receive(&in));
     body_node_order(&(struct command){OPCODE_STOP, 0, 0});
+    body_node_order(&(struct command){OPCODE_SET, WHEEL_TRACK_MM, 163});
     TEST_ASSERT_EQUAL_INT(0, telemetry_open(&port));
     sense();
     TEST_ASSERT_EQUAL_size_t(1, said_count);
@@ -267,15 +321,29 @@ TEST(a_body_that_is_opened_again_knows_nothing_of_before)
     sense();
     TEST_ASSERT_EQUAL_HEX16(OCTET_COMMAND_FRAME_ID + NODE - 1, said[0].id);
     TEST_ASSERT_EQUAL_UINT8(0, e2e_counter(&said[0]));
+    hear_answer(OPCODE_STOP, 0, RESULT_DONE, 0);
+    sense();
+    TEST_ASSERT_EQUAL_size_t(1, said_count);
 }
 
 TEST(a_frame_of_another_identifier_is_neither_a_drive_nor_an_answer)
 {
+    const uint32_t ids[] = {OCTET_DRIVE_FRAME_ID - 1, OCTET_DRIVE_FRAME_ID + 1, OCTET_ANSWER_FRAME_ID - 1, OCTET_ANSWER_FRAME_ID + 1};
+
     body_node_order(&(struct command){OPCODE_START, 4, 1});
     sense();
+    for (unsigned i = 0; i < sizeof ids / sizeof *ids; i++) {
+        hear_drive(tick, counter(), REASON_WANDER);
+        rename_last(ids[i]);
+        TEST_ASSERT_EQUAL_INT(INPUT_SILENCE, telemetry_receive(&in));
+        heard[heard_count++] = make_answer(OPCODE_START, e2e_counter(&said[0]), RESULT_DONE, 0);
+        rename_last(ids[i]);
+        TEST_ASSERT_EQUAL_INT(INPUT_SILENCE, telemetry_receive(&in));
+    }
     hear_drive(tick, counter(), REASON_WANDER);
-    heard[0].id++;
+    rename_last(OCTET_ANSWER_FRAME_ID);
     TEST_ASSERT_EQUAL_INT(INPUT_SILENCE, telemetry_receive(&in));
+    TEST_ASSERT_FALSE(driven().report.running);
     hear_answer(OPCODE_START, e2e_counter(&said[0]), RESULT_DONE, 0);
     TEST_ASSERT_TRUE(driven().report.running);
     TEST_ASSERT_EQUAL_INT(REASON_STOP, driven().drive.reason);

@@ -129,6 +129,16 @@ TEST(a_battery_that_sags_under_load_is_reckoned_with)
     TEST_ASSERT_EQUAL_UINT8(99, trait(BODY_DEAD_LEFT));        /* 250 - 453.1 x 6 / 18 = 98.96 */
 }
 
+TEST(what_motors_are_like_is_rounded_at_its_half)
+{
+    TEST_ASSERT_TRUE(measure_motors((int[]){8, 8}, (int[]){24, 24}, (int[]){480, 480}, 7056));
+    TEST_ASSERT_EQUAL_UINT8(108, trait(BODY_FORWARD_LEFT));    /* 108.44 */
+    TEST_ASSERT_EQUAL_UINT8(8, trait(BODY_DEAD_LEFT));         /* 7.50 */
+    TEST_ASSERT_EQUAL_UINT8(150, trait(BODY_LAG_MS));          /* 480 / 16 periods */
+    TEST_ASSERT_TRUE(measure_motors((int[]){2, 2}, (int[]){12, 12}, (int[]){200, 200}, 5929));
+    TEST_ASSERT_EQUAL_UINT8(132, trait(BODY_FORWARD_LEFT));    /* 131.50 */
+}
+
 TEST(motors_that_do_not_turn_or_not_faster_or_backward_are_refused)
 {
     TEST_ASSERT_FALSE(measure_motors((int[]){0, 0}, (int[]){0, 0}, (int[]){0, 0}, NOMINAL_MV));
@@ -200,6 +210,18 @@ TEST(two_walls_in_a_turn_make_half_the_track_which_is_refused)
         look.counts[0] = (uint16_t)(look.counts[0] + 10);
     }
     assert_refused(BODY_TRACK_MM, 80);
+}
+
+TEST(a_track_is_rounded_at_its_half)
+{
+    calibrate_begin(&calibration, MEASURE_TRACK);
+    look.senses = true;
+    for (unsigned beat = 0; beat < 10; beat++) {
+        look.wall = beat % 2 != 0;
+        TEST_ASSERT_EQUAL(beat == 9, calibrate_beat(&calibration, &look, &traits));
+        look.counts[0] = (uint16_t)(look.counts[0] + 3515 + (beat == 1 ? 3 : 0));
+    }
+    TEST_ASSERT_EQUAL_UINT8(103, trait(BODY_TRACK_MM));   /* 28,123 counts: 102.5002 */
 }
 
 TEST(without_a_wall_it_gives_up)

@@ -7,10 +7,11 @@
 
 static uint8_t records[PORT_MORE][CELL_COUNT];
 static bool is_blank[PORT_MORE];
-static unsigned stores, failing;   /* a store that fails, counted from 1; 0: none */
+static unsigned loads, stores, failing;   /* a store that fails, counted from 1; 0: none */
 
 int port_load_more(unsigned which, uint8_t bytes[CELL_COUNT])
 {
+    loads++;
     memcpy(bytes, records[which], CELL_COUNT);
     return is_blank[which] ? 0 : 1;
 }
@@ -30,7 +31,7 @@ void setUp(void)
 {
     memset(records, 255, sizeof records);
     is_blank[0] = is_blank[1] = true;
-    stores = failing = 0;
+    loads = stores = failing = 0;
     upkeep = (struct upkeep){.unkept = false};
     traits_load(&upkeep.traits);
 }
@@ -87,12 +88,33 @@ TEST(sensors_and_wheels_go_by_what_is_set)
     TEST_ASSERT_EQUAL_INT16(-10, wheels[1].lag_more_ms);
 }
 
+TEST(a_dead_band_is_rounded_at_its_half)
+{
+    struct proximity proximity;
+    struct wheel wheels[PINS_SIDES] = {{.known = false}};
+
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_DEAD_LEFT, 85, false));
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_DEAD_RIGHT, 111, false));
+    upkeep_use(&upkeep, &proximity, wheels);
+    TEST_ASSERT_EQUAL_INT16(5571 - WHEEL_DEAD, wheels[0].dead_more);   /* 5570.56 */
+    TEST_ASSERT_EQUAL_INT16(7274 - WHEEL_DEAD, wheels[1].dead_more);   /* 7274.496 */
+}
+
+TEST(each_record_is_read_once_and_what_it_does_not_need_is_zero)
+{
+    TEST_ASSERT_EQUAL_UINT(PORT_MORE, loads);
+    TEST_ASSERT_EQUAL_INT(0, traits_store(&upkeep.traits));
+    TEST_ASSERT_EQUAL_HEX8(0, records[0][6] | records[0][7] | records[1][5] | records[1][6] | records[1][7]);
+}
+
 TEST(what_is_set_is_there_after_a_reset_and_what_cannot_be_is_not)
 {
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_NEAR_RIGHT, 76, false));
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_TRACK_MM, 163, false));
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_LAG_MS, 200, false));
     memset(&upkeep.traits, 0, sizeof upkeep.traits);
     traits_load(&upkeep.traits);
+    TEST_ASSERT_EQUAL_UINT32(76, got(BODY_NEAR_RIGHT));
     TEST_ASSERT_EQUAL_UINT32(163, got(BODY_TRACK_MM));
     TEST_ASSERT_EQUAL_UINT32(200, got(BODY_LAG_MS));
     TEST_ASSERT_EQUAL_UINT32(97, got(BODY_FORWARD_LEFT));
@@ -161,9 +183,13 @@ TEST(what_was_measured_is_stored_once_and_said_where_that_fails)
 
 TEST(other_commands_are_the_robots)
 {
+    struct output none = {.answer = RESULT_UNKNOWN_PARAMETER};
+
     TEST_ASSERT_EQUAL_INT(RESULT_UNKNOWN_PARAMETER, asked(OPCODE_GET, BODY_PARAMETER_END, 0, false));
+    TEST_ASSERT_EQUAL_INT(RESULT_UNKNOWN_PARAMETER, asked(OPCODE_GET, BODY_PARAMETER_END + 1, 0, false));
     TEST_ASSERT_EQUAL_INT(RESULT_UNKNOWN_PARAMETER, asked(OPCODE_SET, BODY_MEASURE - 1, 1, false));
     TEST_ASSERT_EQUAL_INT(RESULT_UNKNOWN_PARAMETER, asked(OPCODE_FREEZE, BODY_TRACK_MM, 1, false));
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_GET, BODY_PARAMETER_END - 1, 0, false));
-    upkeep_answer(&upkeep, &(struct output){.has_answer = false});
+    upkeep_answer(&upkeep, &none);
+    TEST_ASSERT_EQUAL_INT(RESULT_UNKNOWN_PARAMETER, none.answer);
 }

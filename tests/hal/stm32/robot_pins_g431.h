@@ -45,6 +45,8 @@ static void assert_pins(void)
     assert_pin(B, 14, ALTERNATE, 0, 6);
     assert_pin(B, 15, ALTERNATE, 0, 4);
     assert_pin(A, 5, 0, 0, 0);
+    TEST_ASSERT_EQUAL_HEX32(1u << 29, GPIO[B].at.bsrr);   /* the last of its outputs is low, and no pin of A or C was written */
+    TEST_ASSERT_EQUAL_HEX32(0, GPIO[A].at.bsrr | GPIO[C].at.bsrr);
     TEST_ASSERT_EQUAL_HEX(0x300, offsetof(struct adc_registers, common));
 }
 
