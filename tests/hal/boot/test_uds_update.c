@@ -118,13 +118,24 @@ TEST(another_header_than_the_announced_one_is_refused)
     TEST_ASSERT_EQUAL_HEX8(0, download(&other, 0));
     TEST_ASSERT_EQUAL_HEX8(0x72, check());
     TEST_ASSERT_EQUAL_UINT8(REFUSAL_CHANGED, uds.why);
+    other.bytes[400] ^= 1;
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
+    TEST_ASSERT_EQUAL_UINT8(REFUSAL_NONE, uds.why);
+    TEST_ASSERT_EQUAL_HEX8(0, download(&other, 0));
+    TEST_ASSERT_EQUAL_HEX8(0x72, check());
+    TEST_ASSERT_EQUAL_UINT8(REFUSAL_DAMAGED, uds.why);
 }
 
-TEST(one_that_was_cut_short_is_not_chosen)
+static void begin_download(void)
 {
     unlock();
     TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
+}
+
+TEST(one_that_was_cut_short_is_not_chosen)
+{
+    begin_download();
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x36, 1, 'O', 'C', 'T', 'E'));
     TEST_ASSERT_EQUAL_HEX8(0x24, ASK(0x37));
     TEST_ASSERT_EQUAL_HEX8(0x24, check());
@@ -143,6 +154,10 @@ TEST(services_in_a_wrong_order_are_refused)
     TEST_ASSERT_EQUAL_HEX8(0x24, download(&image, 0));
     TEST_ASSERT_EQUAL_HEX8(0, check());
     TEST_ASSERT_EQUAL_HEX8(0x24, check());
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
+    TEST_ASSERT_EQUAL_HEX8(0, download(&image, 0));
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
+    TEST_ASSERT_EQUAL_HEX8(0x24, check());
 }
 
 TEST(routines_that_there_are_not_are_refused)
@@ -152,6 +167,8 @@ TEST(routines_that_there_are_not_are_refused)
     TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x31, 1, 0xFF, 2));
     TEST_ASSERT_EQUAL_HEX8(0x13, ASK(0x31, 1, 0xFF, 1, 0));
     TEST_ASSERT_EQUAL_HEX8(0x13, ASK(0x31, 1, 0xFF, 0, 0));
+    TEST_ASSERT_EQUAL_HEX8(0x13, ask((uint8_t[8 + IMAGE_HEADER + 1]){0x31, 1, 0xFF, 0}, 8 + IMAGE_HEADER + 1));
+    TEST_ASSERT_EQUAL_HEX8(0x13, ASK(0x31, 1, 0xF0, 0, 0, 0, 0, 4, 0));
 }
 
 TEST(a_download_is_of_what_was_announced)
@@ -169,9 +186,7 @@ TEST(a_download_is_of_what_was_announced)
 
 TEST(a_block_that_comes_again_is_written_once_and_one_that_is_missing_is_noticed)
 {
-    unlock();
-    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
-    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
+    begin_download();
     TEST_ASSERT_EQUAL_HEX8(0x73, ASK(0x36, 0, 'O', 'C', 'T', 'E'));
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x36, 1, 'O', 'C', 'T', 'E'));
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x36, 1, 'O', 'C', 'T', 'E'));
@@ -179,15 +194,11 @@ TEST(a_block_that_comes_again_is_written_once_and_one_that_is_missing_is_noticed
     TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x36, 2, 1, 2));
     TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x36, 2));
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x36, 2, 'T', 'I', 'M', 'G'));
+    TEST_ASSERT_EQUAL_HEX8(0x73, ASK(0x36, 1, 'O', 'C', 'T', 'E'));
     TEST_ASSERT_EQUAL_HEX8(0x24, download(&image, 0));
     TEST_ASSERT_EQUAL_MEMORY("OCTETIMG\xFF", boot_flash_slot(1), 9);
-}
-
-static void begin_download(void)
-{
-    unlock();
-    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
-    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
+    begin_download();
+    TEST_ASSERT_EQUAL_HEX8(0x73, ASK(0x36, 0, 'O', 'C', 'T', 'E'));
 }
 
 TEST(what_has_come_of_a_block_is_written_while_the_rest_comes)
@@ -244,6 +255,17 @@ TEST(nothing_but_the_block_that_is_due_is_written_ahead)
         TEST_ASSERT_TRUE(uds_ahead(&uds, block, sizeof block));
     TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
     TEST_ASSERT_EQUAL_HEX8(0x31, ask(block, sizeof block));
+    TEST_ASSERT_EQUAL_HEX8(0, ask(block, 2 + 4));
+    TEST_ASSERT_EQUAL_HEX8(0, ask((uint8_t[]){0x36, 2, 0, 0, 0, 0}, 2 + 4));
+    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
+    begin_download();
+    TEST_ASSERT_EQUAL_HEX8(0, ask(block, 2 + 4));
+    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
+    block[1] = 2;
+    for (unsigned i = 1; i < SIGNED_BYTES / 4; i++)
+        TEST_ASSERT_TRUE(uds_ahead(&uds, block, sizeof block));
+    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
+    TEST_ASSERT_EQUAL_HEX8(0x31, ask(block, 2 + SIGNED_BYTES));
 }
 
 TEST(an_erase_forgets_what_was_written_ahead)
@@ -270,13 +292,27 @@ TEST(behind_the_image_a_page_is_erased_if_it_is_not_blank)
     TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
     TEST_ASSERT_EQUAL_UINT(before + 2 * IMAGE_PAGES + 1, boot_flash.operations);
     TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, boot_flash_slot(1), SLOT_BYTES);
+    image.bytes[8] = (uint8_t)(2 * PAGE - IMAGE_SIGNATURE);
+    image.bytes[9] = 1;
+    before = boot_flash.operations;
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
+    TEST_ASSERT_EQUAL_UINT(before + 2, boot_flash.operations);
+}
+
+TEST(an_erase_goes_on_from_within_the_image_only)
+{
+    unlock();
+    boot_flash_slot(1)[SLOT_BYTES - 1] = 0;
+    TEST_ASSERT_EQUAL_HEX8(0x31, erase_for(&image, 3 * PAGE));
+    image.bytes[8] = 0;
+    image.bytes[9] = 2 * PAGE >> 8;
+    TEST_ASSERT_EQUAL_HEX8(0x31, erase_for(&image, 2 * PAGE));
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, PAGE));
 }
 
 TEST(a_request_whose_answer_was_lost_can_come_again)
 {
-    unlock();
-    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
-    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
+    begin_download();
     TEST_ASSERT_EQUAL_HEX8(0, download(&image, 0));
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x37));
     TEST_ASSERT_EQUAL_HEX8(0, check());
@@ -294,6 +330,8 @@ TEST(what_was_written_is_told_and_gone_on_from)
     TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 2 * PAGE));
     TEST_ASSERT_EQUAL_MEMORY(image.bytes, boot_flash_slot(1), 2 * PAGE);
     TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, boot_flash_slot(1) + 2 * PAGE, SLOT_BYTES - 2 * PAGE);
+    TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, 0, SIGNED_BYTES - 2 * PAGE));
+    TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x34, 0, 0x44, 0, 0, 2, 0, 0, 0, 0, SIGNED_BYTES - 2 * PAGE + 1));
     TEST_ASSERT_EQUAL_HEX8(0, download(&image, 2 * PAGE));
     TEST_ASSERT_EQUAL_HEX8(0, check());
 }
@@ -330,8 +368,10 @@ TEST(a_flash_that_fails_is_told)
     boot_flash.failing = true;
     TEST_ASSERT_FALSE(uds_ahead(&uds, (const uint8_t[]){0x36, 1, 'O', 'C', 'T', 'E'}, 6));
     TEST_ASSERT_EQUAL_HEX8(0x72, ASK(0x36, 1, 'O', 'C', 'T', 'E'));
+    TEST_ASSERT_EQUAL_UINT8(REFUSAL_FLASH, uds.why);
     TEST_ASSERT_EQUAL_HEX8(0x24, ASK(0x36, 1, 'O', 'C', 'T', 'E'));
     boot_flash.failing = false;
+    TEST_ASSERT_FALSE(uds_ahead(&uds, (const uint8_t[]){0x36, 1, 'O', 'C', 'T', 'E'}, 6));
     TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
     TEST_ASSERT_EQUAL_HEX8(0, download(&image, 0));
     boot_flash.failing = true;
@@ -345,7 +385,20 @@ TEST(an_image_that_was_there_is_given_up_before_it_is_erased)
     unlock();
     boot_flash.failing = true;
     TEST_ASSERT_EQUAL_HEX8(0x72, erase_for(&image, 0));
+    TEST_ASSERT_EQUAL_UINT8(REFUSAL_FLASH, uds.why);
     TEST_ASSERT_EQUAL_MEMORY(image.bytes, boot_flash_slot(1), SIGNED_BYTES);
+    TEST_ASSERT_EQUAL_UINT8(3, choices.now.installed);
+    boot_flash.failing = false;
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
+    TEST_ASSERT_EQUAL_UINT8(1, choices.now.installed);
+}
+
+TEST(a_page_of_choices_that_is_full_makes_room)
+{
+    for (unsigned i = 0; i < 40; i++) {
+        TEST_ASSERT_EQUAL_HEX8(0, update(&image));
+        TEST_ASSERT_EQUAL_HEX8(0, ASK(0x31, 1, 0xF0, 0, 0, 0, 0, 4));
+    }
 }
 
 TEST(while_it_works_it_is_busy)
