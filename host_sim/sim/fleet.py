@@ -106,7 +106,6 @@ class _Run:
         for index in range(config.robots):
             self._fleet.start(index, self._seed(index), config.profile, told)
         self._entered = [0] * self._fleet.worlds
-        self._ticks = 0
 
     def results(self, progress: Callable[[int], object]) -> Iterator[FleetResult]:
         """Takes all robots through their environments."""
@@ -114,8 +113,8 @@ class _Run:
         active = list(range(fleet.worlds))
         self._enter(active)
         while active:
-            self._run_block()
-            progress(self._ticks + sum(fleet.ticks(index) for world in active for index in self._robots_of(world)))
+            self._run_block(active)
+            progress(fleet.ticks_in_all())
             over = [world for world in active if fleet.is_over(world)]
             for world in over:
                 yield from self._leave(world)
@@ -123,14 +122,14 @@ class _Run:
             self._enter([world for world in over if world not in last])
             active = [world for world in active if world not in last]
 
-    def _run_block(self) -> None:
+    def _run_block(self, worlds: list[int]) -> None:
         film, fleet = self._film, self._fleet
         if film is None or film.is_full(fleet.robots):
-            fleet.run(fleet.ticks_max or _BLOCK_TICKS)
+            fleet.run(fleet.ticks_max or _BLOCK_TICKS, worlds)
             return
         if not film.poses:
             film.add(fleet)
-        fleet.run(SAMPLE_TICKS)
+        fleet.run(SAMPLE_TICKS, worlds)
         film.add(fleet)
 
     def _seed(self, index: int) -> int:
@@ -158,7 +157,6 @@ class _Run:
         fleet = self._fleet
         eaten = tuple(fleet.eaten(world))
         for index in self._robots_of(world):
-            self._ticks += fleet.ticks(index)
             yield FleetResult(
                 robot=index + 1,
                 seed=self._seed(index),

@@ -38,7 +38,7 @@ HEADERS = (*(_WORLD / f"{name}.h" for name in _NAMES), PACKAGE / "sim" / "native
 
 _Done = TypeVar("_Done")
 _CELL_MM, _GRID_FROM = 500.0, 8
-_SLICE = 20  # things that a thread takes at a time: few enough for all threads to be busy to the end
+_SLICE, _SLICES = 20, 16  # things that a thread takes at a time: few enough for all threads to be busy to the end
 
 
 class Contacts(NamedTuple):
@@ -148,13 +148,14 @@ class NativeFleet:
         self._library.world_begin(self._worlds + world)
         self._library.plain_space_take(self._spaces + world, self._worlds + world)
 
-    def run(self, ticks: int) -> int:
+    def run(self, ticks: int, worlds: Sequence[int] | None = None) -> int:
         """Runs all robots for a number of ticks, or to the ends of their environments.
 
         Robots in worlds of their own run on all processors: those that hear each other hear what was known before.
 
         Args:
             ticks: At most `ticks_max`.
+            worlds: In ascending order, those that have not ended, for less to be looked at; None: not known.
 
         Returns:
             The number of robots whose environment has not ended.
@@ -167,14 +168,14 @@ class NativeFleet:
             return int(self._library.fleet_run_together(self._robots, self.robots, ticks))
 
         def run(some: Sequence[int]) -> int:
-            return int(self._library.fleet_run_alone(self._robots + some[0], len(some), ticks))
+            return int(self._library.fleet_run_alone(self._robots + some[0], some[-1] - some[0] + 1, ticks))
 
-        return sum(on_all_processors(run, range(self.robots)))
+        return sum(on_all_processors(run, range(self.robots) if worlds is None else worlds))
 
     def is_over(self, world: int) -> bool:
         """Whether a world's environment has ended."""
         robot = self._robots[world * self._each]
-        return bool(robot.ticks >= robot.ticks_max) or all(self.eaten(world))
+        return bool(robot.ticks >= robot.ticks_max) or not self._library.world_food_left(self._worlds + world)
 
     def eaten(self, world: int) -> list[bool]:
         """For each piece of food in a world, whether it has been eaten."""
@@ -212,7 +213,14 @@ class NativeFleet:
 
     def meals(self) -> NDArray[np.uint32]:
         """The number of pieces of food that each robot has eaten in its environment."""
-        at = self._ffi.offsetof("struct fleet_robot", "food_eaten")
+        return self._column("food_eaten")
+
+    def ticks_in_all(self) -> int:
+        """Number of ticks of all robots in all their environments so far."""
+        return int(self._column("tick").sum(dtype=np.uint64))
+
+    def _column(self, name: str) -> NDArray[np.uint32]:
+        at = self._ffi.offsetof("struct fleet_robot", name)
         robots = np.frombuffer(self._ffi.buffer(self._robots), np.uint8).reshape(self.robots, -1)
         return np.asarray(robots[:, at : at + 4].copy().view(np.uint32)[:, 0])
 
@@ -284,7 +292,8 @@ class NativeFleet:
 
 def on_all_processors(work: Callable[[Sequence[int]], _Done], numbers: Sequence[int]) -> list[_Done]:
     """What C code makes of numbers, some of them at a time and in their order; it must not share what it changes."""
-    slices = [numbers[at : at + _SLICE] for at in range(0, len(numbers), _SLICE)]
+    size = min(_SLICE, len(numbers) // _SLICES + 1)
+    slices = [numbers[at : at + size] for at in range(0, len(numbers), size)]
     with ThreadPoolExecutor(os.cpu_count()) as threads:
         return list(threads.map(work, slices))  # one who interrupts it need not wait for the rest
 
