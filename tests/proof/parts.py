@@ -20,13 +20,15 @@ _STORE = [ROOT / "hal/flash_store/flash_store.c", _CRC32]
 ROBOT = [HERE / "any_robot.c", *_CORE]
 """The core, with a robot in any state."""
 
+_UPDATE = ("choice", "image", "isotp", "resident", "sha512", "start", "uds_parts")
+
 PARTS = {
     "core": ROBOT,
     "config": _CORE,
     "wire": [*sorted((ROOT / "hal/protocol").glob("*.c")), _CRC32, *_CORE, GENERATED / "octet.c"],
     "slcan": [ROOT / "hal/link/slcan.c"],
     "store": _STORE,
-    "update": [*(ROOT / f"hal/boot/{name}.c" for name in ("choice", "image", "isotp", "sha512", "start")), *_STORE],
+    "update": [*(ROOT / f"hal/boot/{name}.c" for name in _UPDATE), *_STORE],
 }
 
 _ON_THE_CHIP = {"boot_main.c", "challenge.c", "resident.c", "signer.c"}

@@ -1,10 +1,14 @@
-/* The boot loader's ISO-TP, its check of an image and its choice of one: whatever frames come, whenever, whatever the flash
- * holds, and whichever of its operations fail. */
+/* The boot loader's ISO-TP, its check of an image and its choice of one, and what an image answers: whatever frames come,
+ * whenever, whatever the flash holds, and whichever of its operations fail. */
 #include <monocypher.h>
 
+#include "hal/boot/handover.h"
 #include "hal/boot/image.h"
 #include "hal/boot/isotp.h"
 #include "hal/boot/start.h"
+#include "hal/port/cortex_m/leave.h"
+#include "hal/port/cortex_m/loader.h"
+#include "hal/port/cortex_m/systick.h"
 #include "tests/proof/any.h"
 
 enum { PAGE = 1024, UNIT = 8, CHOICE = 2, SLOT_PAGES = 4, SLOT_A = 4, SLOT_B = SLOT_A + SLOT_PAGES, PAGES = SLOT_B + SLOT_PAGES };
@@ -70,15 +74,31 @@ int crypto_eddsa_check_equation(const uint8_t signature[64], const uint8_t publi
     return any_bool() ? 0 : -1;
 }
 
+uint32_t machine_ms(void)
+{
+    return any_u32();
+}
+
+void handover_ask(void)
+{
+}
+
+void leave_by_reset(void)
+{
+}
+
 static void take(struct isotp *isotp, uint32_t now_ms)
 {
     struct frame frame = {.id = any_u32(), .len = any_u8() % 9};
+    struct frame answer;
     uint16_t len;
 
     for (unsigned i = 0; i < sizeof frame.data; i++)
         frame.data[i] = any_u8();
     len = isotp_take(isotp, &frame, now_ms);
     //@ assert within: len <= ISOTP_RX_MAX;
+    (void)loader_frame(&frame, any_bool(), &answer);
+    loader_alive(any_bool());
 }
 
 static void say(struct isotp *isotp, uint32_t now_ms)
@@ -112,6 +132,7 @@ void exercise(void)
     struct isotp isotp = {.id = 0};
 
     (void)choices_open(&choices, CHOICE);
+    (void)loader_node(any_u8());
     while (any_more()) {
         uint32_t now_ms = any_u32();
 
