@@ -12,8 +12,8 @@ from host_sim.recording.log_reader import LogReader, Recorded, check_protocol, f
 
 _TO_ROBOT = ("SENSES", "COMMAND")
 _AT_REST = (Reason.STOP, Reason.SILENCE)
-_SILENCE = 1 << Fault.SILENCE
-_MISSED = _SILENCE | 1 << Fault.MISSED | 1 << Fault.STALE
+_SILENT = 1 << Fault.SILENCE
+_MISSED = _SILENT | 1 << Fault.MISSED | 1 << Fault.STALE
 _TRIES_MAX = 20
 
 
@@ -183,7 +183,7 @@ class _Comparison:
         senses_id = self._protocol.id_of("SENSES")
         senses = [i for i, frame in enumerate(sent) if frame.id == senses_id]
         self.unanswered += len(senses[:-1])
-        outage: list[Frame | None] = [None] if self._faults & _SILENCE else []
+        outage: list[Frame | None] = [None] if self._faults & _SILENT else []
         tries = sorted(range(max(len(senses), 1)), reverse=not self._faults & _MISSED)[:_TRIES_MAX]
         self._faults = 0
         answers: list[Frame | None] = []
