@@ -1,6 +1,7 @@
 """The wheel for Linux on x86-64, as tools/wheels builds it, in an environment that knows nothing of the checkout."""
 
 import fcntl
+import os
 import subprocess
 import sys
 import venv
@@ -15,10 +16,12 @@ LIBRARIES = (".venv/lib/python*/site-packages", "build/export", "build/study", "
 
 @pytest.fixture(scope="session")
 def wheel(tmp_path_factory) -> Path:
-    out = tmp_path_factory.mktemp("wheelhouse")
-    with (ROOT / "build/wheels.lock").open("w") as lock:  # one worker at a time: all build in the same folders
+    own = tmp_path_factory.getbasetemp()
+    out = (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "wheelhouse"
+    with (ROOT / "build/wheels.lock").open("w") as lock:  # the first worker builds it for all
         fcntl.flock(lock, fcntl.LOCK_EX)
-        subprocess.run([ROOT / "tools/wheels", "--out", out, "linux-x86_64"], check=True)
+        if not out.exists():
+            subprocess.run([ROOT / "tools/wheels", "--out", out, "linux-x86_64"], check=True)
     (built,) = out.iterdir()
     return built
 
