@@ -101,6 +101,15 @@ def test_nothing_is_cut_and_no_card_is_half_empty(tab, page):
             assert faults(page) == [], (lanes, size)
 
 
+def test_the_name_of_each_world_fits_when_it_is_chosen_in_bold(page):
+    page.click("#tab-run")
+    for language in ("en", "de"):
+        page.select_option("#language", language)
+        for world in (*page.locator("#worlds input").all(), page.locator("#worlds input").first):
+            world.check()
+            assert faults(page) == []
+
+
 def test_what_is_cut_what_overlaps_and_what_is_empty_is_found(page):
     page.evaluate(
         "document.body.insertAdjacentHTML('beforeend', '<style id=planted>#doing { width: 20px; white-space: pre; }"
