@@ -89,7 +89,7 @@ def _on_pins(stack: ExitStack, name: str) -> Connection:
     board = start_robot(name)
     stack.callback(board.close)
     bus = f"emulated {name} on its pins"
-    return Connection(board, bus, board.status, deadline_s=_EMULATED_S, sense=board.sense)
+    return Connection(board, bus, board.status, deadline_s=_EMULATED_S, sense=board.sense, pins=board.robot.figures)
 
 
 def _of_ones_own(stack: ExitStack, lines: BusLines, node: int) -> Connection:

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 from host_sim.protocol.generated import Senses
 from host_sim.transport.line_stats import LineStats
@@ -28,6 +29,7 @@ class Connection:
         now: Tells the time in which the link waits, s.
         sense: What a robot that senses by itself makes of its body, of what the world says that it senses, and of
             the number of the tick; None for all others.
+        pins: Tells what is on such a robot's pins, as `RobotOnPins.figures` does.
     """
 
     link: Link
@@ -39,3 +41,4 @@ class Connection:
     answers_at_once: bool = False
     now: Callable[[], float] = time.monotonic
     sense: Callable[[Body, Senses, int], Senses] | None = None
+    pins: Callable[[], dict[str, Any]] | None = None

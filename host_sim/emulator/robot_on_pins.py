@@ -14,6 +14,7 @@ SIDES = ("LEFT", "RIGHT")
 SENSORS = [f"PROXIMITY_{name.upper().replace('-', '_')}" for name in FEEL]
 _SAMPLE_PER_MV = 4096 / 3300 / 3
 _ONE = 65536
+_CNT = 0x24
 
 _NEAR_MM, _STRONG, _WEAK = 150, 4, 4
 """A beacon's bursts in a tick: strong ones reach as far as it is seen, weak ones only so far."""
@@ -142,6 +143,14 @@ class RobotOnPins:
     def volts(self) -> float:
         """Of the battery, under the load of both motors."""
         return self.battery_v if self.kit is None else self.library.kit_supply_mv(self.kit) / 1000
+
+    def figures(self) -> dict[str, Any]:
+        """What is on its pins: `volts` of the battery; left and right, `counts` of the encoders and `duty` in %."""
+        return {
+            "volts": round(self.volts, 2),
+            "counts": [self.timers[f"TIM{3 + side}"].registers[_CNT].read() for side in range(2)],
+            "duty": [round(self._push(side) * 100 / _ONE) for side in range(2)],
+        }
 
     def _fill(self) -> None:
         shines, battery_v = self._high("INFRARED"), self.volts

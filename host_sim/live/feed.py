@@ -89,10 +89,10 @@ class PageFeed:
         Its fields: `states`, one per robot, and if they are new `environment` and `measures`, as in
         view/state_types.py, with `news`, the last changes of the world and the bodies, as [tick, sentence];
         `trails`, for each robot the ticks since the last message as [x, y, reason, ...], thinned out if many;
-        `lessons`, those of all robots since the last message; `play`, the state of the controls; `health`; `notes`,
-        if there are any; `answers`, as of `PageTalk`, to what the page has asked since; `at`, wall-clock time in ms
-        since 1970. The first message has `seat`: the page's own robot as {node, name}, node 0 if it got none, or null
-        where the robots are everyone's.
+        `lessons`, those of all robots since the last message; `play`, the state of the controls; `health`; `pins`,
+        for each robot that has some, what is on them; `notes`, if there are any; `answers`, as of `PageTalk`, to what
+        the page has asked since; `at`, wall-clock time in ms since 1970. The first message has `seat`: the page's own
+        robot as {node, name}, node 0 if it got none, or null where the robots are everyone's.
         """
         now = (self.live.simulation.tick, self.live.change)
         if now == self._sent and not self.notes:
@@ -105,6 +105,7 @@ class PageFeed:
             "trails": self._new_trails(),
             "play": self._shared("play", lambda: play_state(self.live)),
             "health": self._shared("health", self._health),
+            "pins": self._shared("pins", self._pins),
         }
         return "{" + ",".join(f'"{name}":{text}' for name, text in (parts | shared).items()) + "}"
 
@@ -184,6 +185,10 @@ class PageFeed:
             "late": self.live.late,
             "orders_refused": self.live.refused,
         }
+
+    def _pins(self) -> list[dict[str, Any]]:
+        of_robots = (client.connection.pins for client in self.live.simulation.clients)
+        return [figures() for figures in of_robots if figures is not None]
 
 
 def points(track: RobotTrack, ticks: range) -> list[int]:

@@ -44,6 +44,11 @@
  */
 
 /**
+ * Left, right.
+ * @typedef {{ volts: number, counts: number[], duty: number[] }} PinFigures
+ */
+
+/**
  * What the live page receives; `states` and `trails` have one entry per robot.
  * @typedef {Object} Message
  * @property {Measures} [measures]
@@ -54,6 +59,7 @@
  * @property {Lesson[]} lessons
  * @property {Play} play
  * @property {Health} health
+ * @property {PinFigures[]} pins
  * @property {News[]} [news]
  * @property {string[]} [notes]
  * @property {Answer[]} [answers]

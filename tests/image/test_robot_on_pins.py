@@ -1,5 +1,6 @@
 """A robot of its own on the pins of an emulated board: it drives, and what is wired wrong shows."""
 
+import json
 from dataclasses import replace
 from itertools import pairwise
 
@@ -7,7 +8,10 @@ import pytest
 
 from host_sim.base.errors import RobotError, UsageError
 from host_sim.emulator.pins_board import PinsBoard, start_robot
+from host_sim.live.feed import PageFeed
+from host_sim.live.paced_run import PacedRun
 from host_sim.protocol.codec import Frame, Protocol
+from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
@@ -166,6 +170,19 @@ def test_its_beat_has_no_jitter(name):
     spans = [b - a for a, b in pairwise(moments)]
     assert len(spans) > 190
     assert max(abs(span - 0.005) for span in spans) < 1e-6
+
+
+def test_a_page_is_told_what_is_on_its_pins():
+    with make(PINS) as simulation:
+        live = PacedRun(simulation, RunRecorder.of(simulation, boredom_limit=10), lambda _: None)
+        live.begin()
+        feed, robot = PageFeed(live), board_of(simulation).robot
+        for _ in range(25):
+            simulation.step()
+        (pins,) = json.loads(feed.next() or "")["pins"]
+        assert pins["counts"] == [robot.library.kit_count(robot.kit, side) for side in range(2)] != [0, 0]
+        assert all(0 < abs(duty) <= 100 for duty in pins["duty"])
+        assert pins["volts"] == round(robot.volts, 2)
 
 
 def test_other_boards_and_robots_are_refused():

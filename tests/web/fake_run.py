@@ -88,6 +88,7 @@ class FakeRun:
             "lessons": [],
             "play": {"playing": False, "speed": 1, "done": False, "rate": 50, "stays": True, "ended": None},
             "health": {"sent": 0, "lost": 0, "refused": 0, "late": 0, "orders_refused": 0},
+            "pins": [],
             **fields,
         }
 

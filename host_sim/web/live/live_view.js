@@ -11,6 +11,7 @@ import { LessonsView } from "../panel/lessons_view.js";
 import { Panel } from "../panel/panel.js";
 import { Renderer } from "../draw/renderer.js";
 import { RobotPicker } from "../panel/robot_picker.js";
+import { say } from "../core/language.js";
 import { showMessage } from "./message_scene.js";
 
 /**
@@ -62,7 +63,7 @@ export class LiveView {
   }
 
   /** @param {Message} message - The last one. */
-  draw({ play, health }) {
+  draw({ play, health, pins }) {
     const { scene } = this;
     this.editor.onStates(this.drag.robot);
     this.panel.settle(scene, !play.playing);
@@ -73,5 +74,12 @@ export class LiveView {
     setText(byId("news"), scene.lastNews);
     this.lessonsView.show(scene, this.lessons.get(scene.node) ?? []);
     for (const [name, count] of Object.entries(health)) setText(byId(`health-${name}`), `${count}`);
+    byId("on-pins").hidden = pins.length === 0;
+    setText(byId("pins"), pins.map(pinsText).join("; "));
   }
+}
+
+/** @param {import("../types.js").PinFigures} figures */
+function pinsText({ volts, counts, duty }) {
+  return say("pins", { volts, counts: counts.join(", "), duty: duty.join(", ") });
 }

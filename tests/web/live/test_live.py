@@ -44,6 +44,13 @@ def test_the_page_shows_the_run_as_it_goes_on(page):
     assert len(page.inner_text("#doing")) > 10
 
 
+def test_of_a_robot_on_its_pins_it_shows_what_is_on_them(page):
+    assert not page.is_visible("#pins")
+    draw = "octet.view.draw({ ...octet.message, pins: [{ volts: 7.4, counts: [5, 6], duty: [30, -31] }] })"
+    read = "(({ innerText, clientWidth }) => [innerText, clientWidth > 0])(document.getElementById('pins'))"
+    assert page.evaluate(f"{draw}, {read}") == ["7.4 V, encoders 5, 6, duty 30, -31 %", True]
+
+
 def test_the_drawing_of_its_frames_can_be_timed(page):
     page.evaluate(TIME_DRAWING)
     wait_for(page, "octet.times.length > 2")
