@@ -236,8 +236,9 @@ class NativeFleet:
             world = index // self._each
             robot.core = ffi.cast("struct fleet_core *", self._cores + index * size)
             robot.world, robot.body = ffi.addressof(self._worlds[world]), ffi.addressof(self._bodies[index])
+        params = {name: getattr(self._params, name) for name, _ in ffi.typeof("struct world_params").fields}
         for world, (there, space) in enumerate(zip(self._worlds, self._spaces, strict=True)):
-            there.params = {name: getattr(self._params, name) for name, _ in ffi.typeof("struct world_params").fields}
+            there.params = params
             there.bodies, there.body_count = self._bodies + world * self._each, self._each
             space.body_radius_mm, space.cones = self._params.body_radius_mm, self._cones
             space.places = self._places + world * self._each
