@@ -12,7 +12,7 @@ void setUp(void)
     (void)choices_open(&choices, CHOICE_PAGE);
 }
 
-static const struct choice BOTH = {.installed = 3, .slot = 0};
+static const struct choice BOTH = {.installed = 3, .slot = 0}, BOTH_FROM_1 = {.installed = 3, .slot = 1};
 
 static void save(struct choice choice)
 {
@@ -53,9 +53,21 @@ TEST(a_bit_rate_that_nobody_knows_is_that_of_the_build)
 {
     uint8_t bytes[CELL_COUNT] = {0, 0, 0, 0, 3, 0, BITRATES, 0xC1};
 
-    TEST_ASSERT_EQUAL(0, flash_store_save(&choices.store, bytes, true));
-    TEST_ASSERT_EQUAL(1, choices_open(&choices, CHOICE_PAGE));
-    TEST_ASSERT_EQUAL_UINT8(0, choices.now.bitrate);
+    for (; bytes[6] <= BITRATES + 1; bytes[6]++) {
+        TEST_ASSERT_EQUAL(0, flash_store_save(&choices.store, bytes, true));
+        TEST_ASSERT_EQUAL(1, choices_open(&choices, CHOICE_PAGE));
+        TEST_ASSERT_EQUAL_UINT8(0, choices.now.bitrate);
+    }
+}
+
+TEST(what_has_to_wait_for_an_erase_does_not_hold_yet)
+{
+    struct choice next = BOTH;
+
+    for (unsigned i = 0; i < PAGE && choices_save(&choices, &next, false) == 0; i++)
+        next.floor++;
+    TEST_ASSERT_EQUAL(FLASH_STORE_LATER, choices_save(&choices, &next, false));
+    TEST_ASSERT_EQUAL_UINT32(next.floor - 1, choices.now.floor);
 }
 
 TEST(what_could_not_be_saved_does_not_hold)
@@ -85,6 +97,9 @@ TEST(while_a_slot_is_written_the_other_image_starts)
 
     TEST_ASSERT_EQUAL_UINT8(1, cleared.installed);
     TEST_ASSERT_EQUAL_UINT8(0, cleared.slot);
+    cleared = choice_cleared(&BOTH_FROM_1);
+    TEST_ASSERT_EQUAL_UINT8(2, cleared.installed);
+    TEST_ASSERT_EQUAL_UINT8(1, cleared.slot);
     cleared = choice_cleared(&trial);
     TEST_ASSERT_EQUAL_UINT8(1, cleared.installed);
     TEST_ASSERT_EQUAL_UINT8(0, cleared.slot);
@@ -93,11 +108,22 @@ TEST(while_a_slot_is_written_the_other_image_starts)
     TEST_ASSERT_EQUAL_UINT32(9, cleared.floor);
 }
 
+TEST(without_a_damaged_image_the_other_one_starts_if_there_is_one)
+{
+    struct choice alone = {.installed = 2, .slot = 1};
+
+    TEST_ASSERT_EQUAL_UINT8(1, choice_without(&BOTH).slot);
+    TEST_ASSERT_EQUAL_UINT8(0, choice_without(&BOTH_FROM_1).slot);
+    TEST_ASSERT_EQUAL_UINT8(1, choice_without(&alone).slot);
+}
+
 TEST(a_new_image_is_on_trial_beside_the_old_one)
 {
     struct choice cleared = choice_cleared(&BOTH);
-    struct choice next = choice_installed(&cleared);
+    struct choice next;
 
+    cleared.starts = 2;
+    next = choice_installed(&cleared);
     TEST_ASSERT_EQUAL_UINT8(3, next.installed);
     TEST_ASSERT_EQUAL_UINT8(1, next.slot);
     TEST_ASSERT_TRUE(next.trial);
@@ -117,6 +143,13 @@ TEST(an_image_on_trial_has_three_starts_and_then_goes_back)
     TEST_ASSERT_EQUAL_UINT8(0, choice.slot);
     TEST_ASSERT_EQUAL_UINT8(1, choice.installed);
     TEST_ASSERT_FALSE(choice.trial);
+}
+
+TEST(one_with_more_starts_than_there_are_goes_back_too)
+{
+    struct choice choice = {.installed = 3, .slot = 1, .trial = true, .starts = TRIAL_STARTS + 1};
+
+    TEST_ASSERT_EQUAL_UINT8(0, choice_started(&choice).slot);
 }
 
 TEST(with_nothing_to_go_back_to_it_stays)

@@ -50,6 +50,12 @@ TEST(a_signed_image_is_taken_in_the_slot_that_it_was_made_for)
     }
 }
 
+TEST(an_image_that_starts_may_be_as_old_as_it_likes)
+{
+    signer_put(0, 0);
+    TEST_ASSERT_EQUAL(REFUSAL_NONE, image_check(0, &found));
+}
+
 TEST(one_wrong_bit_anywhere_is_found)
 {
     signer_put(0, 5);
@@ -79,6 +85,7 @@ TEST(each_field_of_a_header_is_judged)
         enum refusal why;
     } wrong[] = {
         {0, 'o', REFUSAL_MAGIC}, {7, 'H', REFUSAL_MAGIC}, {20, 2, REFUSAL_MAGIC}, {24, 'S', REFUSAL_CHIP}, {33, '2', REFUSAL_CHIP},
+        {35, 'x', REFUSAL_CHIP}, {9, 0, REFUSAL_SIZE},
         {36, 'T', REFUSAL_BOARD}, {46, 'x', REFUSAL_BOARD}, {63, 'x', REFUSAL_BOARD}, {22, 8, REFUSAL_LAYOUT},
         {21, 1, REFUSAL_SLOT}, {8, 65, REFUSAL_SIZE}, {10, 1, REFUSAL_SIZE}, {11, 0x80, REFUSAL_SIZE}, {16, 4, REFUSAL_OLDER},
     };
@@ -113,6 +120,7 @@ TEST(what_cannot_be_read_is_damaged)
     signer_put(0, 5);
     for (unsigned page = 0; page < 3; page++) {
         boot_flash.unreadable = SLOT_A + page;
+        TEST_ASSERT_EQUAL(REFUSAL_DAMAGED, image_check(0, &found));
         TEST_ASSERT_EQUAL(REFUSAL_DAMAGED, image_verify(0, &found));
     }
     boot_flash.unreadable = SLOT_A;
@@ -140,6 +148,8 @@ TEST(what_is_written_are_whole_pages_without_the_last)
     TEST_ASSERT_EQUAL_UINT32(0, image_written(0));
     boot_flash_slot(0)[5] = 0;
     TEST_ASSERT_EQUAL_UINT32(0, image_written(0));
+    boot_flash_slot(0)[PAGE] = 0;
+    TEST_ASSERT_EQUAL_UINT32(PAGE, image_written(0));
     boot_flash_slot(0)[2 * PAGE - 1] = 0;
     TEST_ASSERT_EQUAL_UINT32(PAGE, image_written(0));
     boot_flash_slot(0)[SLOT_BYTES - 1] = 0xFE;

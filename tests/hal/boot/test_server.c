@@ -67,6 +67,15 @@ TEST(what_a_full_bus_does_not_take_is_sent_later)
     TEST_ASSERT_EQUAL_UINT(1, said_count);
 }
 
+TEST(a_tester_that_is_present_interrupts_no_answer)
+{
+    hear(REQUEST, (const uint8_t[8]){3, 0x22, 0xFD, 0});
+    hear(REQUEST, (const uint8_t[8]){2, 0x3E, 0x80});
+    TEST_ASSERT_EQUAL_UINT(1, said_count);
+    hear(REQUEST, (const uint8_t[8]){0x30, 0, 0});
+    TEST_ASSERT_EQUAL_HEX8(0x21, said[1].data[0]);
+}
+
 TEST(a_programming_session_that_an_image_was_asked_for_is_answered_by_the_boot_loader)
 {
     server_programming(&server);
