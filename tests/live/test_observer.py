@@ -9,6 +9,7 @@ from pathlib import Path
 
 import can
 import pytest
+from can.interfaces import virtual
 
 from host_sim.api import run
 from host_sim.base.errors import OctetError
@@ -20,6 +21,8 @@ from host_sim.recording.log_reader import Recorded, read_log
 from host_sim.sim.run_config import RunConfig
 
 SECONDS = 4.0
+LISTENS_S = 20.0
+"""At the latest."""
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +40,9 @@ def spoken(recorded: list[Recorded], channel: str) -> Iterator[list[can.Message]
 
     def speak() -> None:
         with can.Bus(interface="virtual", channel=channel) as bus:
-            time.sleep(0.3)
+            deadline = time.monotonic() + LISTENS_S
+            while len(virtual.channels[channel]) < 2 and time.monotonic() < deadline:
+                time.sleep(0.01)
             for time_us, frame in recorded:
                 stamp = 1000.0 + time_us / 1e6
                 bus.send(can.Message(stamp, frame.id, is_extended_id=False, data=frame.data))
