@@ -9,6 +9,9 @@ elseif(CMAKE_SYSTEM_NAME STREQUAL Linux)
   set(OCTET_HAS_LINKS TRUE)
   set(OCTET_ELF_OPTIONS -Wl,-Bsymbolic)
   add_compile_options(-fno-semantic-interposition)
+  if(CMAKE_C_COMPILER_ID STREQUAL GNU)
+    add_link_options(-flto-partition=one)  # gcc 14 warns of several where make is missing
+  endif()
   set(OCTET_MAPS TRUE)
 else()
   # Python loads a library by its path: it has one name everywhere.
