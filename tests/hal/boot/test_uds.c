@@ -100,6 +100,8 @@ TEST(the_status_of_a_blank_chip_has_no_versions)
 {
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x22, 0xFD, 0));
     TEST_ASSERT_EACH_EQUAL_HEX8(0, &answer[3], 16);
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x22, 0xFD, 1));
+    TEST_ASSERT_EQUAL_UINT16(3 + 8, answered);
 }
 
 TEST(who_proves_the_key_is_let_in)
@@ -170,6 +172,37 @@ TEST(who_guesses_three_times_waits)
     TEST_ASSERT_EQUAL_HEX8(0x35, prove_wrongly());
 }
 
+TEST(a_proof_that_holds_forgets_the_guesses_and_time_alone_does_not)
+{
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 2));
+    for (unsigned i = 0; i < 2; i++)
+        TEST_ASSERT_EQUAL_HEX8(0x35, prove_wrongly());
+    TEST_ASSERT_EQUAL_HEX8(0, prove());
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 2));
+    for (unsigned i = 0; i < 2; i++)
+        TEST_ASSERT_EQUAL_HEX8(0x35, prove_wrongly());
+    uds_pass(&uds, NOW_MS + 2 * UDS_DELAY_MS, true);
+    TEST_ASSERT_EQUAL_HEX8(0x36, prove_wrongly());
+    uds_pass(&uds, NOW_MS + 4 * UDS_DELAY_MS, true);
+    for (unsigned i = 0; i < 2; i++)
+        TEST_ASSERT_EQUAL_HEX8(0x35, prove_wrongly());
+}
+
+TEST(a_proof_is_no_longer_than_a_signature)
+{
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 2));
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x27, 1));
+    TEST_ASSERT_EQUAL_HEX8(0x13, ask((uint8_t[2 + IMAGE_SIGNATURE + 1]){0x27, 2}, 2 + IMAGE_SIGNATURE + 1));
+}
+
+TEST(a_session_that_was_not_kept_up_for_longer_has_ended_too)
+{
+    unlock();
+    uds_pass(&uds, NOW_MS, true);
+    uds_pass(&uds, NOW_MS + UDS_SESSION_MS + 1, false);
+    TEST_ASSERT_FALSE(uds.programming);
+}
+
 TEST(a_session_that_nobody_keeps_up_ends)
 {
     unlock();
@@ -193,8 +226,10 @@ TEST(its_number_can_be_written_with_the_key_only)
     TEST_ASSERT_EQUAL_HEX8(NODE_MAX, answer[3]);
     TEST_ASSERT_EQUAL_UINT16(4, answered);
     unlock();
+    for (unsigned i = 0; i < 40; i++)
+        TEST_ASSERT_EQUAL_HEX8(0, ASK(0x2E, 0xFD, 4, i % 2));
     boot_flash.failing = true;
-    TEST_ASSERT_EQUAL_HEX8(0x72, ASK(0x2E, 0xFD, 4, 1));
+    TEST_ASSERT_EQUAL_HEX8(0x72, ASK(0x2E, 0xFD, 4, 2));
 }
 
 TEST(the_bit_rate_of_the_bus_can_be_written_with_the_key_only)
