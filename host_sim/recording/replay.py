@@ -1,6 +1,7 @@
 """Compares a recorded log with the current firmware."""
 
 from dataclasses import dataclass
+from itertools import product
 
 from host_sim.backends.in_process_link import InProcessLink
 from host_sim.backends.programmed_robot import ProgrammedLink
@@ -163,6 +164,7 @@ class _Comparison:
     def _compare_drive(self, frame: Frame, decoded: DecodedFrame) -> Difference | None:
         reason, tick = decoded.signals["reason"], decoded.signals["tick"]
         if reason in _AT_REST and not self._lockstep:
+            self._faults |= _SILENT if reason == Reason.SILENCE else 0
             return None  # on its own clock, a robot that received nothing says so; here no time passes
         answer = self._pending.pop(tick, None) if self._lockstep else self._answer_in_real_time(frame, tick)
         if answer is None and reason == Reason.STOP:
@@ -183,11 +185,11 @@ class _Comparison:
         senses_id = self._protocol.id_of("SENSES")
         senses = [i for i, frame in enumerate(sent) if frame.id == senses_id]
         self.unanswered += len(senses[:-1])
-        outage: list[Frame | None] = [None] if self._faults & _SILENT else []
+        outages: list[list[Frame | None]] = [[None], []] if self._faults & _SILENT else [[]]
         tries = sorted(range(max(len(senses), 1)), reverse=not self._faults & _MISSED)[:_TRIES_MAX]
         self._faults = 0
         answers: list[Frame | None] = []
-        for first in tries:
+        for outage, first in product(outages, tries):
             if answers:
                 self._begin_anew()
             before = (frame for i, frame in enumerate(sent) if i not in senses[first:])

@@ -179,6 +179,16 @@ def test_senses_that_the_robot_has_not_heard_make_no_difference(faults, tmp_path
     assert outcome.difference is None
 
 
+def test_a_robot_that_rests_in_silence_tells_of_an_outage_without_an_emergency_too(tmp_path):
+    """It sends an EMERGENCY only now and then."""
+    log = real_time_run(tmp_path, "drop@23-37/to")
+    lines = log.read_text().splitlines(keepends=True)
+    emergency = f" {PROTOCOL.id_of('EMERGENCY'):03X}#"
+    log.write_text("".join(line for line in lines if emergency not in line))
+
+    assert replay(read_log(log), PROTOCOL).difference is None
+
+
 def test_a_difference_after_unanswered_senses_says_so(tmp_path):
     log = real_time_run(tmp_path, "drop@23-28/to")
     edited(log, "DRIVE", 50, faster)
