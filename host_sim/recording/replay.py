@@ -181,9 +181,10 @@ class _Comparison:
         The log has all senses that were sent. Of those that it does not answer, a robot hears none, the first or all:
         they are lost on the way, or wait for so long that it skips to the newest.
         """
-        sent, self._waiting = self._waiting, []
-        senses_id = self._protocol.id_of("SENSES")
-        senses = [i for i, frame in enumerate(sent) if frame.id == senses_id]
+        numbers = [self._tick_of(frame) for frame in self._waiting]
+        end = numbers.index(tick) + 1 if tick in numbers else len(numbers)  # the host may have gone on meanwhile
+        sent, self._waiting = self._waiting[:end], self._waiting[end:]
+        senses = [i for i, number in enumerate(numbers[:end]) if number is not None]
         self.unanswered += len(senses[:-1])
         outages: list[list[Frame | None]] = [[None], []] if self._faults & _SILENT else [[]]
         tries = sorted(range(max(len(senses), 1)), reverse=not self._faults & _MISSED)[:_TRIES_MAX]
@@ -201,6 +202,11 @@ class _Comparison:
                 self._heard += heard
                 return drive
         return answers[0]
+
+    def _tick_of(self, frame: Frame) -> int | None:
+        """The tick of senses."""
+        decoded = self._protocol.decode(frame) if frame.id == self._protocol.id_of("SENSES") else None
+        return decoded and decoded.signals["tick"]
 
     def _begin_anew(self) -> None:
         self._link = self._wake()

@@ -1,6 +1,7 @@
 """A log of any firmware is checked for the protocol alone; on a bus that loses frames it tells the whole story."""
 
 import re
+from pathlib import Path
 
 import pytest
 
@@ -187,6 +188,13 @@ def test_a_robot_that_rests_in_silence_tells_of_an_outage_without_an_emergency_t
     log.write_text("".join(line for line in lines if emergency not in line))
 
     assert replay(read_log(log), PROTOCOL).difference is None
+
+
+def test_a_drive_that_comes_after_the_next_senses_is_for_those_before():
+    """Recorded on a busy machine; the senses after those that were answered so late were lost."""
+    outcome = replay(read_log(Path(__file__).parent / "data/late_answer.log"), PROTOCOL)
+
+    assert (outcome.drives, outcome.difference) == (25, None)
 
 
 def test_a_difference_after_unanswered_senses_says_so(tmp_path):
