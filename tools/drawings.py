@@ -1,7 +1,8 @@
-"""Drawings for who builds the robot of docs/build.md: its wiring, and its two plates at 1:1."""
+"""Drawings for who builds the robot of docs/build.md: its wiring, and its two plates at 1:1, as SVG and as DXF."""
 
 import math
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 from html import escape
 from pathlib import Path
 
@@ -93,7 +94,7 @@ def _plate(upper: bool, params: SimParams, middle: float) -> Iterator[str]:
         "upper plate: sensors on its rim, the board on top" if upper else "lower plate: motors below, battery on top"
     )
     yield f'<text class="middle small free" y="20">Octet, {label}</text>'
-    yield '<path class="line" d="M-25 28v-2m0 1h50m0 -1v2"/><text class="middle small free" y="33">50 mm</text>'
+    yield '<path class="line scale" d="M-25 28v-2m0 1h50m0 -1v2"/><text class="middle small free" y="33">50 mm</text>'
     yield "</g>"
 
 
@@ -144,13 +145,69 @@ def _slot(x: float, y: float, length: float, width: float) -> str:
     return f'<rect class="line" x="{left:.2f}" y="{top:.2f}" {size}/>'
 
 
+_CUT = re.compile(r'<(circle|rect|path) class="line" ([^>]*)/>')
+_STEP = re.compile(r"([MHVA])([^MHVAz]*)")
+
+
+def dxf_of(plate: str) -> str:
+    """What is to be cut of a plate that `draw_plate` drew: DXF, mm from its centre to the right and to the front."""
+    shapes = ((kind, dict(re.findall(r'(\w+)="([^"]*)"', words))) for kind, words in _CUT.findall(plate))
+    entities = (entity for kind, words in shapes for entity in _DXF_OF[kind](words))
+    return "\n".join(["0\nSECTION\n2\nENTITIES", *entities, "0\nENDSEC\n0\nEOF\n"])
+
+
+def _entity(kind: str, **values: float) -> str:
+    """An entity of DXF; values by their group codes, those of y counted downwards."""
+    codes = (int(name[1:]) for name in values)
+    texts = (
+        f"{code}\n{-value if code in (20, 21) else value:.3f}"
+        for code, value in zip(codes, values.values(), strict=True)
+    )
+    return "\n".join([f"0\n{kind}\n8\n0", *texts])
+
+
+def _dxf_of_circle(words: Mapping[str, str]) -> Iterator[str]:
+    yield _entity("CIRCLE", _10=float(words.get("cx", 0)), _20=float(words.get("cy", 0)), _40=float(words["r"]))
+
+
+def _dxf_of_slot(words: Mapping[str, str]) -> Iterator[str]:
+    x, y, width, height = (float(words[name]) for name in ("x", "y", "width", "height"))
+    radius = height / 2
+    left, right = x + radius, x + width - radius
+    for edge in (y, y + height):
+        yield _entity("LINE", _10=left, _20=edge, _11=right, _21=edge)
+    for centre, start in ((left, 90), (right, 270)):
+        yield _entity("ARC", _10=centre, _20=y + radius, _40=radius, _50=start, _51=(start + 180) % 360)
+
+
+def _dxf_of_outline(words: Mapping[str, str]) -> Iterator[str]:
+    """Of lines along the axes, and of arcs around the centre, counterclockwise."""
+    x = y = 0.0
+    for step, text in _STEP.findall(words["d"]):
+        numbers = [float(number) for number in text.split()]
+        to_x = x if step == "V" else numbers[0] if step in "MH" else numbers[-2]
+        to_y = y if step == "H" else numbers[-1]
+        if step == "A":
+            start, end = (math.degrees(math.atan2(-b, a)) % 360 for a, b in ((x, y), (to_x, to_y)))
+            yield _entity("ARC", _10=0, _20=0, _40=numbers[0], _50=start, _51=end)
+        elif step != "M":
+            yield _entity("LINE", _10=x, _20=y, _11=to_x, _21=to_y)
+        x, y = to_x, to_y
+
+
+_DXF_OF = {"circle": _dxf_of_circle, "rect": _dxf_of_slot, "path": _dxf_of_outline}
+
+
 def write_drawings(pins: Pins, folder: Path) -> list[Path]:
     """Writes all of them into a folder, and returns their files."""
     folder.mkdir(parents=True, exist_ok=True)
+    lower, upper = draw_plate(upper=False), draw_plate(upper=True)
     drawings = {
         f"{pins.board}-wiring.svg": draw_wiring(pins),
-        "lower-plate.svg": draw_plate(upper=False),
-        "upper-plate.svg": draw_plate(upper=True),
+        "lower-plate.svg": lower,
+        "lower-plate.dxf": dxf_of(lower),
+        "upper-plate.svg": upper,
+        "upper-plate.dxf": dxf_of(upper),
     }
     for name, text in drawings.items():
         (folder / name).write_text(text)
