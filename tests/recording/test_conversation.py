@@ -180,19 +180,10 @@ def test_senses_that_the_robot_has_not_heard_make_no_difference(faults, tmp_path
     assert outcome.difference is None
 
 
-def test_a_robot_that_rests_in_silence_tells_of_an_outage_without_an_emergency_too(tmp_path):
-    """It sends an EMERGENCY only now and then."""
-    log = real_time_run(tmp_path, "drop@23-37/to")
-    lines = log.read_text().splitlines(keepends=True)
-    emergency = f" {PROTOCOL.id_of('EMERGENCY'):03X}#"
-    log.write_text("".join(line for line in lines if emergency not in line))
-
-    assert replay(read_log(log), PROTOCOL).difference is None
-
-
-def test_a_drive_that_comes_after_the_next_senses_is_for_those_before():
-    """Recorded on a busy machine; the senses after those that were answered so late were lost."""
-    outcome = replay(read_log(Path(__file__).parent / "data/late_answer.log"), PROTOCOL)
+@pytest.mark.parametrize("name", ["unsaid_outage", "late_answer"])
+def test_what_a_busy_machine_recorded_makes_no_difference(name):
+    """An outage for which a robot rests without an EMERGENCY; a DRIVE after the next SENSES, which are lost."""
+    outcome = replay(read_log(Path(__file__).parent / f"data/{name}.log"), PROTOCOL)
 
     assert (outcome.drives, outcome.difference) == (25, None)
 
