@@ -7,14 +7,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TextIO
 
 from host_sim.base.errors import OctetError
+from host_sim.base.screen import full_screen
 from host_sim.client.frame_log import FrameLog
 from host_sim.live.text_picture import View, draw_text
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import CELL_COUNT, MESSAGES, PARAMETERS, Senses
-from host_sim.recording.dead_reckoning import Reckoned, after
+from host_sim.recording.dead_reckoning import after, record
 from host_sim.recording.recording import TickReader
 from host_sim.recording.run_recorder import RunRecorder
-from host_sim.transport.buses import open_bus
+from host_sim.transport.buses import open_bus, receive
 from host_sim.view.phrases import sentence
 from host_sim.view.state_types import EnvironmentScene, State
 from host_sim.world.geometry import Point, Pose
@@ -28,8 +29,6 @@ _TRAIL_MAX = 3000
 _NOTHING: EnvironmentScene = {
     "number": 1, "of": 1, "seed": 0, "first_tick": 0, "start_tick": 0, "bars": [], "food": []
 }  # fmt: skip
-_HOME, _REST_OF_LINE, _REST_OF_SCREEN = "\x1b[H", "\x1b[K", "\x1b[J"
-_ENTER, _LEAVE = "\x1b[?1049h\x1b[?25l", "\x1b[?25h\x1b[?1049l"
 _KEYS = "Ctrl-C ends it. Nothing is sent to the robot.\nIts way is by its wheels alone, from where it was first seen."
 
 
@@ -75,9 +74,7 @@ class Observer:
             self._senses = tick.senses
             if tick.drive.eat:
                 self._meals.append(self._pose[:2])
-            recorder.between(0, tick.started, tick.written)
-            recorder.histories[0].frozen = tick.frozen
-            recorder.add(0, Reckoned(self._pose), tick.senses, tick.drive, tick.memory)
+            record(recorder, tick, self._pose)
             yield trajectory.at(trajectory.ticks - 1)
 
     def view(self, state: State) -> View:
@@ -108,37 +105,41 @@ def observe(line: Line, log: FrameLog, out: TextIO, goes_on: Callable[[], bool])
         UsageError: The bus cannot be opened.
         OctetError: The bus is gone, or the robot was not heard.
     """
-    protocol, observer, draws = Protocol(line.node), Observer(line.node), out.isatty()
-    ids = [protocol.id_of(name) for name in MESSAGES]
-    heard, due_s = False, 0.0
-    told: object = None
-    with open_bus(line.bus, ids, line.bitrate) as bus:
-        try:
-            out.write(_ENTER * draws)
-            for state in observer.follow(_frames(bus, log, goes_on)):
-                heard = True
-                if draws and time.monotonic() >= due_s:
-                    due_s = time.monotonic() + _DRAW_S
-                    _draw(observer.view(state), out)
-                elif not draws and (what := (state["reason"], state["pattern"], state["memory"])) != told:
-                    told = what
-                    out.write(f"{state['tick'] * observer.params.tick_s:8.2f} s  {_line(state)}\n")
-                    out.flush()
-        finally:
-            out.write(_LEAVE * draws)
+    protocol, observer = Protocol(line.node), Observer(line.node)
+    tell = _draw if out.isatty() else _write
+    with open_bus(line.bus, [protocol.id_of(name) for name in MESSAGES], line.bitrate) as bus:
+        heard = tell(observer, observer.follow(_frames(bus, log, goes_on)), out)
     if not heard:
         raise OctetError(f"node {line.node} was not heard on {line.bus}: is the robot on, and its number right?")
 
 
-def _frames(bus: "can.BusABC", log: FrameLog, goes_on: Callable[[], bool]) -> Iterator[Frame]:
-    import can  # noqa: PLC0415 - other runs begin sooner without
+def _draw(observer: Observer, states: Iterable[State], out: TextIO) -> bool:
+    """Draws now and then; returns whether there were any."""
+    drawn_s = None
+    with full_screen(out) as draw:
+        for state in states:
+            if drawn_s is None or time.monotonic() - drawn_s >= _DRAW_S:
+                drawn_s = time.monotonic()
+                columns, rows = shutil.get_terminal_size()
+                draw(draw_text(observer.view(state), columns, rows - 1))
+    return drawn_s is not None
 
+
+def _write(observer: Observer, states: Iterable[State], out: TextIO) -> bool:
+    """Writes a line for each change; returns whether there were any."""
+    told: object = None
+    for state in states:
+        if (what := (state["reason"], state["pattern"], state["memory"])) != told:
+            told = what
+            out.write(f"{state['tick'] * observer.params.tick_s:8.2f} s  {_line(state)}\n")
+            out.flush()
+    return told is not None
+
+
+def _frames(bus: "can.BusABC", log: FrameLog, goes_on: Callable[[], bool]) -> Iterator[Frame]:
     start_s: float | None = None
     while goes_on():
-        try:
-            message = bus.recv(_WAIT_S)
-        except (can.CanError, OSError) as error:
-            raise OctetError(f"the bus is gone: {error}") from None
+        message = receive(bus, _WAIT_S)
         if message is None or message.is_error_frame or message.is_extended_id or message.is_remote_frame:
             continue
         start_s = message.timestamp if start_s is None else start_s
@@ -152,10 +153,3 @@ def _line(state: State) -> str:
     memory = "".join(".LR"[side] for side in state["memory"])
     place = f"{state['x']:.0f}, {state['y']:.0f} mm"
     return f"{place:14}  {memory}  {sentence(state)}"
-
-
-def _draw(view: View, out: TextIO) -> None:
-    columns, rows = shutil.get_terminal_size()
-    shown = "\n".join(f"{line}{_REST_OF_LINE}" for line in draw_text(view, columns, rows - 1))
-    out.write(f"{_HOME}{shown}\n{_REST_OF_SCREEN}")
-    out.flush()

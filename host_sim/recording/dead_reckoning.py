@@ -7,6 +7,7 @@ from itertools import pairwise
 from host_sim.protocol.generated import ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN, Senses
 from host_sim.recording.recording import Recording
 from host_sim.recording.run_recorder import RunRecorder
+from host_sim.recording.tick import Tick
 from host_sim.recording.trajectory import Trajectory
 from host_sim.view.state_types import EnvironmentScene
 from host_sim.world.body import rolled
@@ -17,7 +18,7 @@ _MARGIN_MM = 500.0
 
 
 @dataclass(frozen=True)
-class Reckoned:
+class _Body:
     """A body whose pose is all that is known."""
 
     pose: Pose
@@ -37,10 +38,15 @@ def reckon(recording: Recording, node: int, params: SimParams) -> Trajectory:
     recorder = RunRecorder(params, recording.boredom_limit, {node: recording.first_memory})
     recorder.enter(EnvironmentScene(number=1, of=1, seed=0, first_tick=0, start_tick=0, bars=[], food=[]))
     for tick, pose in zip(recording.ticks, poses, strict=True):
-        recorder.between(0, tick.started, tick.written)
-        recorder.histories[0].frozen = tick.frozen
-        recorder.add(0, Reckoned(pose), tick.senses, tick.drive, tick.memory)
+        record(recorder, tick, pose)
     return recorder.trajectory
+
+
+def record(recorder: RunRecorder, tick: Tick, pose: Pose) -> None:
+    """Adds a tick of the only robot, of whose body no more is known than where it was."""
+    recorder.between(0, tick.started, tick.written)
+    recorder.histories[0].frozen = tick.frozen
+    recorder.add(0, _Body(pose), tick.senses, tick.drive, tick.memory)
 
 
 def _poses(senses: Sequence[Senses], params: SimParams) -> list[Pose]:

@@ -8,7 +8,7 @@ from typing import Any
 import can
 from can.typechecking import CanFilter
 
-from host_sim.base.errors import LinkDownError, UsageError
+from host_sim.base.errors import LinkDownError, OctetError, UsageError
 from host_sim.transport.bit_rates import BIT_RATE
 from host_sim.transport.bus_link import BusLink
 from host_sim.transport.line_stats import LineStats
@@ -79,6 +79,20 @@ def open_bus(bus: str, ids: Sequence[int] = (), bitrate: int = BIT_RATE) -> can.
         if isinstance(error, can.CanInterfaceNotImplementedError):
             hint = "; name an interface that python-can has, such as socketcan or slcan"
         raise UsageError(f"cannot open the bus {interface}:{channel}: {reason}{hint}") from error
+
+
+def receive(bus: can.BusABC, timeout_s: float) -> can.Message | None:
+    """The next frame of a bus, or None; text of a serial line that is no frame counts as an error frame.
+
+    Raises:
+        OctetError: The bus is gone.
+    """
+    try:
+        return bus.recv(timeout_s)
+    except ValueError:
+        return can.Message(is_error_frame=True)
+    except (can.CanError, OSError) as error:
+        raise OctetError(f"the bus is gone: {error}") from None
 
 
 def _forget_unfiltered(bus: can.BusABC) -> None:

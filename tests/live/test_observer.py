@@ -90,6 +90,30 @@ def test_on_a_terminal_it_draws_and_tidies_up(recorded):
     assert out.getvalue().endswith("\x1b[?25h\x1b[?1049l")
 
 
+def test_what_is_no_frame_on_a_serial_line_is_passed_over(recorded, monkeypatch):
+    class SerialLine(contextlib.AbstractContextManager):
+        def __init__(self) -> None:
+            self.said = iter(recorded)
+            self.looks = 0
+
+        def __exit__(self, *_: object) -> None:
+            pass
+
+        def recv(self, _timeout_s: float) -> can.Message:
+            self.looks += 1
+            if self.looks == 10:
+                raise ValueError("invalid literal for int() with base 16: 'tx'")
+            time_us, frame = next(self.said)
+            return can.Message(time_us / 1e6, frame.id, is_extended_id=False, data=frame.data)
+
+    line, out = SerialLine(), io.StringIO()
+    monkeypatch.setattr("host_sim.live.observer.open_bus", lambda *_: line)
+
+    with contextlib.closing(NoLog()) as log:
+        observe(Line("slcan:/dev/ttyACM0", 1, 500_000), log, out, lambda: line.looks < len(recorded))
+    assert "so I try turning" in out.getvalue()
+
+
 def test_a_robot_that_is_not_heard_is_told(recorded):
     end, line = time.monotonic() + 0.7, Line("virtual:other", 2, 500_000)
     why = pytest.raises(OctetError, match="node 2 was not heard on virtual:other")

@@ -93,8 +93,9 @@ class ToldWorlds:
         arena = Arena(layout, self._params, kind=self._kind)
         if self._kind is not None:
             arena.begin(seed)
-        for body in arena.inside.bodies if self._kind is None else ():
-            body.kit = arena.inside.ffi.NULL  # it stays ideal
+        else:
+            for body in arena.inside.bodies:
+                body.kit = arena.inside.ffi.NULL  # it stays ideal
         self._arenas[world] = arena
         self._all[world].world = self._ffi.cast("struct world *", arena.inside.address)
         self._library.told_begin(self._ffi.addressof(self._all, world))

@@ -1,6 +1,5 @@
 """Watches a bus until it is told to stop: as a table on a terminal, as a line for each frame elsewhere."""
 
-import shutil
 import time
 from collections.abc import Callable
 from functools import cache
@@ -9,22 +8,20 @@ from typing import TextIO
 import can
 from can.typechecking import CanFilter
 
-from host_sim.base.errors import OctetError
+from host_sim.base.screen import full_screen
 from host_sim.lab.monitor.bus_watch import BusWatch
 from host_sim.lab.monitor.kernel_queue import dropped
 from host_sim.lab.monitor.table import lines_of
 from host_sim.protocol.codec import NODE_MAX, Frame, Protocol
 from host_sim.protocol.every_node import Heard
 from host_sim.protocol.generated import MESSAGES
+from host_sim.transport.buses import receive
 
 _WAIT_S = 0.1
 _DRAW_S = 0.25
 _CHECK_S = 1.0
 _LAST_S = 2.0
 """How much of the processor's time what waits may take in the end; a full bus would never run dry."""
-
-_HOME, _REST_OF_LINE, _REST_OF_SCREEN = "\x1b[H", "\x1b[K", "\x1b[J"
-_ENTER, _LEAVE = "\x1b[?1049h\x1b[?25l", "\x1b[?25h\x1b[?1049l"
 
 
 def filter_robots(bus: can.BusABC) -> None:
@@ -48,17 +45,17 @@ def watch_lines(bus: can.BusABC, watch: BusWatch, out: TextIO, goes_on: Callable
     known: set[str] = set()
     start_s = checked_s = time.monotonic()
     while goes_on():
-        message = _receive(bus, 0.0)
+        message = receive(bus, 0.0)
         if message is None:
             out.flush()
-            message = _receive(bus, _WAIT_S)
+            message = receive(bus, _WAIT_S)
         if message is not None:
             _write(message, watch, out, start_s)
         if time.monotonic() - checked_s >= _CHECK_S:
             checked_s = time.monotonic()
             known = _tell_news(bus, watch, out, start_s, known)
     last_s = time.process_time() + _LAST_S
-    while time.process_time() < last_s and (message := _receive(bus, 0.0)) is not None:
+    while time.process_time() < last_s and (message := receive(bus, 0.0)) is not None:
         _write(message, watch, out, start_s)
     _tell_news(bus, watch, out, start_s, known)
     out.flush()
@@ -68,20 +65,16 @@ def watch_table(bus: can.BusABC, watch: BusWatch, name: str, out: TextIO, goes_o
     """Draws the state of the bus again and again; arguments and errors as in `watch_lines`, and its name."""
     start_s = time.monotonic()
     drawn_s = -_DRAW_S
-    out.write(_ENTER)
-    try:
+    with full_screen(out) as draw:
         while goes_on():
-            message = _receive(bus, _WAIT_S)
+            message = receive(bus, _WAIT_S)
             now_s = time.monotonic() - start_s
             if message is not None:
                 watch.accept(message, now_s)
             if now_s - drawn_s >= _DRAW_S:
                 drawn_s = now_s
                 watch.dropped = dropped(bus)
-                _draw(lines_of(watch, name, now_s), out)
-    finally:
-        out.write(_LEAVE)
-        out.flush()
+                draw(lines_of(watch, name, now_s))
 
 
 def _write(message: can.Message, watch: BusWatch, out: TextIO, start_s: float) -> None:
@@ -94,23 +87,6 @@ def _tell_news(bus: can.BusABC, watch: BusWatch, out: TextIO, start_s: float, kn
     wrong = watch.wrong(time.monotonic() - start_s)
     out.writelines(f"! {what}\n" for what in wrong if what not in known)
     return set(wrong)
-
-
-def _draw(lines: list[str], out: TextIO) -> None:
-    width, height = shutil.get_terminal_size()
-    shown = [f"{line[:width]}{_REST_OF_LINE}" for line in lines[: height - 1]]
-    out.write(f"{_HOME}{chr(10).join(shown)}\n{_REST_OF_SCREEN}")
-    out.flush()
-
-
-def _receive(bus: can.BusABC, timeout_s: float) -> can.Message | None:
-    """The next frame; text of a serial line that is none counts as an error frame."""
-    try:
-        return bus.recv(timeout_s)
-    except ValueError:
-        return can.Message(is_error_frame=True)
-    except (can.CanError, OSError) as error:
-        raise OctetError(f"the bus is gone: {error}") from None
 
 
 def _line(message: can.Message, heard: Heard | None) -> str:
