@@ -274,7 +274,7 @@ TEST(each_answer_is_what_the_standard_says_to_its_last_byte)
     ASSERT_ANSWER(0x6E, 0xFD, 4);
     TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
     ASSERT_ANSWER(0x71, 1, 0xFF, 0, 0);
-    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
+    TEST_ASSERT_EQUAL_HEX8(0, announce(0));
     ASSERT_ANSWER(0x74, 0x20, 4, 2);
     memcpy(&block[2], image.bytes, SIGNED_BYTES);
     TEST_ASSERT_EQUAL_HEX8(0, ask(block, sizeof block));

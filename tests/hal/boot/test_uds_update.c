@@ -10,14 +10,9 @@
 
 static struct signed_image image;
 
-/* Image 5 runs in slot 0, was confirmed, and nothing older is taken. */
 void setUp(void)
 {
-    boot_flash_clear();
-    signer_put(0, 5);
-    tester_power_on();
-    TEST_ASSERT_EQUAL(0, start_pick(&choices));
-    image = signer_image(1, 6);
+    image = tester_begin();
 }
 
 static void assert_refused(int code, enum refusal why)
@@ -126,21 +121,6 @@ TEST(another_header_than_the_announced_one_is_refused)
     TEST_ASSERT_EQUAL_UINT8(REFUSAL_DAMAGED, uds.why);
 }
 
-static void begin_download(void)
-{
-    unlock();
-    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
-    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
-}
-
-TEST(one_that_was_cut_short_is_not_chosen)
-{
-    begin_download();
-    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x36, 1, 'O', 'C', 'T', 'E'));
-    TEST_ASSERT_EQUAL_HEX8(0x24, ASK(0x37));
-    TEST_ASSERT_EQUAL_HEX8(0x24, check());
-}
-
 TEST(services_in_a_wrong_order_are_refused)
 {
     unlock();
@@ -169,115 +149,6 @@ TEST(routines_that_there_are_not_are_refused)
     TEST_ASSERT_EQUAL_HEX8(0x13, ASK(0x31, 1, 0xFF, 0, 0));
     TEST_ASSERT_EQUAL_HEX8(0x13, ask((uint8_t[8 + IMAGE_HEADER + 1]){0x31, 1, 0xFF, 0}, 8 + IMAGE_HEADER + 1));
     TEST_ASSERT_EQUAL_HEX8(0x13, ASK(0x31, 1, 0xF0, 0, 0, 0, 0, 4, 0));
-}
-
-TEST(a_download_is_of_what_was_announced)
-{
-    unlock();
-    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
-    TEST_ASSERT_EQUAL_HEX8(0x13, ASK(0x34, 0, 0x44, 0));
-    TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x34, 1, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
-    TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x34, 0, 0x33, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
-    TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x34, 0, 0x44, 0, 0, 1, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
-    TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, (SIGNED_BYTES & 0xFF) - 1));
-    TEST_ASSERT_EQUAL_HEX8(0, download(&image, 0));
-    TEST_ASSERT_EQUAL_HEX8(0x13, ASK(0x37, 0));
-}
-
-TEST(a_block_that_comes_again_is_written_once_and_one_that_is_missing_is_noticed)
-{
-    begin_download();
-    TEST_ASSERT_EQUAL_HEX8(0x73, ASK(0x36, 0, 'O', 'C', 'T', 'E'));
-    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x36, 1, 'O', 'C', 'T', 'E'));
-    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x36, 1, 'O', 'C', 'T', 'E'));
-    TEST_ASSERT_EQUAL_HEX8(0x73, ASK(0x36, 3, 'O', 'C', 'T', 'E'));
-    TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x36, 2, 1, 2));
-    TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x36, 2));
-    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x36, 2, 'T', 'I', 'M', 'G'));
-    TEST_ASSERT_EQUAL_HEX8(0x73, ASK(0x36, 1, 'O', 'C', 'T', 'E'));
-    TEST_ASSERT_EQUAL_HEX8(0x24, download(&image, 0));
-    TEST_ASSERT_EQUAL_MEMORY("OCTETIMG\xFF", boot_flash_slot(1), 9);
-    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
-    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
-    TEST_ASSERT_EQUAL_HEX8(0x73, ASK(0x36, 0, 'O', 'C', 'T', 'E'));
-}
-
-TEST(what_has_come_of_a_block_is_written_while_the_rest_comes)
-{
-    static const uint8_t block[] = {0x36, 1, 'O', 'C', 'T', 'E', 'T', 'I', 'M', 'G'};
-    unsigned before;
-
-    begin_download();
-    before = boot_flash.operations;
-    TEST_ASSERT_FALSE(uds_ahead(&uds, block, 5));
-    TEST_ASSERT_TRUE(uds_ahead(&uds, block, 6));
-    TEST_ASSERT_EQUAL_MEMORY("OCTE\xFF", boot_flash_slot(1), 5);
-    TEST_ASSERT_FALSE(uds_ahead(&uds, block, 9));
-    TEST_ASSERT_TRUE(uds_ahead(&uds, block, 10));
-    TEST_ASSERT_EQUAL_HEX8(0, ask(block, sizeof block));
-    TEST_ASSERT_EQUAL_MEMORY("OCTETIMG\xFF", boot_flash_slot(1), 9);
-    TEST_ASSERT_EQUAL_UINT(before + 4, boot_flash.operations);
-}
-
-TEST(a_block_that_was_cut_short_comes_again_even_as_shorter_ones)
-{
-    uint8_t block[2 + SIGNED_BYTES] = {0x36, 1};
-
-    begin_download();
-    memcpy(&block[2], image.bytes, SIGNED_BYTES);
-    for (unsigned i = 0; i < 3; i++)
-        TEST_ASSERT_TRUE(uds_ahead(&uds, block, sizeof block));
-    TEST_ASSERT_EQUAL_HEX8(0, ask(block, 2 + 8));
-    block[1] = 2;
-    memcpy(&block[2], &image.bytes[8], SIGNED_BYTES - 8);
-    TEST_ASSERT_TRUE(uds_ahead(&uds, block, 2 + 8));
-    TEST_ASSERT_EQUAL_HEX8(0, ask(block, sizeof block - 8));
-    TEST_ASSERT_EQUAL_MEMORY(image.bytes, boot_flash_slot(1), SIGNED_BYTES);
-    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x37));
-    TEST_ASSERT_EQUAL_HEX8(0, check());
-}
-
-TEST(nothing_but_the_block_that_is_due_is_written_ahead)
-{
-    uint8_t block[2 + SIGNED_BYTES + 4] = {0x36, 1};
-
-    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
-    unlock();
-    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
-    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
-    begin_download();
-    block[1] = 2;
-    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
-    block[0] = 0x31;
-    block[1] = 1;
-    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
-    block[0] = 0x36;
-    for (unsigned i = 0; i < SIGNED_BYTES / 4; i++)
-        TEST_ASSERT_TRUE(uds_ahead(&uds, block, sizeof block));
-    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
-    TEST_ASSERT_EQUAL_HEX8(0x31, ask(block, sizeof block));
-    TEST_ASSERT_EQUAL_HEX8(0, ask(block, 2 + 4));
-    TEST_ASSERT_EQUAL_HEX8(0, ask((uint8_t[]){0x36, 2, 0, 0, 0, 0}, 2 + 4));
-    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
-    begin_download();
-    TEST_ASSERT_EQUAL_HEX8(0, ask(block, 2 + 4));
-    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
-    block[1] = 2;
-    for (unsigned i = 1; i < SIGNED_BYTES / 4; i++)
-        TEST_ASSERT_TRUE(uds_ahead(&uds, block, sizeof block));
-    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
-    TEST_ASSERT_EQUAL_HEX8(0x31, ask(block, 2 + SIGNED_BYTES));
-}
-
-TEST(an_erase_forgets_what_was_written_ahead)
-{
-    static const uint8_t block[] = {0x36, 1, 1, 2, 3, 4};
-
-    begin_download();
-    TEST_ASSERT_TRUE(uds_ahead(&uds, block, sizeof block));
-    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
-    TEST_ASSERT_EQUAL_HEX8(0, download(&image, 0));
-    TEST_ASSERT_EQUAL_HEX8(0, check());
 }
 
 TEST(behind_the_image_a_page_is_erased_if_it_is_not_blank)
@@ -311,15 +182,6 @@ TEST(an_erase_goes_on_from_within_the_image_only)
     TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, PAGE));
 }
 
-TEST(a_request_whose_answer_was_lost_can_come_again)
-{
-    begin_download();
-    TEST_ASSERT_EQUAL_HEX8(0, download(&image, 0));
-    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x37));
-    TEST_ASSERT_EQUAL_HEX8(0, check());
-    TEST_ASSERT_EQUAL_HEX8(0x24, ASK(0x37));
-}
-
 TEST(what_was_written_is_told_and_gone_on_from)
 {
     TEST_ASSERT_EQUAL_HEX8(0, update(&image));
@@ -335,17 +197,6 @@ TEST(what_was_written_is_told_and_gone_on_from)
     TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x34, 0, 0x44, 0, 0, 2, 0, 0, 0, 0, SIGNED_BYTES - 2 * PAGE + 1));
     TEST_ASSERT_EQUAL_HEX8(0, download(&image, 2 * PAGE));
     TEST_ASSERT_EQUAL_HEX8(0, check());
-}
-
-TEST(no_block_goes_beyond_the_end)
-{
-    uint8_t block[2 + SIGNED_BYTES + 4] = {0x36, 1};
-
-    unlock();
-    TEST_ASSERT_EQUAL_HEX8(0x31, erase_for(&image, PAGE));   /* nothing is written there yet */
-    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
-    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
-    TEST_ASSERT_EQUAL_HEX8(0x31, ask(block, sizeof block));
 }
 
 TEST(a_slot_that_cannot_be_read_is_begun_anew)
@@ -365,7 +216,7 @@ TEST(a_flash_that_fails_is_told)
     TEST_ASSERT_EQUAL_HEX8(0x72, ASK(0x31, 1, 0xF0, 0, 0, 0, 0, 4));
     boot_flash.failing = false;
     TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
-    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
+    TEST_ASSERT_EQUAL_HEX8(0, announce(0));
     boot_flash.failing = true;
     TEST_ASSERT_FALSE(uds_ahead(&uds, (const uint8_t[]){0x36, 1, 'O', 'C', 'T', 'E'}, 6));
     TEST_ASSERT_EQUAL_HEX8(0x72, ASK(0x36, 1, 'O', 'C', 'T', 'E'));

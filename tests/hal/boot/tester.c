@@ -4,6 +4,8 @@
 
 #include <unity.h>
 
+#include "hal/boot/start.h"
+
 struct uds uds;
 struct choices choices;
 uint8_t answer[UDS_ANSWER_MAX];
@@ -22,6 +24,15 @@ void tester_power_on(void)
 {
     (void)choices_open(&choices, CHOICE_PAGE);
     uds_begin(&uds, &choices, 0);
+}
+
+struct signed_image tester_begin(void)
+{
+    boot_flash_clear();
+    signer_put(0, 5);
+    tester_power_on();
+    TEST_ASSERT_EQUAL(0, start_pick(&choices));
+    return signer_image(1, 6);
 }
 
 static int code(uint8_t service)
@@ -85,16 +96,27 @@ int erase_for(const struct signed_image *image, uint32_t from)
     return ask(request, sizeof request);
 }
 
-int download(const struct signed_image *image, uint32_t from)
+int announce(uint32_t from)
 {
-    uint8_t request[2 + BLOCK] = {0x34, 0, 0x44};
-    int result;
+    uint8_t request[11] = {0x34, 0, 0x44};
 
     put(&request[3], from);
     put(&request[7], SIGNED_BYTES - from);
-    result = ask(request, 11);
-    request[0] = 0x36;
-    request[1] = 0;
+    return ask(request, sizeof request);
+}
+
+void begin_download(const struct signed_image *image)
+{
+    unlock();
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(image, 0));
+    TEST_ASSERT_EQUAL_HEX8(0, announce(0));
+}
+
+int download(const struct signed_image *image, uint32_t from)
+{
+    uint8_t request[2 + BLOCK] = {0x36, 0};
+    int result = announce(from);
+
     for (uint32_t at = from; at < SIGNED_BYTES && result == 0; at += BLOCK) {
         request[1]++;
         memcpy(&request[2], &image->bytes[at], BLOCK);

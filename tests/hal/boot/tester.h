@@ -25,9 +25,18 @@ int prove(void);
 void unlock(void);
         /* Enters a programming session that is unlocked. */
 
+struct signed_image tester_begin(void);
+        /* Image 5 runs in slot 0, was confirmed, and nothing older is taken. Image 6 for the other slot. */
+
 int erase_for(const struct signed_image *image, uint32_t from);
+int announce(uint32_t from);
+        /* RequestDownload. */
+
 int download(const struct signed_image *image, uint32_t from);
-        /* RequestDownload, all blocks, and RequestTransferExit. */
+        /* RequestDownload, all blocks, RequestTransferExit. */
+
+void begin_download(const struct signed_image *image);
+        /* All up to its first block. */
 
 int check(void);
 

@@ -128,3 +128,16 @@ void stay(unsigned ticks)
     for (unsigned i = 0; i < ticks; i++)
         (void)sense();
 }
+
+int told_by_a_press_within(unsigned ticks)
+{
+    int kind = INPUT_SENSES;
+
+    pins.pressed = true;
+    stay(10);
+    pins.pressed = false;
+    for (unsigned i = 0; i < ticks && kind == INPUT_SENSES; i++)
+        kind = hal_receive(hal, &in);
+    TEST_ASSERT_EQUAL_INT(INPUT_COMMAND, kind);
+    return (int)in.command.opcode;
+}

@@ -43,4 +43,7 @@ void stay(unsigned ticks);
 void rest_with(bool running);
 void drive(int16_t left_mm_s, int16_t right_mm_s);
 
+int told_by_a_press_within(unsigned ticks);
+        /* The button is held for ten ticks and let go: the opcode of the command that comes then. */
+
 #endif
