@@ -8,7 +8,7 @@
 #include "hal/boot/server.h"
 #include "hal/boot/start.h"
 #include "hal/flash_store/crc32.h"
-#include "tests/proof/any.h"
+#include "tests/proof/any/any.h"
 
 enum { PAGE = 256, PAGES = 14, CHOICE_PAGE = 2, SLOT_PAGES = 5, BLANK = 0xFF, KNOWN = 3, STEPS = 16, SIZE = IMAGE_VECTORS + 64 };
 

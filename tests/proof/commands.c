@@ -3,8 +3,8 @@
 #include <octet.h>
 
 #include "hal/library/exchange.h"
-#include "tests/proof/any.h"
-#include "tests/proof/any_command.h"
+#include "tests/proof/any/any.h"
+#include "tests/proof/any/command.h"
 
 static void check_parameters(const struct config *config)
 {

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "firmware/robot.h"
-#include "tests/proof/any.h"
+#include "tests/proof/any/any.h"
 
 static void leave_a_range(void)
 {

@@ -1,6 +1,6 @@
 /* The core: whatever is sensed, commanded or stored, in whatever order and however long. Parameters may change at any
  * time; that they keep to their ranges is proved in config.c. */
-#include "tests/proof/any_robot.h"
+#include "tests/proof/any/robot.h"
 
 static void wake_with_any_memory(void)
 {

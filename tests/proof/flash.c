@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "hal/flash_store/flash_store.h"
-#include "tests/proof/any.h"
+#include "tests/proof/any/any.h"
 
 enum { PAGE_SIZE = 64, UNIT = 8, ERASED = 0xFF, TRIED_MAX = 8 };
 

@@ -1,7 +1,7 @@
 /* The values are the fuzzer's input, byte by byte, and zeros after its end. */
 #include <stddef.h>
 
-#include "tests/proof/any.h"
+#include "tests/proof/any/any.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -17,7 +17,9 @@ _CRC32 = ROOT / "hal/flash_store/crc32.c"
 
 _STORE = [ROOT / "hal/flash_store/flash_store.c", _CRC32]
 
-ROBOT = [HERE / "any_robot.c", *_CORE]
+_ANY_FLASH = HERE / "any/flash.c"
+
+ROBOT = [HERE / "any/robot.c", *_CORE]
 """The core, with a robot in any state."""
 
 _UPDATE = ("choice", "image", "isotp", "resident", "sha512", "start", "uds_parts")
@@ -27,15 +29,15 @@ PARTS = {
     "config": _CORE,
     "wire": [*sorted((ROOT / "hal/protocol").glob("*.c")), _CRC32, *_CORE, GENERATED / "octet.c"],
     "slcan": [ROOT / "hal/link/slcan.c"],
-    "store": _STORE,
-    "update": [*(ROOT / f"hal/boot/{name}.c" for name in _UPDATE), *_STORE],
+    "store": [*_STORE, _ANY_FLASH],
+    "update": [*(ROOT / f"hal/boot/{name}.c" for name in _UPDATE), *_STORE, _ANY_FLASH],
 }
 
 _ON_THE_CHIP = {"boot_main.c", "challenge.c", "resident.c", "signer.c"}
 
 _BOOT = [source for source in sorted((ROOT / "hal/boot").glob("*.c")) if source.name not in _ON_THE_CHIP]
 
-_EXCHANGE = [*PARTS["wire"], HERE / "any_command.c", ROOT / "hal/library/exchange.c"]
+_EXCHANGE = [*PARTS["wire"], HERE / "any/command.c", ROOT / "hal/library/exchange.c"]
 
 _PROGRAM = [
     source
@@ -46,8 +48,8 @@ _PROGRAM = [
 FUZZED = {
     **PARTS,
     "program": [*_PROGRAM, *_CORE, ROOT / "host_sim/world/native/trig.c"],
-    "flash": PARTS["store"],
-    "boot": [*_BOOT, *PARTS["store"]],
+    "flash": _STORE,
+    "boot": [*_BOOT, *_STORE],
     "commands": _EXCHANGE,
     "session": _EXCHANGE,
 }

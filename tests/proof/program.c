@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "tests/proof/any.h"
+#include "tests/proof/any/any.h"
 
 enum { DECISIONS_MAX = 40, WORDS = 128, DEGREES_MAX = 720, WAY_MAX_MM = 150 };
 

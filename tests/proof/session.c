@@ -6,8 +6,8 @@
 
 #include "hal/library/exchange.h"
 #include "hal/protocol/e2e.h"
-#include "tests/proof/any.h"
-#include "tests/proof/any_command.h"
+#include "tests/proof/any/any.h"
+#include "tests/proof/any/command.h"
 
 enum { OWNER = 1, ANOTHER = 2, EVENTS = 12 };
 

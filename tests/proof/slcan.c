@@ -1,6 +1,6 @@
 /* slcan: whatever bytes come, and whatever frame is written after each line. */
 #include "hal/link/slcan.h"
-#include "tests/proof/any.h"
+#include "tests/proof/any/any.h"
 
 static void write_any_frame(void)
 {

@@ -1,45 +1,9 @@
 /* The flash store: whatever the flash holds, and whichever of its operations fail. */
-#include "hal/flash_store/flash.h"
 #include "hal/flash_store/flash_store.h"
-#include "tests/proof/any.h"
+#include "tests/proof/any/any.h"
+#include "tests/proof/any/flash.h"
 
-enum { PAGE_SIZE = 1024, UNIT = 8 };
-
-bool flash_exists(void)
-{
-    return true;
-}
-
-uint32_t flash_page_size(void)
-{
-    return PAGE_SIZE;
-}
-
-uint32_t flash_unit(void)
-{
-    return UNIT;
-}
-
-int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
-{
-    for (uint32_t i = 0; i < count / sizeof words[0]; i++)
-        words[i] = any_u32();
-    return any_bool() ? 0 : -1;
-}
-
-int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t count)
-{
-    for (uint32_t i = 0; i < count / sizeof words[0]; i++)
-        (void)words[i];
-    return any_bool() ? 0 : -1;
-}
-
-int flash_erase(unsigned page)
-{
-    //@ assert erases_a_page: page < FLASH_PAGES;
-    (void)page;
-    return any_bool() ? 0 : -1;
-}
+const unsigned ANY_FLASH_PAGES = FLASH_PAGES;
 
 void exercise(void)
 {

@@ -43,7 +43,7 @@ CASES = {
 def parsed(frama_c: Callable[..., str], tmp_path_factory: pytest.TempPathFactory) -> Path:
     """All of it, read once."""
     saved = tmp_path_factory.mktemp("contracts") / "parsed.sav"
-    files = (HERE / "any.c", HERE / "contracts.c", *ROBOT)
+    files = (HERE / "any/any.c", HERE / "contracts.c", *ROBOT)
     frama_c(*files, "-save", saved)
     return saved
 

@@ -40,7 +40,7 @@ def test_no_input_does_harm(compiler, name):
 def test_what_can_go_wrong_is_found(body, found, tmp_path, monkeypatch):
     monkeypatch.setattr(c_fuzzer, "TIMEOUT_S", 1)
     canary = tmp_path / "canary.c"
-    canary.write_text(f'#include "tests/proof/any.h"\nvoid exercise(void)\n{{\n{body}\n}}\n')
+    canary.write_text(f'#include "tests/proof/any/any.h"\nvoid exercise(void)\n{{\n{body}\n}}\n')
 
     ended = c_fuzzer.fuzz(Compiler(tmp_path, tmp_path).build("canary", [canary]), FEW)
 

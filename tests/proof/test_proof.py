@@ -40,7 +40,7 @@ REACHED_MIN = {"core": 98, "config": 50, "wire": 97, "slcan": 98, "store": 98, "
 @pytest.fixture
 def analyse(frama_c):
     """Analyses the exercise() in some files; returns what the analyser prints."""
-    return lambda sources, precision=(): frama_c(*OPTIONS, *precision, HERE / "any.c", *sources)
+    return lambda sources, precision=(): frama_c(*OPTIONS, *precision, HERE / "any/any.c", *sources)
 
 
 def complaints(report: str) -> Sequence[str]:
@@ -89,5 +89,5 @@ def test_the_types_are_those_of_an_arm(analyse, tmp_path):
 def with_body(folder: Path, body: str) -> Path:
     """A file whose exercise() does this."""
     canary = folder / "canary.c"
-    canary.write_text(f'#include "tests/proof/any.h"\nvoid exercise(void)\n{{\n{body}\n}}\n')
+    canary.write_text(f'#include "tests/proof/any/any.h"\nvoid exercise(void)\n{{\n{body}\n}}\n')
     return canary

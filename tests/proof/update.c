@@ -9,57 +9,18 @@
 #include "hal/port/cortex_m/leave.h"
 #include "hal/port/cortex_m/loader.h"
 #include "hal/port/cortex_m/systick.h"
-#include "tests/proof/any.h"
+#include "tests/proof/any/any.h"
+#include "tests/proof/any/flash.h"
 
-enum { PAGE = 1024, UNIT = 8, CHOICE = 2, SLOT_PAGES = 4, SLOT_A = 4, SLOT_B = SLOT_A + SLOT_PAGES, PAGES = SLOT_B + SLOT_PAGES };
+enum { CHOICE = 2, SLOT_PAGES = 4, SLOT_A = 4, SLOT_B = SLOT_A + SLOT_PAGES };
+
+const unsigned ANY_FLASH_PAGES = SLOT_B + SLOT_PAGES;
 
 const struct layout LAYOUT = {
     .chip = "stm32f103", .board = "blue_pill", .number = 1,
     .choice_page = CHOICE, .slot_page = {SLOT_A, SLOT_B}, .slot_pages = SLOT_PAGES, .at_once = 1,
 };
 const uint8_t IMAGE_SIGNER[IMAGE_KEY] = {1};
-
-bool flash_exists(void)
-{
-    return true;
-}
-
-uint32_t flash_page_size(void)
-{
-    return PAGE;
-}
-
-uint32_t flash_unit(void)
-{
-    return UNIT;
-}
-
-int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
-{
-    //@ assert reads_a_page: page < PAGES;
-    (void)page;
-    (void)offset;
-    for (uint32_t i = 0; i < count / sizeof words[0]; i++)
-        words[i] = any_u32();
-    return any_bool() ? 0 : -1;
-}
-
-int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t count)
-{
-    //@ assert writes_a_page: page < PAGES;
-    (void)page;
-    (void)offset;
-    for (uint32_t i = 0; i < count / sizeof words[0]; i++)
-        (void)words[i];
-    return any_bool() ? 0 : -1;
-}
-
-int flash_erase(unsigned page)
-{
-    //@ assert erases_a_page: page < PAGES;
-    (void)page;
-    return any_bool() ? 0 : -1;
-}
 
 void crypto_eddsa_reduce(uint8_t reduced[32], const uint8_t expanded[64])
 {

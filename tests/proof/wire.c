@@ -4,7 +4,7 @@
 #include <octet.h>
 
 #include "hal/protocol/e2e.h"
-#include "tests/proof/any.h"
+#include "tests/proof/any/any.h"
 
 /* Half of them are as whole as a frame can be, and half of them for this robot. */
 static void take_any_frame(const struct wire *wire, struct frame *frame)

@@ -1,9 +1,9 @@
-#include "tests/proof/any_command.h"
+#include "tests/proof/any/command.h"
 
 #include <octet.h>
 
 #include "hal/protocol/e2e.h"
-#include "tests/proof/any.h"
+#include "tests/proof/any/any.h"
 
 enum { COUNTER_PLACE = 1, OPCODE_BITS = 0xF0, OWNER_PLACE = 2 };
 

@@ -1,4 +1,4 @@
-/* any_command.h: a COMMAND with any content, whole and in its turn, for the robot of node 1. */
+/* command.h: a COMMAND with any content, whole and in its turn, for the robot of node 1. */
 #ifndef OCTET_PROOF_ANY_COMMAND_H
 #define OCTET_PROOF_ANY_COMMAND_H
 

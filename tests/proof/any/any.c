@@ -1,5 +1,5 @@
 /* Each read of a volatile may bring any value. */
-#include "tests/proof/any.h"
+#include "tests/proof/any/any.h"
 
 static volatile uint8_t anything;
 

@@ -1,4 +1,4 @@
-#include "tests/proof/any_robot.h"
+#include "tests/proof/any/robot.h"
 
 struct robot robot;
 struct input in;

@@ -1,9 +1,9 @@
-/* any_robot.h: a robot in any state, and any input for it. */
+/* robot.h: a robot in any state, and any input for it. */
 #ifndef OCTET_PROOF_ANY_ROBOT_H
 #define OCTET_PROOF_ANY_ROBOT_H
 
 #include "firmware/robot.h"
-#include "tests/proof/any.h"
+#include "tests/proof/any/any.h"
 
 extern struct robot robot;
 extern struct input in;
