@@ -5,24 +5,19 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
-from host_sim.emulator.clock import SECOND, Clock
+from host_sim.emulator.clock import Clock
 from host_sim.emulator.registers import BoardError, Peripheral, PowerCut, Register
 
 BASE = 0x08000000
-_ERASED = b"\xff"
+ERASED = b"\xff"
 _KEYS = (0x45670123, 0xCDEF89AB)
-_OUTLIVES = 16
+OUTLIVES = 16
 """Bytes at the begin of a page that an erase cut short leaves as they were; the others read blank."""
 _WAIT_STATES = 7
 _UNFINISHED = 0x0F
 """Bits of a byte that are not written yet when the power goes in the middle."""
 
-_PG, _ERASE = 1 << 0, 1 << 1
-_F1_PGERR = 1 << 2
-_F4_OPERR, _F4_PGPERR, _F4_PGSERR = 1 << 1, 1 << 6, 1 << 7
-_G4_PROGERR, _G4_PGAERR, _G4_SIZERR, _G4_PGSERR = 1 << 3, 1 << 5, 1 << 6, 1 << 7
-_G4_ERRORS, _G4_TWO_BITS, _G4_ONE_BIT = 0xC3FA, 1 << 31, 1 << 30
-_F4_SNB_SHIFT, _F4_PSIZE_SHIFT = 3, 8
+PG, _ERASE = 1 << 0, 1 << 1
 
 
 @dataclass(frozen=True)
@@ -92,7 +87,7 @@ class Flash(Peripheral):
             faults: How it misbehaves.
         """
         self._clock, self._faults = clock, faults
-        self.memory = bytearray(_ERASED) * sum(self.kind.pages)
+        self.memory = bytearray(ERASED) * sum(self.kind.pages)
         self._half_erased: set[int] = set()
         self.cuts = {faults.cut_at}
         self.erasure_cuts: set[int] = set()
@@ -112,7 +107,7 @@ class Flash(Peripheral):
         Args:
             size: Size of a place, bytes.
         """
-        end = -(-len(self.memory.rstrip(_ERASED)) // size) * size
+        end = -(-len(self.memory.rstrip(ERASED)) // size) * size
         room = sum(self.kind.pages[: self._page_of(end - 1) + 1]) - end
         self.memory[end : end + room] = self.memory[end - size : end] * (room // size)
 
@@ -168,8 +163,8 @@ class Flash(Peripheral):
         self._half_erased.add(page)
         if self.erasures in self.erasure_cuts:
             self.cuts.add(self.operations + 1)
-        blank = _ERASED * size
-        self._change(offset, blank, bytes(self.memory[offset : offset + _OUTLIVES]) + blank[_OUTLIVES:])
+        blank = ERASED * size
+        self._change(offset, blank, bytes(self.memory[offset : offset + OUTLIVES]) + blank[OUTLIVES:])
         self._half_erased.discard(page)
         self._clock.skip(self.kind.erase_span[size])
 
@@ -213,135 +208,6 @@ class Flash(Peripheral):
 
     def _write_sr(self, value: int) -> None:
         self._sr.value &= ~value
-
-
-class FlashF1(Flash):
-    """The STM32F103C8's: a half-word is written once between two erasures, but 0 can be written over anything."""
-
-    kind = FlashKind(
-        pages=(1024,) * 64,
-        hz_per_wait_state=24_000_000,
-        write_span=52 * SECOND // 10**6,
-        erase_span={1024: 30 * SECOND // 1000},
-        start=1 << 6,
-        lock=1 << 7,
-        failure=_F1_PGERR,
-    )
-
-    def __init__(self, clock: Clock, faults: FlashFaults) -> None:
-        """As in `Flash`."""
-        super().__init__(clock, faults)
-        self._address = self.registers[0x14] = Register("AR")
-
-    def refusal(self, offset: int, size: int, value: int) -> int:
-        """As in `Flash`."""
-        half_word, erased = 2, 0xFFFF
-        programming = self._cr.value & _PG and size == half_word
-        return 0 if programming and (self.read(offset, size) == erased or value == 0) else _F1_PGERR
-
-    def page_to_erase(self) -> int:
-        """As in `Flash`."""
-        return (self._address.value - BASE) // self.kind.pages[0]
-
-
-class FlashF4(Flash):
-    """The STM32F405's: bits can be cleared at any time, by units of the size that CR says."""
-
-    kind = FlashKind(
-        pages=(16 << 10,) * 4 + (64 << 10,) + (128 << 10,) * 7,
-        hz_per_wait_state=30_000_000,
-        write_span=16 * SECOND // 10**6,
-        erase_span={16 << 10: SECOND // 2, 64 << 10: 11 * SECOND // 10, 128 << 10: 2 * SECOND},
-        start=1 << 16,
-        lock=1 << 31,
-        failure=_F4_OPERR,
-    )
-
-    def refusal(self, offset: int, size: int, value: int) -> int:  # noqa: ARG002 - any place, any value
-        """As in `Flash`."""
-        if not self._cr.value & _PG:
-            return _F4_PGSERR
-        return 0 if size == 1 << (self._cr.value >> _F4_PSIZE_SHIFT & 3) else _F4_PGPERR
-
-    def page_to_erase(self) -> int:
-        """As in `Flash`."""
-        return self._cr.value >> _F4_SNB_SHIFT & 0xF
-
-
-class FlashG4(Flash):
-    """The STM32G431xB's: two words are written at once, with eight bits to correct an error in them.
-
-    Attributes:
-        unreadable: Where the double words are that no correction fits, since the power went while they were written.
-    """
-
-    kind = FlashKind(
-        pages=(2048,) * 64,
-        hz_per_wait_state=30_000_000,
-        write_span=82 * SECOND // 10**6,
-        erase_span={2048: 22 * SECOND // 1000},
-        start=1 << 16,
-        lock=1 << 31,
-        failure=_F4_OPERR,
-        registers=(0x08, 0x10, 0x14),
-    )
-    _WORD, _DOUBLE = 4, 8
-
-    def __init__(self, clock: Clock, faults: FlashFaults) -> None:
-        """As in `Flash`."""
-        super().__init__(clock, faults)
-        self.unreadable: set[int] = set()
-        self._first: tuple[int, int] | None = None
-        self._eccr = self.registers[0x18] = Register("ECCR", on_write=self._write_eccr)
-
-    def reset(self) -> None:
-        """As in `Peripheral`; the memory stays."""
-        super().reset()
-        self._first = None
-
-    def read(self, offset: int, size: int) -> int:
-        """As in `Flash`; what cannot be corrected is noted, and told by an interrupt."""
-        place = offset - offset % self._DOUBLE
-        if place in self.unreadable:
-            if not self._eccr.value & _G4_TWO_BITS:
-                self._eccr.value |= _G4_TWO_BITS | place
-            self.on_unreadable()
-        return super().read(offset, size)
-
-    def write(self, offset: int, size: int, value: int) -> None:
-        """As in `Flash`; the second word of a pair starts it."""
-        first, self._first = self._first, None
-        if not self._cr.value & _PG or self._sr.value & _G4_ERRORS:
-            self._sr.value |= _G4_PGSERR
-        elif size != self._WORD:
-            self._sr.value |= _G4_SIZERR
-        elif first is None and offset % self._DOUBLE == 0:
-            self._first = offset, value
-        elif first is None or offset != first[0] + self._WORD:
-            self._sr.value |= _G4_PGAERR
-        else:
-            super().write(first[0], self._DOUBLE, first[1] | value << 32)
-
-    def refusal(self, offset: int, size: int, value: int) -> int:
-        """As in `Flash`; what is not erased takes zeros only."""
-        blank = self.memory[offset : offset + size] == _ERASED * size and offset not in self.unreadable
-        return 0 if blank or value == 0 else _G4_PROGERR
-
-    def changed(self, offset: int, size: int, *, cut: bool) -> None:
-        """As in `Flash`."""
-        kept = _OUTLIVES if cut and size > self._DOUBLE else 0
-        self.unreadable -= set(range(offset + kept, offset + size, self._DOUBLE))
-        if cut and size == self._DOUBLE:
-            self.unreadable.add(offset)
-
-    def page_to_erase(self) -> int:
-        """As in `Flash`."""
-        return self._cr.value >> _F4_SNB_SHIFT & 0x7F
-
-    def _write_eccr(self, value: int) -> None:
-        self._eccr.value &= ~(value & (_G4_TWO_BITS | _G4_ONE_BIT))
-        if not self._eccr.value & _G4_TWO_BITS:
-            self._eccr.value = 0
 
 
 Factory = Callable[[Clock, FlashFaults], Flash]

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from host_sim.emulator.board import EmulatedBoard
-from host_sim.emulator.flash import FlashG4
+from host_sim.emulator.flash_kinds import FlashG4
 from tests.image.support import Talk
 from tests.image.update_rig import NEW, RIGS, Rig
 

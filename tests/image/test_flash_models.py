@@ -3,7 +3,8 @@
 import pytest
 
 from host_sim.emulator.clock import SECOND
-from host_sim.emulator.flash import FlashF1, FlashF4, FlashFaults, FlashG4
+from host_sim.emulator.flash import FlashFaults
+from host_sim.emulator.flash_kinds import FlashF1, FlashF4, FlashG4
 from host_sim.emulator.registers import BoardError, PowerCut
 from tests.image.support import read, write
 
