@@ -4,6 +4,7 @@ import pytest
 
 from host_sim.backends.images import BOARDS
 from host_sim.emulator.clock import Clock
+from tests.image.update_rig import RIGS, Rig
 
 
 @pytest.fixture
@@ -14,4 +15,10 @@ def clock():
 @pytest.fixture(params=BOARDS)
 def name(request: pytest.FixtureRequest) -> str:
     """A board's."""
+    return request.param
+
+
+@pytest.fixture(params=RIGS, ids=lambda rig: rig.board)
+def rig(request: pytest.FixtureRequest) -> Rig:
+    """A board with a boot loader."""
     return request.param

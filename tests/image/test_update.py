@@ -1,30 +1,23 @@
 """Updates on an emulated board: the boot loader and the images that are flashed, and the tester that people use."""
 
 import re
-from functools import cache, partial
+from functools import cache
 
 import pytest
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
 from udsoncan.exceptions import TimeoutException
 
 from host_sim.client.connection import Connection
-from host_sim.emulator.registers import BoardError
 from host_sim.protocol.codec import Protocol
-from host_sim.update.hub import Hub
 from host_sim.update.image import built_images
 from host_sim.update.isotp_connection import REQUEST_ID, IsoTpConnection
 from host_sim.update.updater import UpdateError, Updater
 from tests.image.support import Talk, run_robot
 from tests.image.update_figures import TimedLink, figures_of
-from tests.image.update_rig import BLUE_PILL, KEY, NEW, OLD, RIGS, Crowd, LossyLink
+from tests.image.update_rig import BLUE_PILL, KEY, NEW, OLD, written
 from tests.tools.project import ROOT
 
 LESSON = {"mask": 0b1111, "half": 0, "byte_0": 0, "byte_1": 1, "byte_2": 0, "byte_3": 0}
-
-
-@pytest.fixture(params=RIGS, ids=lambda rig: rig.board)
-def rig(request):
-    return request.param
 
 
 def learn(board):
@@ -34,34 +27,11 @@ def learn(board):
     return talk
 
 
-def number(board, node):
-    tester = Updater(board, 1, KEY)
-    tester.enter()
-    tester.unlock()
-    tester.set_node(node)
-    tester.restart()
-    board.pass_time(0.2)
-
-
-def update(tester):
-    tester.enter()
-    tester.unlock()
-    tester.install(BLUE_PILL.images(NEW)[tester.status().free], lambda _count: None)
-    tester.restart()
-    tester.running()
-
-
 def proof_in(frames):
     """The frames of the request that carries the proof: a first frame, and those that go on from it."""
     sent = [frame for _, frame in frames if frame.id > REQUEST_ID]
     begin = next(i for i, frame in enumerate(sent) if frame.data[2:4] == b"\x27\x02")
     return [sent[begin], *(frame for frame in sent[begin + 1 :][:9])]
-
-
-def written(board):
-    """Writes and erases of the flash so far, and a copy of it."""
-    flash = board.hardware.flash
-    return flash.operations, bytes(flash.memory)
 
 
 def interrupt_after(count):
@@ -266,81 +236,3 @@ def test_a_chip_whose_image_is_not_signed_stays_in_the_boot_loader(rig):
     tester = rig.put_on(board, NEW)
     tester.restart()
     assert tester.running() == (NEW, True)
-
-
-@pytest.mark.parametrize("rig", [BLUE_PILL], ids=lambda rig: rig.board)
-def test_with_lost_frames_it_arrives_all_the_same(rig):
-    board = rig.fresh_board()
-    updater = Updater(LossyLink(board, 0.02, seed=1), 1, KEY)
-    updater.enter()
-    updater.unlock()
-    updater.install(rig.images(NEW)[1], lambda _count: None)
-
-    data = rig.images(NEW)[1].data
-    assert bytes(board.hardware.flash.memory[rig.layout.slots[1] :][: len(data)]) == data
-    updater.restart()
-    assert updater.running() == (NEW, True)
-
-
-def test_one_image_serves_a_robot_of_another_number(rig):
-    board = rig.fresh_board()
-    tester = Updater(board, 1, KEY)
-    tester.enter()
-    tester.unlock()
-    tester.set_node(7)
-    tester.restart()
-
-    assert Updater(board, 7, KEY).running() == (OLD, False)
-    robot = Talk(board, protocol=Protocol(7))
-    robot.wait(1.5)
-    assert robot.last("HEARTBEAT")
-
-
-@pytest.mark.parametrize("slot", [0, 1], ids=["image", "boot loader"])
-def test_robot_and_boot_loader_join_a_bus_of_the_bit_rate_that_was_set(rig, slot):
-    board = rig.fresh_board()
-    tester = Updater(board, 1, KEY)
-    tester.enter()
-    tester.unlock()
-    tester.set_bitrate(250_000)
-    if slot:
-        board.hardware.flash.memory[rig.layout.slots[0] + 300] ^= 1
-    tester.restart()
-
-    with pytest.raises(BoardError, match="set up for 250000 bit/s, on a bus of 500000"):
-        board.pass_time(0.2)
-    assert (rig.runs_in(board) is None) == bool(slot)
-
-
-@pytest.mark.parametrize("rig", [BLUE_PILL], ids=lambda rig: rig.board)
-def test_two_boards_of_one_number_are_told_apart_before_anything_is_changed(rig):
-    boards = [rig.fresh_board(), rig.fresh_board()]
-    before = [written(board) for board in boards]
-    tester = Updater(Crowd(boards), 1, KEY)
-
-    with pytest.raises(UpdateError, match="2 boards answer as node 1"):
-        tester.enter()
-    assert [written(board) for board in boards] == before
-
-
-@pytest.mark.parametrize("rig", [BLUE_PILL], ids=lambda rig: rig.board)
-def test_a_node_that_is_not_there_is_named(rig):
-    with pytest.raises(UpdateError, match="node 9 does not answer"):
-        Updater(rig.fresh_board(), 9, KEY).enter()
-
-
-@pytest.mark.parametrize("rig", [BLUE_PILL], ids=lambda rig: rig.board)
-def test_four_robots_are_updated_at_once_though_a_tenth_of_the_frames_is_lost(rig):
-    boards = {node: rig.fresh_board() for node in (1, 2, 3, 4)}
-    for node, board in boards.items():
-        number(board, node)
-    hub = Hub(LossyLink(Crowd(boards.values()), 0.1, seed=1))
-
-    failed = hub.run({node: partial(update, Updater(hub.share(node), node, KEY)) for node in boards})
-
-    assert failed == dict.fromkeys(boards)
-    assert {
-        bytes(board.hardware.flash.memory[rig.layout.slots[1] :]).startswith(rig.images(NEW)[1].data)
-        for board in boards.values()
-    } == {True}
-    assert [rig.runs_in(board) for board in boards.values()] == [1, 1, 1, 1]

@@ -120,3 +120,9 @@ class LossyLink:
 
     def close(self) -> None:
         self._board.close()
+
+
+def written(board):
+    """Writes and erases of the flash so far, and a copy of it."""
+    flash = board.hardware.flash
+    return flash.operations, bytes(flash.memory)
