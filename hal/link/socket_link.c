@@ -155,14 +155,16 @@ static int send_frame(struct link *link, const struct frame *frame)
     int fd = ((struct socket_link *)link)->fd;
     struct can_frame raw = {.can_id = frame->id, .len = frame->len};
     memcpy(raw.data, frame->data, frame->len);
-    int64_t deadline = deadline_in_ms(LINK_SEND_MS);
-    do {
-        if (send(fd, &raw, sizeof raw, MSG_DONTWAIT | MSG_NOSIGNAL) == (ssize_t)sizeof raw)
-            return 0;
+    int64_t deadline = 0;
+    while (send(fd, &raw, sizeof raw, MSG_DONTWAIT | MSG_NOSIGNAL) != (ssize_t)sizeof raw) {
         if (errno != EAGAIN && errno != ENOBUFS && errno != EINTR)
             return send_error(errno);
-    } while (deadline_pause(deadline));
-    return LINK_E_FULL;
+        if (deadline == 0)   /* as a rule there is room, and nobody needs to know the time */
+            deadline = deadline_in_ms(LINK_SEND_MS);
+        if (!deadline_pause(deadline))
+            return LINK_E_FULL;
+    }
+    return 0;
 }
 
 static void close_socket(struct link *link)
