@@ -8,10 +8,10 @@ from contextlib import closing
 import can
 import pytest
 
-from host_sim.base.errors import LinkDownError, UsageError
+from host_sim.base.errors import LinkDownError, OctetError, UsageError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.bus_process import BusProcess, start_on_socket_pair
-from host_sim.transport.buses import open_bus, open_bus_link
+from host_sim.transport.buses import open_bus, open_bus_link, receive
 from host_sim.transport.line_stats import LineStats
 
 
@@ -107,6 +107,37 @@ def test_a_bus_that_goes_down_while_it_is_opened_is_shut_down(monkeypatch):
     with pytest.raises(UsageError, match="network is down"):
         open_bus("socketcan:can0", [0x41])
     assert bus.is_down
+
+
+class FailingBus(Bus):
+    """A bus that raises an error instead of receiving."""
+
+    def __init__(self, error: Exception) -> None:
+        super().__init__(frames=0)
+        self.error = error
+
+    def recv(self, _timeout: float) -> None:
+        raise self.error
+
+
+def test_a_frame_is_received_and_silence_is_none():
+    bus = Bus(frames=1)
+
+    assert receive(bus, 0.0) is not None
+    assert receive(bus, 0.0) is None
+
+
+def test_text_that_is_no_frame_counts_as_an_error_frame():
+    message = receive(FailingBus(ValueError("not hexadecimal")), 0.0)
+
+    assert message is not None
+    assert message.is_error_frame
+
+
+@pytest.mark.parametrize("error", [can.CanOperationError("network is down"), OSError("no such device")])
+def test_a_bus_that_is_gone_is_said_in_one_line(error):
+    with pytest.raises(OctetError, match=f"^the bus is gone: {error}$"):
+        receive(FailingBus(error), 0.0)
 
 
 def test_without_filters_nothing_is_forgotten(monkeypatch):
