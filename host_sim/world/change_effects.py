@@ -4,6 +4,7 @@ import math
 import random
 from collections.abc import Sequence
 
+from host_sim.protocol.generated import PLANT_GROWTH_MM, PLANT_RADIUS_MM
 from host_sim.world.arena import Arena
 from host_sim.world.changes import GROW, PLANT, Change
 from host_sim.world.edits import Edit, EditError
@@ -11,7 +12,6 @@ from host_sim.world.geometry import Plant, Point
 from host_sim.world.params import SimParams
 from host_sim.world.reach import Reach, clearance_mm
 
-_RADIUS_MM, _GROWTH_MM = 80.0, 40
 _TRIES = 200
 _BESIDE_MM = 75.0
 """No farther than this from a body beside a wall is a cell of the grid that it can be in."""
@@ -26,7 +26,7 @@ def edits_of(change: Change, arena: Arena, params: SimParams, seed: int) -> list
     if change.name == PLANT:
         numbers = change.numbers
         at = (float(numbers[0]), float(numbers[1])) if numbers else _place(arena, params, seed)
-        return [Edit("plant", at=at, radius=_RADIUS_MM)]
+        return [Edit("plant", at=at, radius=float(PLANT_RADIUS_MM))]
     if change.name == GROW:
         return _growth(arena, change.numbers)
     robots = range(len(arena.bodies)) if change.robot is None else [change.robot - 1]
@@ -36,7 +36,7 @@ def edits_of(change: Change, arena: Arena, params: SimParams, seed: int) -> list
 def _growth(arena: Arena, numbers: Sequence[int]) -> list[Edit]:
     if not arena.obstacles.plants:
         raise EditError("there is no plant in this environment")
-    growth_mm = numbers[0] if numbers else _GROWTH_MM
+    growth_mm = numbers[0] if numbers else PLANT_GROWTH_MM
     return [
         Edit("grow_plant", plant_id, radius=plant.radius_mm + growth_mm)
         for plant_id, plant in arena.obstacles.plants.items()
@@ -48,7 +48,7 @@ def _place(arena: Arena, params: SimParams, seed: int) -> Point:
     draws = random.Random(f"octet {seed} plant {len(arena.obstacles.plants)}")
     for _ in range(_TRIES):
         at = float(int(draws.random() * params.width_mm)), float(int(draws.random() * params.height_mm))
-        if _is_fair(Plant(at, _RADIUS_MM), arena, params):
+        if _is_fair(Plant(at, PLANT_RADIUS_MM), arena, params):
             return at
     raise EditError("there is no room for a plant that leaves a way to all food")
 

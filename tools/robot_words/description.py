@@ -61,6 +61,7 @@ class Description:
         columns: What views show of a row: each with its place there.
         sentences: What the robot says, by reasons and other names.
         kit_settings: Parameters that a robot with a body of the kit is set to, unless a run says otherwise.
+        plant: Radius and growth of a plant, mm.
         body_sentences: What has happened to a body, by the names of faults.
         cell_count: Number of bytes of a memory.
         node_max: The last node.
@@ -90,6 +91,7 @@ class Description:
     columns: Mapping[str, int]
     sentences: Mapping[str, str]
     kit_settings: Mapping[str, int]
+    plant: Mapping[str, int]
     body_sentences: Mapping[str, str]
     cell_count: int
     node_max: int

@@ -86,6 +86,7 @@ def _describe(database: Database, words: Mapping[str, Any]) -> Description:
         columns=_columns(words["columns"], [*(it.signal for it in (*senses, *drive)), *words["recorded"]]),
         sentences=_sentences(words["sentences"], enums["reason"]),
         kit_settings=words["kit_settings"],
+        plant=words["plant"],
         body_sentences=words["body_sentences"],
         cell_count=_cell_count(words["patterns"], database.get_message_by_name("MEMORY")),
         node_max=_node_max(words["node_max"], database),

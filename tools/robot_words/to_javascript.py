@@ -24,6 +24,7 @@ def module(robot: Description) -> str:
         for p in robot.parameters
     }
     exports["KIT_SETTINGS"] = dict(robot.kit_settings)
+    exports["PLANT"] = dict(robot.plant)
     exports["NODE_MAX"] = robot.node_max
     exports["RANGE_NONE"] = robot.range_none
     exports["ANSWER_WANTS_RANGES"] = robot.answer_wants_ranges

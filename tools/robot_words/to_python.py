@@ -101,6 +101,8 @@ def _constants(robot: Description) -> dict[str, str]:
         "SIDES: tuple[str, ...]": repr(tuple(robot.enums["side"])),
         "FEEL: dict[str, int]": repr({c_name(name): 1 << bit for bit, name in enumerate(robot.feel)}),
         "CELL_COUNT": str(robot.cell_count),
+        "PLANT_RADIUS_MM": str(robot.plant["radius_mm"]),
+        "PLANT_GROWTH_MM": str(robot.plant["growth_mm"]),
         "NODE_MAX": str(robot.node_max),
         "RANGE_NONE": str(robot.range_none),
         "ANSWER_WANTS_RANGES": str(robot.answer_wants_ranges),
