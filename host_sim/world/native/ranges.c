@@ -123,7 +123,7 @@ static void look_around(struct view *view, double heading_rad, double width_deg)
 }
 
 /* What a robot can be told of a distance from the centre of its body. */
-static uint8_t told(const struct ranges *ranges, double found_mm, unsigned cone)
+static uint8_t range_to(const struct ranges *ranges, double found_mm, unsigned cone)
 {
     double range_mm = vector_whole(found_mm - ranges->body_radius_mm);
 
@@ -143,5 +143,5 @@ void ranges_measure(const struct ranges *ranges, const struct world *world, cons
     if (!body->lifted)
         measure_bodies(&view, world, body);
     for (unsigned n = 0; n < FEEL_COUNT; n++)
-        range_mm[n] = told(ranges, view.found_mm[n], n);
+        range_mm[n] = range_to(ranges, view.found_mm[n], n);
 }
