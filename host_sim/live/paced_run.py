@@ -26,6 +26,7 @@ from host_sim.protocol.generated import Drive, Reason
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.simulation import Simulation
+from host_sim.sim.world_record import WorldRecord
 from host_sim.world.edits import Edit, EditError
 from host_sim.world.params import SimParams
 
@@ -46,6 +47,11 @@ _STEPS = {Reason.WANDER: Reason.WANDER, Reason.LOOK_AROUND: Reason.WANDER, Reaso
 Reject = Callable[[str], None]
 
 
+def _changes(record: WorldRecord) -> int:
+    """Number of changes of the world that were made or could not be."""
+    return len(record.edits) + len(record.refused)
+
+
 @dataclass
 class PacedRun:
     """Plays a simulation a few ticks at a time, with the event loop's other work in between.
@@ -63,7 +69,7 @@ class PacedRun:
         ended_at: Tick at which the current environment ended, before the pause; None while it goes on.
         episodes: The results of the environments so far.
         started_over: Number of episodes before the run was last started over.
-        layout: Number of changes of the arena, by a person or with a new environment.
+        layout: Number of changes of the arena, whoever made them, new environments among them.
         change: Number of changes that a page shows and that happened between ticks.
         rate: Current rate, ticks per second.
         late: Number of ticks that began more than 0.1 s late.
@@ -205,9 +211,9 @@ class PacedRun:
 
     def _tick(self) -> None:
         simulation = self.simulation
-        in_blocks, changes = self.speed == FULL_SPEED and self._decided is None, simulation.record.changes
+        in_blocks, changes = self.speed == FULL_SPEED and self._decided is None, _changes(simulation.record)
         simulation.step(simulation.block_ticks if in_blocks else 1)
-        self.layout += simulation.record.changes - changes
+        self.layout += _changes(simulation.record) - changes
         if self._has_decided(simulation.drives[0]):
             self._pause()
         if simulation.over:

@@ -47,6 +47,8 @@ def laboratory(
         return {"why": "What if? needs the world of the run, which is not known here."}
     if record.program is not None:
         return {"why": "What if? runs the firmware's own brain, and the brain of this run was a program."}
+    if record.world.crates is not None:
+        return {"why": "What if? has no pymunk, which pushed the crates of this run."}
     if nodes != list(range(1, len(nodes) + 1)) or len(nodes) > ROBOTS_MAX:
         return {"why": f"What if? knows robots of nodes 1 to {ROBOTS_MAX} only."}
     if trajectory.first_tick:

@@ -11,7 +11,7 @@ from host_sim.protocol.generated import PARAMETERS
 from host_sim.report.page_bundle import bundle, packed, page_of, with_data
 from host_sim.report.speakers import with_speakers
 from host_sim.view.state import measures
-from host_sim.world.world_names import WORLD_NAMES
+from host_sim.world.world_names import STILL_WORLDS
 from host_sim.world.worlds import world_of
 
 _TEMPLATE, _WORKER = "octet.html", "sim/page_worker.js"
@@ -61,7 +61,7 @@ def world_dimensions() -> dict[str, dict[str, Any]]:
     boredom = PARAMETERS["boredom_limit"].default
     return {
         world.name: {**asdict(world.params), "style": world.style, "measures": measures(world.params, boredom)}
-        for world in map(world_of, WORLD_NAMES)
+        for world in map(world_of, STILL_WORLDS)
     }
 
 

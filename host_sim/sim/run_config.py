@@ -12,7 +12,7 @@ from host_sim.protocol.words import NODE_MAX, PARAMETERS, PROFILES
 from host_sim.transport.bit_rates import BIT_RATE, BIT_RATES
 from host_sim.world.body_kinds import PINS, body_kind
 from host_sim.world.physics_names import FAST, PHYSICS, PYMUNK
-from host_sim.world.world_names import RANDOM, WORLD_NAMES
+from host_sim.world.world_names import CRATES, RANDOM, WORLD_NAMES
 
 ROBOTS = ("spawn", "external", "qemu", "emulated", "observe")
 """The ways to get a robot."""
@@ -194,7 +194,7 @@ class RunConfig:
         None,
         "physics engine: pymunk, the reference, or fast, which gives the same bytes in a fraction of the time",
         choices=PHYSICS,
-        unset="pymunk on a CAN bus, else fast",
+        unset="pymunk on a CAN bus and with crates, else fast",
     )
     changes: tuple[str, ...] = option(
         (),
@@ -228,6 +228,8 @@ class RunConfig:
                 raise UsageError(f"{name} must be one of {row.range}, not {value!r}")
         if self.robot == "observe" and (self.robots > 1 or not getattr(self, "watch", False)):
             raise UsageError("one robot that runs by itself is watched: tools/octet watch --bus BUS --robot observe")
+        if self.world == CRATES and (self.is_fleet or self.physics == FAST):
+            raise UsageError(f"only pymunk can push what --world {CRATES} has: no --physics {FAST}, and no fleet")
         if self.body == PINS and self.robot != "emulated":
             raise UsageError(
                 "--body pins is a robot on the pins of an emulated board: use --robot emulated --board blue_pill or "
@@ -257,7 +259,7 @@ class RunConfig:
     @property
     def chosen_physics(self) -> str:
         """One of `PHYSICS`."""
-        return self.physics or (PYMUNK if ":" in self.bus else FAST)
+        return self.physics or (PYMUNK if ":" in self.bus or self.world == CRATES else FAST)
 
     @property
     def told(self) -> dict[str, int]:

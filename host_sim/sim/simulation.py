@@ -4,6 +4,7 @@ import gc
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from host_sim.client.pacing import BegunTick, Lockstep, Pace
 from host_sim.client.robot_client import RobotClient
@@ -22,6 +23,9 @@ from host_sim.world.edits import Edit, EditError
 from host_sim.world.layouts import World
 from host_sim.world.params import SimParams
 from host_sim.world.physics_names import FAST, PYMUNK
+
+if TYPE_CHECKING:
+    from host_sim.world.crates import Crates
 
 SPACES_MAX = 32
 """Number of pymunk spaces that may wait to be freed. A space and its handlers form a cycle that holds 260 kB in C, of
@@ -85,6 +89,7 @@ class Simulation:
     senses: list[Senses] = field(init=False)
     drives: Sequence[Drive] = field(init=False)
     _before: Sequence[Body] = ()
+    _crates: "Crates | None" = None
     _measuring: list[int] = field(default_factory=list)
     _settled: bool = False
     _hasty: set[int] = field(default_factory=set)
@@ -136,6 +141,10 @@ class Simulation:
         self.arena = Arena(layout, self.params, self._before, self.physics, self.kind)
         if number == 1:
             self.arena.begin(self.seed)
+        if self.world.crates is not None:
+            from host_sim.world.crates import Crates  # noqa: PLC0415 - other runs begin sooner without pymunk
+
+            self._crates = Crates(self.arena, self.world.crates)
         self.episode = EpisodeResult(self.params.tick_s, [RobotResult(node) for node in self.nodes])
         self._measuring = [i for i, client in enumerate(self.clients) if client.wants_ranges]
         self._enter_loop()
@@ -146,8 +155,8 @@ class Simulation:
         self._settled = False
 
     def _enter_loop(self) -> None:
-        if self._measuring:
-            self.loop = None  # it knows no distances
+        if self._measuring or self._crates is not None:
+            self.loop = None  # it knows no distances, and pushes nothing
             return
         if not (self.native and isinstance(self.pace, Lockstep) and suits(self.clients)):
             return
@@ -169,6 +178,8 @@ class Simulation:
             self._step_in_c(self.loop, ticks_max)
             return
         self._step_once()
+        for edit in self._crates.push(self.drives) if self._crates is not None else ():
+            self.edit(edit)
         self.watch(self)
 
     def _step_in_c(self, loop: NativeLoop, ticks_max: int) -> None:

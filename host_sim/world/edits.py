@@ -24,9 +24,10 @@ class Edit:
 
     Attributes:
         do: Its name in `EDITS`. `add_bar`, `move_bar` and `remove_bar` change the obstacles, and `plant`,
-            `move_plant`, `grow_plant` and `remove_plant` the plants; what is added gets the next id. `move_food`
-            moves a piece of food, eaten or not. A robot that was lifted (`lift`) turns its wheels, but does not move
-            or sense anything until it is put down (`put`). `body` breaks something in a body, or repairs it.
+            `move_plant`, `grow_plant` and `remove_plant` the plants; what is added gets the next id. `push_bar` says
+            where robots have pushed an obstacle. `move_food` moves a piece of food, eaten or not. A robot that was
+            lifted (`lift`) turns its wheels, but does not move or sense anything until it is put down (`put`).
+            `body` breaks something in a body, or repairs it.
         id: The obstacle, plant or piece of food that changes.
         robot: The robot, counted from 0.
         seed: When noise strikes follows from it.

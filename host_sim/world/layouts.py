@@ -61,6 +61,19 @@ def generate(seed: int, number: int, params: SimParams, robots: int = 1) -> Layo
 
 
 @dataclass(frozen=True)
+class CrateKind:
+    """What bars are like that robots can push.
+
+    Attributes:
+        kg_per_m2: Mass by the area on the floor.
+        friction: Coefficient of friction, with the floor and with what touches them.
+    """
+
+    kg_per_m2: float
+    friction: float
+
+
+@dataclass(frozen=True)
 class World:
     """A kind of environment.
 
@@ -68,11 +81,13 @@ class World:
         name: Its name.
         params: Its dimensions.
         draw: What its layouts are drawn from, or the only one.
+        crates: What its bars are like where robots can push them; None: they stay where they are.
     """
 
     name: str
     params: SimParams
     draw: Style | WrittenLayout = "bars"
+    crates: CrateKind | None = None
 
     def generate(self, seed: int, number: int, robots: int = 1) -> Layout:
         """Draws the layout for a seed and a number: always the same one.

@@ -1,6 +1,9 @@
 """The names of the worlds, for those who only name them."""
 
-RANDOM = "random"
+RANDOM, CRATES = "random", "crates"
 
-WORLD_NAMES = (RANDOM, "corridors", "dead-ends", "posts", "crowded", "small")
-"""In the order in which people see them. `worlds.py` has the worlds."""
+STILL_WORLDS = (RANDOM, "corridors", "dead-ends", "posts", "crowded", "small")
+"""Those in which nothing can be pushed, in the order in which people see them."""
+
+WORLD_NAMES = (*STILL_WORLDS, CRATES)
+"""All of them. What stands in the last one can be pushed, which takes pymunk. `worlds.py` has the worlds."""

@@ -4,9 +4,9 @@ from pathlib import Path
 
 from host_sim.base.errors import UsageError
 from host_sim.base.near_word import near_word
-from host_sim.world.layouts import World
+from host_sim.world.layouts import CrateKind, World
 from host_sim.world.params import SimParams
-from host_sim.world.world_names import RANDOM, WORLD_NAMES
+from host_sim.world.world_names import CRATES, RANDOM, WORLD_NAMES
 from host_sim.world.written_world import read_world_file
 
 _SMALL = SimParams(
@@ -26,6 +26,11 @@ _WORLDS = {
         World("posts", SimParams(bar_count=24, bar_length_mm=(80.0, 120.0))),
         World("crowded", SimParams(bar_count=14, bar_length_mm=(300.0, 800.0))),
         World("small", _SMALL),
+        World(
+            CRATES,
+            SimParams(bar_count=16, bar_length_mm=(180.0, 240.0), bar_thickness_mm=80.0),
+            crates=CrateKind(kg_per_m2=15.0, friction=0.3),
+        ),
     )
 }
 

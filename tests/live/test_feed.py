@@ -28,6 +28,22 @@ def test_a_page_is_told_what_is_new_and_only_that(live):
     assert "environment" not in feed.next()
 
 
+def test_a_page_sees_crates_move():
+    blind = tuple(f"stuck-off:{sensor}@0s" for sensor in ("front", "front-left", "front-right"))
+    with make(RunConfig(environments=1, world="crates", changes=blind)) as simulation:
+        run = PacedRun(simulation, RunRecorder.of(simulation, boredom_limit=10), lambda _: None, speed=FULL_SPEED)
+        run.begin()
+        feed = PageFeed(run)
+        feed.next()
+        while not any(edit.do == "push_bar" for _, edit in simulation.record.edits):
+            assert not simulation.over
+            run._tick()
+
+    last = simulation.record.edits[-1].edit
+    bars = {bar_id: ends for bar_id, *ends in json.loads(feed.next())["environment"]["bars"]}
+    assert bars[last.id] == [*last.a, *last.b]
+
+
 def test_a_page_that_asks_seldom_gets_no_more_than_one_that_asks_often(live):
     run = live(speed=FULL_SPEED)
     feed = PageFeed(run)

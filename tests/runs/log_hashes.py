@@ -27,7 +27,7 @@ from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.world.edits import Edit, EditError
-from host_sim.world.world_names import WORLD_NAMES
+from host_sim.world.world_names import STILL_WORLDS
 
 EDITS = {
     60: Edit("plant", at=(700.0, 600.0), radius=80.0),
@@ -89,7 +89,7 @@ def runs() -> Iterator[Recorded]:
 
 
 def _of_seed(seed: int) -> Iterator[Recorded]:
-    for world in (*WORLD_NAMES, "docs/worlds/two_walls.toml"):
+    for world in (*STILL_WORLDS, "docs/worlds/two_walls.toml"):
         yield _recorded(f"world {world}", seed, environments=2, limit_s=20.0, world=world)
     for profile in PROFILES:
         yield _recorded(f"behaviour {profile}", seed, limit_s=30.0, profile=profile)

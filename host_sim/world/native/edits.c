@@ -46,8 +46,10 @@ static bool is_on_robot(const struct arena *arena, const struct obstacles *obsta
     return false;
 }
 
-static const char *put_bar(const struct arena *arena, size_t place, struct bar bar)
+/* Robots press against a bar that they push: it may stand where they are. */
+static const char *put_bar(const struct arena *arena, size_t place, const struct edit *edit)
 {
+    struct bar bar = {edit->a, edit->b};
     struct obstacles alone = furniture_obstacles(arena->furniture);
 
     alone.bars = &bar;
@@ -57,16 +59,16 @@ static const char *put_bar(const struct arena *arena, size_t place, struct bar b
         return OUTSIDE;
     if (apart_mm(bar.a, bar.b) < 2 * arena->furniture->bar_radius_mm)
         return "the obstacle is too short";
-    if (is_on_robot(arena, &alone))
+    if (edit->kind != EDIT_KIND_PUSH_BAR && is_on_robot(arena, &alone))
         return STANDS_THERE;
     arena->furniture->bars[place] = bar;
     return NULL;
 }
 
-static const char *add_bar(const struct arena *arena, struct bar bar)
+static const char *add_bar(const struct arena *arena, const struct edit *edit)
 {
     struct furniture *furniture = arena->furniture;
-    const char *why = furniture->bar_count < EDIT_BARS_MAX ? put_bar(arena, furniture->bar_count, bar)
+    const char *why = furniture->bar_count < EDIT_BARS_MAX ? put_bar(arena, furniture->bar_count, edit)
                                                            : "there are 40 obstacles already";
 
     if (!why)
@@ -74,11 +76,11 @@ static const char *add_bar(const struct arena *arena, struct bar bar)
     return why;
 }
 
-static const char *move_bar(const struct arena *arena, uint32_t id, struct bar bar)
+static const char *move_bar(const struct arena *arena, const struct edit *edit)
 {
-    size_t place = place_of(arena->furniture->bar_ids, arena->furniture->bar_count, id);
+    size_t place = place_of(arena->furniture->bar_ids, arena->furniture->bar_count, edit->id);
 
-    return place == arena->furniture->bar_count ? NO_NUMBER : put_bar(arena, place, bar);
+    return place == arena->furniture->bar_count ? NO_NUMBER : put_bar(arena, place, edit);
 }
 
 static const char *remove_bar(struct furniture *furniture, uint32_t id)
@@ -214,9 +216,10 @@ static const char *make(const struct arena *arena, const struct edit *edit)
 {
     switch (edit->kind) {
     case EDIT_KIND_ADD_BAR:
-        return add_bar(arena, (struct bar){edit->a, edit->b});
+        return add_bar(arena, edit);
     case EDIT_KIND_MOVE_BAR:
-        return move_bar(arena, edit->id, (struct bar){edit->a, edit->b});
+    case EDIT_KIND_PUSH_BAR:
+        return move_bar(arena, edit);
     case EDIT_KIND_REMOVE_BAR:
         return remove_bar(arena->furniture, edit->id);
     case EDIT_KIND_MOVE_FOOD:

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Page
 
 from host_sim.protocol.generated import PARAMETERS
-from host_sim.world.world_names import WORLD_NAMES
+from host_sim.world.world_names import STILL_WORLDS
 from tests.runs.support import octet
 from tests.web.lab.support import SIZES, go, saved, settle, simulated
 from tests.web.looks import PHONES, TOO_SMALL, check, out_of_view, resize, violations_at
@@ -116,7 +116,7 @@ def test_runs_that_are_gone_take_no_memory(page):
 
     assert {kind: alive(page, f"octet.lane{path}") for kind, path in (("run", ""), ("drawing", ".renderer"))} == {
         "run": 1,
-        "drawing": 1 + len(WORLD_NAMES),  # each has its picture
+        "drawing": 1 + len(STILL_WORLDS),  # each has its picture
     }
 
 

@@ -120,6 +120,7 @@ JUNK = [
     '{"do": "move_bar", "id": 0}',
     '{"do": "move_bar", "id": 0, "a": [0], "b": [1, 2]}',
     '{"do": "move_bar", "id": 0, "a": [0, "x"], "b": [1, 2]}',
+    '{"do": "push_bar", "id": 0, "a": [500, 500], "b": [700, 500]}',
     '{"do": "move_food", "id": 0, "at": [-1, 0]}',
     '{"do": "move_food", "id": 0, "at": [1e9, 0]}',
     '{"do": "put", "at": [0, 0], "heading": 99999}',

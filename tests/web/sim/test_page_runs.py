@@ -10,6 +10,7 @@ from host_sim.protocol.generated import PROFILES
 from host_sim.report.octet_page import world_dimensions
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.reach import tour_mm
+from host_sim.world.world_names import CRATES
 from host_sim.world.worlds import world_of
 from tests.runs.support import octet
 from tests.web.sim.node import in_node
@@ -32,7 +33,7 @@ return layouts.map(({ world, ...which }) => {
 """
 
 
-@pytest.mark.parametrize("name", DIGESTS)
+@pytest.mark.parametrize("name", sorted(DIGESTS.keys() - {CRATES}))
 def test_the_layouts_of_a_world_stay_the_same_for_ever(tmp_path, name):
     asked, world = tmp_path / "layouts.json", {"name": name, **WRITTEN[name]} if name in WRITTEN else name
     layouts = [{"world": world, **which._asdict()} for which in WANTED_LAYOUTS]

@@ -65,6 +65,18 @@ TEST(a_bar_is_moved)
     TEST_ASSERT_EQUAL_STRING("there is no such number", edit((struct edit){.kind = EDIT_KIND_REMOVE_BAR, .id = 1}));
 }
 
+TEST(a_bar_that_is_pushed_may_press_against_a_robot)
+{
+    TEST_ASSERT_EQUAL_STRING("the robot stands there", bar(EDIT_KIND_MOVE_BAR, 0, 1119.0, 900.0, 1119.0, 1100.0));
+    TEST_ASSERT_EQUAL_DOUBLE(500.0, furniture.bars[0].a.x);
+    TEST_ASSERT_NULL(bar(EDIT_KIND_PUSH_BAR, 0, 1119.0, 900.0, 1119.0, 1100.0));
+    TEST_ASSERT_EQUAL_DOUBLE(1119.0, furniture.bars[0].a.x);
+    TEST_ASSERT_EQUAL_STRING("that is outside of the arena", bar(EDIT_KIND_PUSH_BAR, 0, -1.0, 0.0, 100.0, 0.0));
+    TEST_ASSERT_EQUAL_STRING("the obstacle is too short", bar(EDIT_KIND_PUSH_BAR, 0, 3000.0, 10.0, 3039.0, 10.0));
+    TEST_ASSERT_EQUAL_STRING("there is no such number", bar(EDIT_KIND_PUSH_BAR, 1, 3000.0, 100.0, 3000.0, 200.0));
+    TEST_ASSERT_EQUAL_DOUBLE(1119.0, furniture.bars[0].a.x);
+}
+
 TEST(a_bar_lies_in_the_arena_on_no_robot_and_is_as_long_as_it_is_thick)
 {
     TEST_ASSERT_EQUAL_STRING("that is outside of the arena", bar(EDIT_KIND_ADD_BAR, 0, -1.0, 0.0, 100.0, 0.0));
