@@ -1,6 +1,7 @@
 """A log of any firmware is checked for the protocol alone; on a bus that loses frames it tells the whole story."""
 
 import re
+import shutil
 from pathlib import Path
 
 import pytest
@@ -160,36 +161,39 @@ def test_a_robot_that_says_in_real_time_that_it_heard_nothing_makes_no_differenc
     assert (outcome.drives, outcome.difference) == (20, None)
 
 
-def real_time_run(folder, *faults: str):
-    """The log of a run in real time, in which frames are lost."""
-    rules = [word for fault in faults for word in ("--fault", fault)]
-    words = ("--bus", "fd", "--environments", "1", "--limit-s", "2", "--real-time", *BUSY_HOST, *rules)
-    assert octet("run", *words, "--out", folder).returncode == 0
-    return folder / "run.log"
+def recorded(name: str) -> Path:
+    """The log of a run in real time, in which frames were lost."""
+    return Path(__file__).parent / f"data/{name}.log"
 
 
-@pytest.mark.parametrize(
-    "faults",
-    [("drop@23-37/to", "drop@80-92/to"), ("drop@23-28/to",), ("drop@23-28/from",)],
-    ids=["outages", "a gap", "lost answers"],
-)
-def test_senses_that_the_robot_has_not_heard_make_no_difference(faults, tmp_path):
-    outcome = replay(read_log(real_time_run(tmp_path, *faults)), PROTOCOL)
+@pytest.mark.parametrize(("name", "unanswered"), [("outages", 28), ("a_gap", 6), ("lost_answers", 6)])
+def test_senses_that_the_robot_has_not_heard_make_no_difference(name, unanswered):
+    """--fault drop@23-37/to with drop@80-92/to, drop@23-28/to, and drop@23-28/from."""
+    outcome = replay(read_log(recorded(name)), PROTOCOL)
 
-    assert outcome.unanswered >= 6
-    assert outcome.difference is None
+    assert (outcome.unanswered, outcome.drives, outcome.difference) == (unanswered, 100 - unanswered, None)
 
 
 @pytest.mark.parametrize("name", ["unsaid_outage", "late_answer"])
 def test_what_a_busy_machine_recorded_makes_no_difference(name):
     """An outage for which a robot rests without an EMERGENCY; a DRIVE after the next SENSES, which are lost."""
-    outcome = replay(read_log(Path(__file__).parent / f"data/{name}.log"), PROTOCOL)
+    outcome = replay(read_log(recorded(name)), PROTOCOL)
 
     assert (outcome.drives, outcome.difference) == (25, None)
 
 
+def test_a_run_of_now_makes_no_difference_or_lacks_what_would_tell(tmp_path):
+    """What a busy host adds to the loss may be more than its log can tell."""
+    words = ("--bus", "fd", "--environments", "1", "--limit-s", "2", "--real-time", "--fault", "drop@23-28/from")
+    assert octet("run", *words, *BUSY_HOST, "--out", tmp_path).returncode == 0
+
+    done = octet("replay", tmp_path / "run.log")
+
+    assert done.returncode == 0 or "The log does not tell which of them the robot heard" in done.stdout
+
+
 def test_a_difference_after_unanswered_senses_says_so(tmp_path):
-    log = real_time_run(tmp_path, "drop@23-28/to")
+    log = Path(shutil.copy(recorded("a_gap"), tmp_path))
     edited(log, "DRIVE", 50, faster)
 
     done = octet("replay", log)
