@@ -161,6 +161,19 @@ class Bench:
                 raise BenchError(f"after {self.now_ms} ms: {error}") from None
             self._time.now_ms += 1
 
+    def run_until(self, signal: str, wanted: Callable[[float], object], ms: int) -> None:
+        """Lets time pass until the value of a signal that the device has sent last is as wanted.
+
+        Raises:
+            BenchError: It was not within so many ms, or the device has ended.
+        """
+        __tracebackhide__ = True
+        for _ in range(ms):
+            if any(wanted(value) for _, value in self._told(signal)[-1:]):
+                return
+            self.run(1)
+        raise BenchError(f"within {ms} ms {signal} was not as wanted; it was {self[signal]:g} in the end")
+
     def __getitem__(self, signal: str) -> float:
         """The value that the device has sent last, as `can_bench["STATUS.speed"]`.
 
@@ -177,14 +190,13 @@ class Bench:
             BenchError: It has sent none yet.
         """
         __tracebackhide__ = True
+        return self._told(signal) or self._never_heard(signal)
+
+    def _told(self, signal: str) -> list[tuple[int, float]]:
+        __tracebackhide__ = True
         name, _, of = signal.partition(".")
         self.setup.messages.check_names(name, [of])
-        told = [
-            (heard.at_ms, heard.signals[of]) for heard in self.heard if heard.name == name and of in heard.signals
-        ]
-        if not told:
-            self._never_heard(signal)
-        return told
+        return [(at_ms, signals[of]) for at_ms, said, signals in self.heard if said == name and of in signals]
 
     def close(self) -> None:
         """Switches the device off."""

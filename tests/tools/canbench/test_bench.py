@@ -107,6 +107,18 @@ def test_what_the_device_says_has_its_time(open_bench):
     assert bench["STATUS.speed"] == bench.history("STATUS.speed")[-1][1] > 0
 
 
+def test_time_passes_until_the_device_says_what_is_wanted(open_bench):
+    bench = open_bench()
+    bench.send_cyclic("SETPOINT", speed=800)
+
+    bench.run_until("STATUS.speed", lambda speed: speed > 0, 1000)
+    assert 0 < bench.now_ms < 1000
+    with pytest.raises(BenchError, match=r"^within 50 ms STATUS.speed was not as wanted; it was [\d.]+ in"):
+        bench.run_until("STATUS.speed", lambda speed: speed < 0, 50)
+    with pytest.raises(UsageError, match="STATUS has no signal sped"):
+        bench.run_until("STATUS.sped", lambda _: True, 50)
+
+
 def test_what_is_misspelt_is_said_before_anything_was_heard(open_bench):
     bench = open_bench()
 
