@@ -3,6 +3,7 @@
 import gc
 import math
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -178,8 +179,7 @@ class Simulation:
             self._step_in_c(self.loop, ticks_max)
             return
         self._step_once()
-        for edit in self._crates.push(self.drives) if self._crates is not None else ():
-            self.edit(edit)
+        self._push()
         self.watch(self)
 
     def _step_in_c(self, loop: NativeLoop, ticks_max: int) -> None:
@@ -264,6 +264,11 @@ class Simulation:
         """
         self.arena.edit(edit)
         self.record.add(Edited(self.tick, edit))
+
+    def _push(self) -> None:
+        for edit in self._crates.push(self.drives) if self._crates is not None else ():
+            with suppress(EditError):  # one that a person has put into a wall, or made very short, stays there
+                self.edit(edit)
 
     def _surprise(self) -> None:
         for change in self._schedule.due(self.tick):

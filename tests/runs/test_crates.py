@@ -6,6 +6,10 @@ import pytest
 
 from host_sim.recording.resimulation import resimulate
 from host_sim.recording.world_file import read_world
+from host_sim.sim.make import make
+from host_sim.sim.run_config import RunConfig
+from host_sim.world.crates import Crates
+from host_sim.world.edits import Edit
 from tests.runs.support import octet
 
 BLIND = [word for sensor in ("front", "front-left", "front-right") for word in ("--change", f"stuck-off:{sensor}@0s")]
@@ -31,6 +35,21 @@ def test_pushes_are_no_news_and_their_page_says_why_it_cannot_ask_what_if(run):
     assert "What if? has no pymunk, which pushed the crates of this run." in page
     assert not any("push" in sentence for _, sentence in resimulate(done.out / "run.log").trajectory.news)
     assert json.loads((done.out / "summary.json").read_text())["world"] == "crates"
+
+
+@pytest.mark.parametrize("ends", [((-1.0, 500.0), (200.0, 500.0)), ((500.0, 500.0), (550.0, 550.0))], ids=str)
+def test_a_crate_that_cannot_be_where_it_is_pushed_stays_where_it_was(monkeypatch, ends):
+    """A person can put one halfway into a wall, or make it so short that rounding is too much for it."""
+    monkeypatch.setattr(Crates, "push", lambda *_: [Edit("push_bar", 0, a=ends[0], b=ends[1])])
+    with make(RunConfig(world="crates", environments=1, limit_s=0.2)) as simulation:
+        simulation.enter(1)
+        before = simulation.arena.obstacles.bars
+        while not simulation.over:
+            simulation.step()
+
+    assert simulation.tick == 10
+    assert simulation.arena.obstacles.bars == before
+    assert simulation.record.edits == []
 
 
 @pytest.mark.parametrize(
