@@ -179,7 +179,8 @@ class Simulation:
             self._step_in_c(self.loop, ticks_max)
             return
         self._step_once()
-        self._push()
+        if self._crates is not None:
+            self._push(self._crates)
         self.watch(self)
 
     def _step_in_c(self, loop: NativeLoop, ticks_max: int) -> None:
@@ -265,8 +266,8 @@ class Simulation:
         self.arena.edit(edit)
         self.record.add(Edited(self.tick, edit))
 
-    def _push(self) -> None:
-        for edit in self._crates.push(self.drives) if self._crates is not None else ():
+    def _push(self, crates: "Crates") -> None:
+        for edit in crates.push(self.drives):
             with suppress(EditError):  # one that a person has put into a wall, or made very short, stays there
                 self.edit(edit)
 
