@@ -201,6 +201,20 @@ def test_what_fails_inside_is_named(tmp_path: Path, way: str) -> None:
     assert "panic" not in done.stderr.lower()
 
 
+def test_a_kernel_that_fails_after_the_command_takes_nothing_from_its_exit_code(tmp_path: Path, way: str) -> None:
+    text = WITH_VCAN.read_text()
+    assert "  wait %1 %2\n" in text
+    shutil.copy(TOOLS / "legacy-fpu", tmp_path)
+    broken = tmp_path / "with-vcan"
+    broken.write_text(text.replace("  wait %1 %2\n", "  echo c >/proc/sysrq-trigger\n"))
+
+    done = subprocess.run(["bash", broken, "bash", "-c", "exit 3"], capture_output=True, text=True, check=False)
+
+    inside = way == "user-mode-linux"
+    assert done.returncode == 3
+    assert ("octet: the command had ended when User-Mode Linux stopped" in done.stderr) == inside
+
+
 def descendants(pid: int) -> list[int]:
     try:
         children = [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
