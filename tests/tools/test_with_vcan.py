@@ -215,6 +215,42 @@ def test_a_kernel_that_fails_after_the_command_takes_nothing_from_its_exit_code(
     assert ("octet: the command had ended when User-Mode Linux stopped" in done.stderr) == inside
 
 
+# In place of User-Mode Linux: ends at once, but for a process that has stopped and holds the outputs open.
+LEAVES_ONE = """#!/usr/bin/env python3
+import os, pathlib, signal, sys
+(box,) = (word.partition("=")[2] for word in sys.argv if word.startswith("uml_dir="))
+os.setsid()
+left = os.fork()
+if left == 0:
+    os.kill(os.getpid(), signal.SIGSTOP)
+os.waitpid(left, os.WUNTRACED)
+pathlib.Path("{noted}").write_text(str(left))
+if "{code}":
+    pathlib.Path(box, "code").write_text("{code}")
+else:
+    signal.pause()
+"""
+
+
+@pytest.mark.parametrize("code", ["4", ""], ids=["ended", "killed"])
+def test_what_the_kernel_left_behind_ends_with_it(tmp_path: Path, way: str, code: str) -> None:
+    noted, fake = tmp_path / "noted", tmp_path / "linux.uml"
+    fake.write_text(LEAVES_ONE.format(noted=noted, code=code))
+    fake.chmod(0o755)
+    environment = {**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}"}
+    process = subprocess.Popen([WITH_VCAN, "sleep", "1" if code else "1000"], env=environment)
+    if way != "user-mode-linux":
+        process.kill()
+        return
+    assert soon(lambda: noted.exists() and noted.read_text() != "")
+
+    if not code:
+        process.kill()
+
+    assert process.wait(60) == (int(code) if code else -signal.SIGKILL)
+    assert soon(lambda: not alive(int(noted.read_text())))
+
+
 def descendants(pid: int) -> list[int]:
     try:
         children = [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
