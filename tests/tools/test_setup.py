@@ -66,7 +66,7 @@ def test_what_is_compiled_is_said_once_for_each_folder(tree: Tree) -> None:
 
     done, _ = tree.setup("images")
 
-    said = sorted(done.stderr.splitlines())
+    said = sorted(line for line in done.stderr.splitlines() if "compiling" in line)  # not what the system lacks
     boards = ("blue_pill", "feather_stm32f405", "host", "nucleo_g431rb")
     assert said == [f"octet: compiling in build/{board}, which takes a while" for board in boards]
 
