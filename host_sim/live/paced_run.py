@@ -26,7 +26,6 @@ from host_sim.protocol.generated import Drive, Reason
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.simulation import Simulation
-from host_sim.sim.world_record import WorldRecord
 from host_sim.world.edits import Edit, EditError
 from host_sim.world.params import SimParams
 
@@ -45,11 +44,6 @@ _STEPS = {Reason.WANDER: Reason.WANDER, Reason.LOOK_AROUND: Reason.WANDER, Reaso
 """The reasons of small steps: several of them with the same value here make one decision."""
 
 Reject = Callable[[str], None]
-
-
-def _changes(record: WorldRecord) -> int:
-    """Number of changes of the world that were made or could not be."""
-    return len(record.edits) + len(record.refused)
 
 
 @dataclass
@@ -211,9 +205,9 @@ class PacedRun:
 
     def _tick(self) -> None:
         simulation = self.simulation
-        in_blocks, changes = self.speed == FULL_SPEED and self._decided is None, _changes(simulation.record)
+        in_blocks, changes = self.speed == FULL_SPEED and self._decided is None, simulation.record.edits_tried
         simulation.step(simulation.block_ticks if in_blocks else 1)
-        self.layout += _changes(simulation.record) - changes
+        self.layout += simulation.record.edits_tried - changes
         if self._has_decided(simulation.drives[0]):
             self._pause()
         if simulation.over:

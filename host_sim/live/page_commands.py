@@ -122,7 +122,7 @@ def page_command_from(text: str) -> PageCommand | NameTag | Question:
         raise ValueError("not an object")
     parse = _PARSERS.get(str(fields.get("do")))
     command = edit_from(fields) if parse is None else parse(fields)
-    if command is None or (isinstance(command, Edit) and command.do == "push_bar"):  # only robots push
+    if command is None or fields.get("do") == "push_bar":  # only robots push
         raise ValueError("no such command")
     if isinstance(command, Edit) and command.do in {"lift", "put"}:
         return MoveRobot(command, _node(fields))

@@ -179,9 +179,9 @@ class Simulation:
             self._step_in_c(self.loop, ticks_max)
             return
         self._step_once()
+        self.watch(self)
         if self._crates is not None:
             self._push(self._crates)
-        self.watch(self)
 
     def _step_in_c(self, loop: NativeLoop, ticks_max: int) -> None:
         """Runs a block; what did not go as usual in its last tick is done in Python, as everywhere."""

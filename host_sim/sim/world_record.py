@@ -73,6 +73,11 @@ class WorldRecord:
         """Number of changes of a schedule that were due."""
         return len(self.happened) + len(self.refused)
 
+    @property
+    def edits_tried(self) -> int:
+        """Number of changes of the world that were made or could not be."""
+        return len(self.edits) + len(self.refused)
+
     def begin(self, begun: Begun) -> None:
         """Adds an environment. Edits after the last tick of the previous one are dropped: no robot sensed them.
 

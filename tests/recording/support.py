@@ -28,13 +28,19 @@ class Kept:
 
 
 def record_run(
-    folder: Path, seed: int = 1, environments: int = 1, limit_s: float = 600.0, meddle: Meddle | None = None
+    folder: Path,
+    seed: int = 1,
+    environments: int = 1,
+    limit_s: float = 600.0,
+    meddle: Meddle | None = None,
+    **options,
 ) -> Kept:
-    """Does a run; `meddle` is called before each tick."""
+    """Does a run with these and other options; `meddle` is called before each tick."""
     folder.mkdir(exist_ok=True)
     log = folder / "run.log"
     with ExitStack() as stack:
-        simulation = open_simulation(stack, log, RunConfig(seed=seed, environments=environments, limit_s=limit_s))
+        config = RunConfig(seed=seed, environments=environments, limit_s=limit_s, **options)
+        simulation = open_simulation(stack, log, config)
         recorder = run_through(simulation, meddle)
         stop(simulation.clients[0])
     write_world(simulation.record, world_path(log))

@@ -166,12 +166,14 @@ def recorded(name: str) -> Path:
     return Path(__file__).parent / f"data/{name}.log"
 
 
-@pytest.mark.parametrize(("name", "unanswered"), [("outages", 28), ("a_gap", 6), ("lost_answers", 6)])
-def test_senses_that_the_robot_has_not_heard_make_no_difference(name, unanswered):
-    """--fault drop@23-37/to with drop@80-92/to, drop@23-28/to, and drop@23-28/from."""
+@pytest.mark.parametrize(
+    ("name", "unanswered", "drives"), [("outages", 28, 37), ("a_gap", 6, 34), ("lost_answers", 6, 34)]
+)
+def test_senses_that_the_robot_has_not_heard_make_no_difference(name, unanswered, drives):
+    """--fault drop@13-27/to with drop@43-55/to, drop@13-18/to, and drop@13-18/from."""
     outcome = replay(read_log(recorded(name)), PROTOCOL)
 
-    assert (outcome.unanswered, outcome.drives, outcome.difference) == (unanswered, 100 - unanswered, None)
+    assert (outcome.unanswered, outcome.drives, outcome.difference) == (unanswered, drives, None)
 
 
 @pytest.mark.parametrize("name", ["unsaid_outage", "late_answer"])
@@ -187,14 +189,14 @@ def test_a_run_of_now_makes_no_difference_or_lacks_what_would_tell(tmp_path):
     words = ("--bus", "fd", "--environments", "1", "--limit-s", "2", "--real-time", "--fault", "drop@23-28/from")
     assert octet("run", *words, *BUSY_HOST, "--out", tmp_path).returncode == 0
 
-    done = octet("replay", tmp_path / "run.log")
+    outcome = replay(read_log(tmp_path / "run.log"), PROTOCOL)
 
-    assert done.returncode == 0 or "The log does not tell which of them the robot heard" in done.stdout
+    assert outcome.difference is None or outcome.unanswered > 6
 
 
 def test_a_difference_after_unanswered_senses_says_so(tmp_path):
     log = Path(shutil.copy(recorded("a_gap"), tmp_path))
-    edited(log, "DRIVE", 50, faster)
+    edited(log, "DRIVE", 25, faster)
 
     done = octet("replay", log)
 

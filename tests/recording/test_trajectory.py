@@ -2,6 +2,7 @@
 
 import asyncio
 import math
+from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
@@ -26,6 +27,7 @@ from host_sim.recording.world_file import world_path, write_world
 from host_sim.sim.make import start_robots
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
+from host_sim.world.crates import Crates
 from host_sim.world.edits import Edit
 from host_sim.world.geometry import Bar
 from host_sim.world.params import SimParams
@@ -90,6 +92,20 @@ def meddle(simulation: Simulation, run_recorder: RunRecorder) -> None:
     }
     at_tick.get(simulation.tick, lambda: None)()
     run_recorder.histories[0].frozen = simulation.tick >= 300
+
+
+def test_what_robots_pushed_is_where_it_was_in_each_tick(tmp_path, monkeypatch):
+    """In the last tick of an environment, too: nobody sees what that pushes."""
+
+    def push(crates: Crates, _drives: object) -> Iterator[Edit]:
+        (ax, ay), (bx, by) = crates._arena.obstacles.bars[0]
+        yield Edit("push_bar", 0, a=(round(ax) + 1.0, round(ay)), b=(round(bx) + 1.0, round(by)))
+
+    monkeypatch.setattr(Crates, "push", push)
+    run = record_run(tmp_path, environments=2, limit_s=0.2, world="crates")
+
+    assert [tick for tick, _ in run.trajectory.scenes] == list(range(20))
+    assert_equal(resimulate(run.log).trajectory, run.trajectory)
 
 
 def test_what_people_did_happens_again(tmp_path):

@@ -186,14 +186,20 @@ def test_a_missing_command_is_named_with_its_package() -> None:
     assert missing(**hidden) == "the command ip (Debian's package iproute2)\n"
 
 
-def test_what_fails_inside_is_named(tmp_path: Path, way: str) -> None:
+def changed(folder: Path, old: str, new: str) -> Path:
+    """A copy of tools/with-vcan that has one text in place of another."""
     text = WITH_VCAN.read_text()
-    assert "net/can/can-raw" in text
-    shutil.copy(TOOLS / "legacy-fpu", tmp_path)
-    broken = tmp_path / "with-vcan"
-    broken.write_text(text.replace("net/can/can-raw", "net/can/nosuch"))
+    assert text.count(old) == 1
+    for name in ("with-vcan", "legacy-fpu"):
+        shutil.copy(TOOLS / name, folder)
+    (folder / "with-vcan").write_text(text.replace(old, new))
+    return folder / "with-vcan"
 
-    done = subprocess.run(["bash", broken, "true"], capture_output=True, text=True, check=False)
+
+def test_what_fails_inside_is_named(tmp_path: Path, way: str) -> None:
+    broken = changed(tmp_path, "net/can/can-raw", "net/can/nosuch")
+
+    done = subprocess.run([broken, "true"], capture_output=True, text=True, check=False)
 
     inside = way == "user-mode-linux"
     assert done.returncode == int(inside)
@@ -202,13 +208,9 @@ def test_what_fails_inside_is_named(tmp_path: Path, way: str) -> None:
 
 
 def test_a_kernel_that_fails_after_the_command_takes_nothing_from_its_exit_code(tmp_path: Path, way: str) -> None:
-    text = WITH_VCAN.read_text()
-    assert "  wait %1 %2\n" in text
-    shutil.copy(TOOLS / "legacy-fpu", tmp_path)
-    broken = tmp_path / "with-vcan"
-    broken.write_text(text.replace("  wait %1 %2\n", "  echo c >/proc/sysrq-trigger\n"))
+    broken = changed(tmp_path, "  wait %1 %2\n", "  echo c >/proc/sysrq-trigger\n")
 
-    done = subprocess.run(["bash", broken, "bash", "-c", "exit 3"], capture_output=True, text=True, check=False)
+    done = subprocess.run([broken, "bash", "-c", "exit 3"], capture_output=True, text=True, check=False)
 
     inside = way == "user-mode-linux"
     assert done.returncode == 3
@@ -233,15 +235,13 @@ else:
 
 
 @pytest.mark.parametrize("code", ["4", ""], ids=["ended", "killed"])
-def test_what_the_kernel_left_behind_ends_with_it(tmp_path: Path, way: str, code: str) -> None:
+def test_what_the_kernel_left_behind_ends_with_it(tmp_path: Path, code: str) -> None:
+    with_vcan = changed(tmp_path, "way=$(how)\nif", "way=user-mode-linux\nif")
     noted, fake = tmp_path / "noted", tmp_path / "linux.uml"
     fake.write_text(LEAVES_ONE.format(noted=noted, code=code))
     fake.chmod(0o755)
     environment = {**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}"}
-    process = subprocess.Popen([WITH_VCAN, "sleep", "1" if code else "1000"], env=environment)
-    if way != "user-mode-linux":
-        process.kill()
-        return
+    process = subprocess.Popen([with_vcan, "sleep", "1" if code else "1000"], env=environment)
     assert soon(lambda: noted.exists() and noted.read_text() != "")
 
     if not code:
