@@ -207,6 +207,14 @@ def test_what_fails_inside_is_named(tmp_path: Path, way: str) -> None:
     assert "panic" not in done.stderr.lower()
 
 
+def test_no_program_uses_what_corrupts_the_kernel(way: str) -> None:
+    """io_uring, in kernels that can do without it."""
+    look = "cat /proc/sys/kernel/io_uring_disabled || echo 2"
+    disabled = subprocess.check_output([WITH_VCAN, "bash", "-c", look], text=True, stderr=subprocess.DEVNULL)
+
+    assert way != "user-mode-linux" or disabled == "2\n"
+
+
 def test_a_kernel_that_fails_after_the_command_takes_nothing_from_its_exit_code(tmp_path: Path, way: str) -> None:
     broken = changed(tmp_path, "  wait %1 %2\n", "  echo c >/proc/sysrq-trigger\n")
 
@@ -215,6 +223,16 @@ def test_a_kernel_that_fails_after_the_command_takes_nothing_from_its_exit_code(
     inside = way == "user-mode-linux"
     assert done.returncode == 3
     assert ("octet: the command had ended when User-Mode Linux stopped" in done.stderr) == inside
+
+
+def test_nothing_counts_that_a_damaged_kernel_did(tmp_path: Path, way: str) -> None:
+    broken = changed(tmp_path, "  wait %1 %2\n", "  wait %1 %2\n  echo '<1>BUG: canary' >/dev/kmsg\n")
+
+    done = subprocess.run([broken, "true"], capture_output=True, text=True, check=False)
+
+    inside = way == "user-mode-linux"
+    assert done.returncode == int(inside)
+    assert ("BUG: canary" in done.stderr and "does not count" in done.stderr) == inside
 
 
 # In place of User-Mode Linux: ends at once, but for a process that has stopped and holds the outputs open.
