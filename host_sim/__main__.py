@@ -33,7 +33,7 @@ def main() -> int:
         from host_sim.base.extra_library import missing  # noqa: PLC0415 - see above
         from host_sim.base.paths import INSTALLED  # noqa: PLC0415 - see above
 
-        again = f"{error.name} is missing from .venv: remove that folder, and call again"
+        again = f"{error.name} is missing from .venv: remove that folder and run the command again"
         sys.stderr.write(f"octet: {missing(error.name or '', '') if INSTALLED else again}\n")
         return 1
 

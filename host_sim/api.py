@@ -58,9 +58,9 @@ class Run:
 
     Attributes:
         episodes: The result of each environment.
-        trajectory: What pictures and pages are made of; of a very long run, its last environments.
-        memories: Each robot's eight cells in the end.
-        log_sha256: SHA-256 of the log without the data of BOOT, in hexadecimal: equal for equal frames in any build.
+        trajectory: The data for pictures and pages; of a very long run, only its last environments.
+        memories: Each robot's eight cells at the end.
+        log_sha256: SHA-256 of the log without the data of BOOT, in hexadecimal: equal for equal frames, in any build.
     """
 
     episodes: list[EpisodeResult]

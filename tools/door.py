@@ -1,4 +1,4 @@
-"""Judges a command line before anything is installed or built: help and mistakes need no set-up.
+"""Checks a command line before anything is installed or built: help and mistakes need no set-up.
 
 The plain python3 runs `tools/door.py PACKAGE WORD...`. The package's `judge` names the stages of tools/setup that the
 words need; these are set up, and `python -m PACKAGE WORD...` of .venv takes over.

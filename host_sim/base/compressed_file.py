@@ -12,13 +12,13 @@ _GZIP = 16 + zlib.MAX_WBITS
 
 
 class CompressedFile:
-    """Writes a file in gzip's format. Wherever it is cut off, all but the last 64 kB that were written can be read.
+    """Writes a gzip file. If it is cut off anywhere, all but the last 64 kB written before can be read.
 
-    Equal content gives equal bytes, however it was handed over.
+    Equal content gives equal bytes, however it is split into writes.
     """
 
     def __init__(self, file: BinaryIO) -> None:
-        """Takes a file that is open for writing, and closes it in the end."""
+        """Takes a file that is open for writing; `close` closes it."""
         self._file, self._waiting = file, bytearray()
         self._compressor = zlib.compressobj(_LEVEL, zlib.DEFLATED, _GZIP)
         self._is_empty = True
@@ -29,7 +29,7 @@ class CompressedFile:
         return self._file.closed
 
     def write(self, content: bytes) -> None:
-        """Takes content, of which the last part stays in memory for a while.
+        """Appends content; its last part is buffered in memory.
 
         Raises:
             OSError: It cannot be written.
@@ -41,7 +41,7 @@ class CompressedFile:
             self._put(chunk, zlib.Z_SYNC_FLUSH)
 
     def flush(self) -> None:
-        """Writes all that was taken.
+        """Writes everything that is buffered.
 
         Raises:
             OSError: It cannot be written.
@@ -50,7 +50,7 @@ class CompressedFile:
         self._put(chunk, zlib.Z_SYNC_FLUSH)
 
     def close(self) -> None:
-        """Writes the rest. A file to which nothing was written stays empty.
+        """Writes the rest and closes the file. A file to which nothing was written stays empty.
 
         Raises:
             OSError: It cannot be written; it is closed all the same.

@@ -22,11 +22,11 @@ class RefusedError(RobotError):
 
 
 class SessionLostError(RobotError):
-    """The robot no longer behaves as the one that was started here; the message says how that was noticed.
+    """The robot is no longer in the session that was started here; the message says how that was noticed.
 
     Attributes:
-        doubt: What makes the result doubtful whatever has become of the robot, as a sentence; empty for nothing.
-        booted: Whether the robot said that it has started anew.
+        doubt: Why the result is unreliable even if the robot recovers, as a sentence; empty if it is not.
+        booted: Whether the robot reported that it has restarted.
         silent: Whether the robot did not answer in time.
     """
 

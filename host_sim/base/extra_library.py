@@ -11,7 +11,7 @@ from host_sim.base.paths import BUILD, INSTALLED
 
 
 def missing(name: str, stage: str) -> str:
-    """What to do about a library that is not there, in a line.
+    """A one-line message that says how to install a missing library.
 
     Args:
         name: Its module.

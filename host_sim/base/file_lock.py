@@ -14,11 +14,11 @@ def lock(descriptor: int, name: str, instead: str) -> None:
 
     Args:
         descriptor: What is open.
-        name: What is locked by it, for a message.
-        instead: What to do if it cannot be, for a message.
+        name: What the lock protects, for the message.
+        instead: What to do if it is locked already, for the message.
 
     Raises:
-        UsageError: It cannot be locked, or another run has done so.
+        UsageError: It cannot be locked, or another run has locked it.
     """
     try:
         lock_at_once(descriptor)

@@ -15,7 +15,7 @@ def near_word(word: str, words: Iterable[str]) -> str | None:
 
 
 def meant(word: object, words: Iterable[object]) -> str:
-    """What there is, for a message about a word that is none of them; the nearest one alone if one is near.
+    """The end of a message about an unknown word: the nearest known word, or all of them if none is near.
 
     >>> meant("artcle", ["article", "fixed"])
     'did you mean article?'

@@ -10,7 +10,7 @@ PACKAGE = Path(__file__).resolve().parents[1]
 
 _TREE = PACKAGE / "tree"
 INSTALLED = _TREE.is_dir()
-"""Whether this came as a wheel; otherwise it is a checkout, which tools/setup builds."""
+"""Whether this was installed as a wheel; otherwise it is a checkout, which tools/setup builds."""
 
 ROOT = _TREE if INSTALLED else PACKAGE.parent
 """The project's root folder, or what a wheel has of it."""
@@ -27,7 +27,7 @@ _CALLED = {
 
 
 def as_called(text: str) -> str:
-    """A text for people with the project's commands as they are called here: those of a checkout, or of a wheel."""
+    """Rewrites the commands in a text for people as they are called here, in a checkout or with a wheel."""
     for checkout, wheel in _CALLED.items() if INSTALLED else ():
         text = re.sub(checkout, wheel.replace("\\", r"\\"), text)
     return text

@@ -35,7 +35,7 @@ def open_bytes(path: Path, limit: int) -> BinaryIO:
     file.close()
     if not stat.S_ISREG(status.st_mode):
         raise UsageError(f"cannot read {path}: it is not a regular file")
-    raise UsageError(f"cannot read {path}: {status.st_size} bytes, at most {limit} are accepted")
+    raise UsageError(f"cannot read {path}: it has {status.st_size} bytes, and at most {limit} are accepted")
 
 
 def read_bytes(path: Path, limit: int) -> bytes:
@@ -57,12 +57,12 @@ def read_text(path: Path, limit: int) -> str:
 
 
 def read_words(path: Path, limit: int, parse: Callable[[str], Word]) -> list[Word]:
-    """What is in a file with a word on each line; # begins a comment.
+    """The words in a file with one word on each line; # begins a comment.
 
     Args:
         path: The file.
         limit: The greatest size accepted, bytes.
-        parse: Makes something of a word, or raises UsageError.
+        parse: Converts a word, or raises UsageError.
 
     Raises:
         UsageError: The file cannot be read, is not text, or has a wrong word; the message names the line.

@@ -18,8 +18,8 @@ class Case(NamedTuple):
     Attributes:
         name: What was checked.
         result: `passed`, `failed` or `skipped`.
-        text: What there is to say about it.
-        seconds: The time that it took; 0 if that is not known.
+        text: Details, such as why it failed.
+        seconds: How long it took, s; 0 if unknown.
     """
 
     name: str
@@ -29,10 +29,10 @@ class Case(NamedTuple):
 
 
 def write_results(suite: str, cases: Sequence[Case], json_path: Path | None, junit_path: Path | None) -> None:
-    """Writes the files that are wanted.
+    """Writes the files that are asked for.
 
     Args:
-        suite: What the checks are of.
+        suite: What the checks test.
         cases: The checks.
         json_path: A list of objects with the fields of `Case`; None for no such file.
         junit_path: A `testsuite`; None for no such file.

@@ -1,4 +1,4 @@
-"""A terminal's screen that is drawn again and again, beside what was on it before."""
+"""A full-screen terminal display that restores what was on the screen before."""
 
 import shutil
 from collections.abc import Callable, Iterator, Sequence
@@ -11,7 +11,7 @@ _ENTER, _LEAVE = "\x1b[?1049h\x1b[?25l", "\x1b[?25h\x1b[?1049l"
 
 @contextmanager
 def full_screen(out: TextIO) -> Iterator[Callable[[Sequence[str]], None]]:
-    """Gives what draws lines, cut to the screen's size; at the end the terminal is as before."""
+    """Yields a function that draws lines, cut to the screen's size; restores the terminal at the end."""
 
     def draw(lines: Sequence[str]) -> None:
         width, height = shutil.get_terminal_size()

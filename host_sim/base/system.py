@@ -19,7 +19,7 @@ except ModuleNotFoundError:  # Windows
     fcntl = resource = None  # type: ignore[assignment]
 
 ENDING_SIGNALS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
-"""The signals that end a run in order."""
+"""The signals that end a run in an orderly way."""
 
 NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 """Flag of `os.open`: refuses a symbolic link."""
@@ -28,7 +28,7 @@ NO_WAIT = getattr(os, "O_NONBLOCK", 0)
 """Flag of `os.open`: does not wait for the other end of a pipe."""
 
 HAS_ROBOT_PROCESSES = sys.platform == "linux"
-"""Whether the firmware can be a process of its own, on a socket pair or a CAN interface."""
+"""Whether the firmware can run as a process of its own, on a socket pair or a CAN interface."""
 
 _HAS_ALARM = hasattr(signal, "setitimer")
 _OTHERS = stat.S_IRWXG | stat.S_IRWXO
@@ -36,7 +36,7 @@ _FILES = 512
 
 
 def lock_at_once(descriptor: int) -> None:
-    """Locks what is open until it is closed.
+    """Locks an open file or folder until it is closed, without waiting.
 
     Raises:
         BlockingIOError: Another process has locked it.
@@ -85,14 +85,14 @@ def give_mode(descriptor: int, before: os.stat_result | None) -> None:
 
 
 def _umask() -> int:
-    """The process's mask, which can only be read by setting it."""
+    """The process's umask, which can only be read by setting it."""
     mask = os.umask(0)
     os.umask(mask)
     return mask
 
 
 def is_own(about: os.stat_result) -> bool:
-    """Whether a file is this user's alone; on Windows its folder, which is the user's, sees to that."""
+    """Whether only this user can access a file. On Windows the user's own folder ensures that."""
     return not hasattr(os, "geteuid") or (about.st_uid == os.geteuid() and not about.st_mode & _OTHERS)
 
 
@@ -115,12 +115,12 @@ def signals_held() -> Iterator[None]:
 
 
 def on_alarm(handler: Any) -> Any:
-    """Sets what the alarm calls, and returns what it called. Windows has none, and no robot that can hang."""
+    """Sets the alarm's handler and returns the old one. Windows has no alarm, and no robot process that can hang."""
     return signal.signal(signal.SIGALRM, handler) if _HAS_ALARM else signal.SIG_IGN
 
 
 def set_alarm(seconds: float) -> None:
-    """Sets off the alarm after a while; 0 calls it off."""
+    """Schedules the alarm in some seconds; 0 cancels it."""
     if _HAS_ALARM:
         signal.setitimer(signal.ITIMER_REAL, seconds)
 
@@ -128,7 +128,7 @@ def set_alarm(seconds: float) -> None:
 def on_signal(
     loop: "asyncio.AbstractEventLoop", number: int, action: Callable[[], None], at_once: Callable[[], None]
 ) -> None:
-    """Has a signal call a function between two steps of an event loop, and another one at once."""
+    """Calls one function between two steps of an event loop on a signal, and another one at once."""
     try:
         loop.add_signal_handler(number, action)
     except NotImplementedError:  # Windows

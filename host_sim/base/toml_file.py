@@ -36,7 +36,7 @@ class TomlFile:
     content: Mapping[str, Any]
 
     def error(self, message: object, key: str, **where: Any) -> UsageError:
-        """What is wrong with a key; see `line_of`."""
+        """An error about a key, with its line; see `line_of`."""
         return UsageError(f"{self.path}:{line_of(self.text, key, **where)}: {message}")
 
 
@@ -44,7 +44,7 @@ def read_toml(path: Path, what: str) -> TomlFile:
     """Reads a file that describes something.
 
     Raises:
-        UsageError: It cannot be read, or is not TOML.
+        UsageError: The file cannot be read, or is not TOML.
     """
     try:
         text = read_text(path, _SIZE_MAX)
@@ -54,7 +54,7 @@ def read_toml(path: Path, what: str) -> TomlFile:
     except UnicodeDecodeError:
         raise UsageError(f"{path} is not {what}: it is not text") from None
     except RecursionError:
-        raise UsageError(f"{path}: too many brackets within each other") from None
+        raise UsageError(f"{path}: brackets are nested too deeply") from None
     except toml.TOMLDecodeError as error:
         where = _WHERE.search(str(error))
         line = where[1] if where and where[1] else max(1, len(text.splitlines()))
@@ -64,7 +64,7 @@ def read_toml(path: Path, what: str) -> TomlFile:
 
 
 def line_of(text: str, key: str, *, table: str = "", index: int = 0, entry: int = -1) -> int:
-    r"""The line in which a key stands.
+    r"""The line number of a key.
 
     >>> line_of('a = 1\n[[goals]]\n[[goals]]\nb = 2\n', "b", table="goals", index=1)
     4
@@ -77,7 +77,7 @@ def line_of(text: str, key: str, *, table: str = "", index: int = 0, entry: int 
         entry: Which entry of the key's list, from 0; -1 for all of it.
 
     Returns:
-        The line, from 1. Where the key or its table is written in another way: the line of what holds it, or 1.
+        The line, from 1. If the key or its table is written in another way: the line of what contains it, or 1.
     """
     lines = text.splitlines()
     first = _first_line(lines, key, table, index)

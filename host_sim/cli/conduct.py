@@ -29,10 +29,10 @@ from host_sim.world.body_kinds import body_kind
 from host_sim.world.worlds import world_of
 
 FAULTS = "faults.txt"
-"""The faults that were made on purpose, in the folder of a run."""
+"""File in the run's folder: the faults that were injected."""
 
 REFUSED = "refused.log"
-"""The frames that were refused, each with its reason, in the folder of a run."""
+"""File in the run's folder: the frames that were refused, each with its reason."""
 
 _NOTHING = (0,) * CELL_COUNT
 
@@ -93,7 +93,7 @@ def _stop(outputs: Outputs) -> None:
 
 @contextmanager
 def _memories(options: RunOptions) -> Iterator[list[Memory | None]]:
-    """What the memory files hold; until the run has ended they are this run's alone."""
+    """Loads the memory files and locks them until the run has ended."""
     paths = _memory_paths(options)
     with ExitStack() as locks:
         for path in paths:
@@ -104,12 +104,12 @@ def _memories(options: RunOptions) -> Iterator[list[Memory | None]]:
 
 
 def _check_no_output(memory: Path, options: RunOptions) -> None:
-    """Refuses a memory file that the run would write over."""
+    """Refuses a memory file that the run would overwrite."""
     names = (SUMMARY, PICTURE, PAGE, FAULTS, REFUSED, *LOGS)
     outputs = [options.out / name for name in names] + [world_path(options.log)]
     # Not Path.resolve: that fails for a link to itself.
     if os.path.realpath(memory) in map(os.path.realpath, outputs):
-        raise UsageError(f"the run writes something else to {memory}: choose another file with --memory")
+        raise UsageError(f"the run would overwrite {memory}: choose another file with --memory")
 
 
 def _announce(options: RunOptions, loaded: Sequence[Memory | None]) -> None:
@@ -127,7 +127,7 @@ def _write_what_there_is(outputs: Outputs, end: BaseException) -> None:
         if isinstance(end, KeyboardInterrupt):
             stop_soon(outputs.simulation.clients)
     if not outputs.has_begun and any((outputs.options.out / name).exists() for name in LOGS):
-        return  # a run without a tick takes no other's place
+        return  # a run without a tick replaces no other
     with suppress(OctetError):
         outputs.write()
         if isinstance(end, KeyboardInterrupt):
@@ -142,7 +142,7 @@ def _check_trust(summary: Summary) -> None:
 
 
 def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
-    """Writes the faults that were made, as rules for single frames."""
+    """Writes the injected faults, as rules for single frames."""
     from host_sim.faults.faulty_link import FaultyLink
 
     links = [client.connection.link for client in clients]
@@ -155,7 +155,7 @@ def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
 
 
 def _write_refused(path: Path, clients: Sequence[RobotClient]) -> None:
-    """Writes what was refused, in order of time; a file of an earlier run goes."""
+    """Writes the refused frames in order of time, or removes the file of an earlier run if there are none."""
     lines = sorted(line for client in clients for line in client.refused.lines)
     more = sum(client.refused.unlisted for client in clients)
     left_out = [f"# and {more} more, not recorded"] if more else []
@@ -176,8 +176,7 @@ def _print_robot(options: RunOptions, client: RobotClient) -> None:
 def _first_memories(options: RunOptions, loaded: Sequence[Memory | None]) -> list[Memory | None]:
     """Each robot's memory at its start, from its file.
 
-    Where the file does not exist yet: a robot that is started here has an empty memory; that of an external one is
-    erased.
+    If the file does not exist yet, a robot started here begins with an empty memory, and an external one is erased.
     """
     missing = _NOTHING if options.robot == "external" else None
     return [memory or missing for memory in loaded]

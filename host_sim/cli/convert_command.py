@@ -1,4 +1,4 @@
-"""`tools/octet convert`: makes a log of today's from one of wire 1."""
+"""`tools/octet convert`: converts a log of wire 1 to today's format."""
 
 import argparse
 import shutil

@@ -35,16 +35,16 @@ def add(commands: "Subparsers") -> None:
     which.add_argument("--nodes", type=nodes, metavar="FIRST-LAST", help="node numbers, such as 1-8 or 1,3,5-7")
     which.add_argument("--node", type=number(1, NODE_MAX), metavar="NODE", help="one node number")
     parser.add_argument(
-        "--kcd", action="store_true", help="print KCD instead, which has no place for send types and protection"
+        "--kcd", action="store_true", help="print KCD instead, which cannot hold send types and protection"
     )
 
 
 def nodes(text: str) -> list[int]:
-    """An argument type: node numbers and spans of them, separated by commas; in ascending order, each once."""
+    """An argument type: node numbers and ranges, separated by commas. Returns them sorted, without duplicates."""
     spans = [_SPAN.fullmatch(part) for part in text.split(",")]
     ends = [(int(span[1]), int(span[2] or span[1])) for span in spans if span]
     if len(ends) < len(spans) or any(not 1 <= first <= last <= NODE_MAX for first, last in ends):
-        raise argparse.ArgumentTypeError(f"{text!r} is not such as 1-8 or 1,3,5-7, with numbers from 1 to {NODE_MAX}")
+        raise argparse.ArgumentTypeError(f"{text!r} is no list of nodes from 1 to {NODE_MAX}: write 1-8 or 1,3,5-7")
     return sorted({node for first, last in ends for node in range(first, last + 1)})
 
 

@@ -30,7 +30,7 @@ def conduct_fleet(options: RunOptions) -> Summary:
 
     Raises:
         UsageError: There is no such world; nothing was changed.
-        OctetError: The run could not be made.
+        OctetError: The run failed.
     """
     config, line = options, ProgressLine(shown=options.talks)
     world_of(config.world)  # a mistake in it is found before anything is begun

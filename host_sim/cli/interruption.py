@@ -1,4 +1,4 @@
-"""Ends a run in order and soon when a signal asks for it: between two ticks, so that its log has no half tick."""
+"""Ends a run on a signal: between two ticks, so that the log ends with a whole tick."""
 
 import signal
 import time
@@ -14,14 +14,14 @@ from host_sim.live.ending_signals import TICK_S, at_most
 from host_sim.sim.simulation import Simulation
 
 STOP_S = 1.0
-"""Time for all robots of a run that is cut short to stop and to report."""
+"""Time for all robots of an interrupted run to stop and report, s."""
 
 
 @contextmanager
 def interrupted_between_ticks(simulation: Simulation) -> Iterator[None]:
-    """Has each signal that is handled already take effect after the current tick.
+    """Delays each handled signal until the current tick has ended.
 
-    It does so at once if it is the second one, or if the tick does not end within `TICK_S`.
+    A second signal takes effect at once; so does the first one if the tick does not end within `TICK_S`.
 
     Args:
         simulation: The simulation. Its `watch` must not be changed afterwards.
@@ -73,7 +73,7 @@ def stop_soon(clients: Sequence[RobotClient]) -> None:
 
 @contextmanager
 def until_ctrl_c(limit_s: float) -> Iterator[Callable[[], bool]]:
-    """Whether to go on: until some time has passed or the first Ctrl-C. The second one raises."""
+    """Yields a function that is true until `limit_s` has passed or the first Ctrl-C. A second Ctrl-C raises."""
     end_s = time.monotonic() + limit_s
     asked: list[int] = []
 

@@ -11,8 +11,8 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 examples:
-  tools/octet load                   what 1, 2, 3... robots take at worst at each bit rate
-  tools/octet load out/run.log       what was on the bus, stuff bits counted, against the worst case
+  tools/octet load                   worst case of 1, 2, 3... robots at each bit rate
+  tools/octet load out/run.log       the load in a log, with stuff bits, beside the worst case
 """
 
 
@@ -24,7 +24,7 @@ def add(commands: "Subparsers") -> None:
         _load,
         summary="print the bus load",
         description="Prints the bus load: the worst case from octet.dbc, or as measured in a log.\n"
-        "In brackets: with robots that ask for RANGES.",
+        "Figures in brackets are for robots that ask for RANGES.",
         epilog=_EXAMPLES,
     )
     parser.add_argument("log", type=file_path, nargs="?", metavar="LOG", help="log to measure (default: worst case)")

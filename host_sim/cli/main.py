@@ -1,7 +1,7 @@
 """The command line, `tools/octet COMMAND ...`.
 
 Each module NAME_command of this package, or of a folder in host_sim/lab, adds a command NAME; A_B_command adds two.
-A name with a hyphen has none there.
+Module names leave out hyphens.
 """
 
 import argparse
@@ -30,7 +30,7 @@ _GROUPS = {
     "CAN bus and protocol": ("monitor", "load", "check-robot", "dbc", "protocol"),
     "firmware": ("calibrate", "update", "keygen"),
 }
-"""What the list of commands has, and in which order."""
+"""The commands, in the order of the list."""
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
@@ -63,13 +63,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def judge(arguments: Sequence[str]) -> Sequence[str]:
-    """Judges a command line before anything is set up, with the standard library only.
+    """Checks a command line before anything is set up, with the standard library only.
 
     Returns:
         The stages of tools/setup that it needs.
 
     Raises:
-        SystemExit: It is wrong, or asks for help; all has been said.
+        SystemExit: The command line is wrong or asks for help; the message has been printed.
     """
     stages: list[str] = []
 
@@ -85,7 +85,7 @@ def judge(arguments: Sequence[str]) -> Sequence[str]:
 
 
 def _run(action: Callable[[], int]) -> int:
-    """Does something; what goes wrong is told in a line. Returns the exit code."""
+    """Runs an action, reports an error in one line, and returns the exit code."""
     _open_closed()
     with _signals_raised():
         try:
@@ -109,14 +109,14 @@ def _run(action: Callable[[], int]) -> int:
 
 
 def parser_of(given: Sequence[str]) -> Parser:
-    """The parser of a command line: with the command that it names, or else with all commands."""
+    """The parser for a command line: with the command that it names, or with all commands."""
     parser = Parser(
         prog=as_called("tools/octet"),
         usage="%(prog)s COMMAND [OPTION ...]",
         description="Octet: a robot that learns with eight bytes of memory. `tools/octet COMMAND --help` says more.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("--version", action="store_true", help="print the version, and exit")
+    parser.add_argument("--version", action="store_true", help="print the version and exit")
     commands = parser.add_subparsers(
         required=True, metavar="COMMAND", parser_class=Parser, prog=parser.prog, help=argparse.SUPPRESS
     )
@@ -154,7 +154,7 @@ def _overview(parsers: Mapping[str, Parser]) -> str:
 
 @contextlib.contextmanager
 def _signals_raised() -> Iterator[None]:
-    """Has SIGTERM and SIGHUP raise here, unless the process was started to ignore them, as by nohup."""
+    """Turns SIGTERM and SIGHUP into exceptions, unless the process was started to ignore them, as by nohup."""
     numbers = [n for n in ENDING_SIGNALS if n != signal.SIGINT and signal.getsignal(n) == signal.SIG_DFL]
     for number in numbers:
         signal.signal(number, _raise_end)
@@ -179,7 +179,7 @@ def _modules_for(arguments: Sequence[str]) -> list[str]:
 
 
 def _open_closed() -> None:
-    """Opens the null device for each stream that is closed: else a file of the run would get the stream's number."""
+    """Opens the null device on each closed standard stream; otherwise a file of the run would get its descriptor."""
     for number in filter(_is_closed, range(3)):
         os.dup2(os.open(os.devnull, os.O_RDWR), number)
         os.set_inheritable(number, True)
@@ -189,12 +189,12 @@ def _open_closed() -> None:
 
 
 def _is_full(error: OSError) -> bool:
-    """Whether standard output takes no more. An error of a file that a command writes names the file."""
+    """Whether standard output is full. An error in a file that a command writes names the file."""
     return error.filename is None and error.errno in _FULL
 
 
 def _drop_output() -> None:
-    """Drops what is not written to standard output yet: it must not fail a second time at exit."""
+    """Discards buffered standard output, so that flushing it at exit does not fail again."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 

@@ -1,4 +1,4 @@
-"""The output folder of a run: one run, whole, however it ended."""
+"""The output folder of a run: always the files of one whole run, however it ended."""
 
 import json
 import os
@@ -42,7 +42,7 @@ class Outputs:
         recorder: Its recording.
         log: Its log.
         episodes: The results of its environments so far.
-        cut_short: Whether a person or a signal has ended it.
+        cut_short: Whether a person or a signal ended it early.
     """
 
     options: RunOptions
@@ -59,7 +59,7 @@ class Outputs:
         return any(client.inbox.ticks for client in self.simulation.clients)
 
     def write(self) -> Summary:
-        """Writes all files; signals wait until then. Files of an earlier run are kept in the folder `OUT.1`.
+        """Writes all files, with signals held back. Files of an earlier run are kept in the folder `OUT.1`.
 
         Raises:
             OctetError: A file cannot be written.
@@ -75,7 +75,7 @@ class Outputs:
         return summary
 
     def _replace_log(self) -> str:
-        """Closes the log, with its world file beside it. A log that could not be written leaves the earlier run.
+        """Closes the log and writes its world file. If the log cannot be written, the earlier run stays.
 
         Returns:
             SHA-256 of the log.
@@ -98,7 +98,7 @@ class Outputs:
         return digest
 
     def _draw(self) -> None:
-        # Loaded late: a run begins the sooner.
+        # Loaded late, so that runs start sooner.
         from host_sim.report.replay_page import write_page
 
         trajectory = self.recorder.trajectory
@@ -126,7 +126,7 @@ class Outputs:
 
 
 def tell(options: RunOptions, summary: Summary, files: Sequence[Path]) -> None:
-    """Prints what came of a run, as was asked for, and which of the files there are."""
+    """Prints the result of a run in the format asked for, and which files there are."""
     if options.json:
         sys.stdout.write(summary.to_json())
     elif options.talks:
@@ -136,7 +136,7 @@ def tell(options: RunOptions, summary: Summary, files: Sequence[Path]) -> None:
 
 
 def _next(options: RunOptions, there: Sequence[Path]) -> str:
-    """What a person may do with a run that is not a fleet's."""
+    """Suggestions for what to do with a run that is not a fleet's."""
     if options.log not in there:
         return ""
     log = "" if options.log == RunOptions.out / LOGS[0] else f" --log {options.log}"
@@ -145,7 +145,7 @@ def _next(options: RunOptions, there: Sequence[Path]) -> str:
 
 
 def _linked(path: Path) -> str:
-    """The name of a file; to click, where this is a terminal that may know such links."""
+    """The name of a file, as a hyperlink if this is a terminal that may support them."""
     if not sys.stdout.isatty() or os.environ.get("TERM", "dumb") in ("dumb", "linux"):
         return str(path)
     return f"\x1b]8;;{path.absolute().as_uri()}\x1b\\{path}\x1b]8;;\x1b\\"
@@ -160,13 +160,13 @@ def _seed_of(summary: Path) -> str:
 
 
 def _beside(out: Path) -> Path:
-    """The folder for what was in a run's folder before."""
+    """The folder that keeps the earlier contents of a run's folder."""
     folder = Path(os.path.realpath(out))
     return folder.with_name(f"{folder.name}.1")
 
 
 def _keep(path: Path) -> None:
-    """Moves a file of an earlier run to the folder beside; removes it where that cannot be."""
+    """Moves a file of an earlier run to the folder beside, or removes it if that fails."""
     kept = _beside(path.parent)
     try:
         with suppress(OSError):

@@ -21,7 +21,7 @@ def add(commands: "Subparsers") -> None:
         "page",
         _page,
         summary="write the robot and its world as one web page",
-        description="Writes a page with the robot's own firmware and its world. It needs no server and no network.",
+        description="Writes a page that runs the robot's own firmware in its world, without a server or a network.",
         epilog=_EXAMPLE,
         check=lambda arguments: check_outputs("page", None, {"FILE": arguments.file}),
         stages=lambda _: ["page"],

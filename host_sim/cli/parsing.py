@@ -38,14 +38,14 @@ class Parser(argparse.ArgumentParser):
             raise argparse.ArgumentError(action, f"there is no {value!r}: {meant(value, action.choices)}")
 
     def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
-        """As in `argparse.ArgumentParser`, but of choices that are numbers, what is no number is none, either."""
+        """As in `argparse.ArgumentParser`, but names the choices also if the value is not a number."""
         if action.choices is not None and action.type is int and not arg_string.isdecimal():
             choices = ", ".join(map(str, action.choices))
             raise argparse.ArgumentError(action, f"there is no {arg_string!r}: choose from {choices}")
         return super()._get_value(action, arg_string)
 
     def unknown_option(self, words: Sequence[str]) -> NoReturn:
-        """Refuses words that are left over.
+        """Refuses arguments that no option takes.
 
         Raises:
             UsageError: Always.
@@ -119,14 +119,14 @@ def number(low: float, high: float, kind: type[int] | type[float] = int) -> Call
 
 
 def file_path(text: str) -> Path:
-    """An argument type: the name of a file or a folder. An empty one, as of an unset variable, is not this folder."""
+    """An argument type: the name of a file or folder, not empty (as from an unset shell variable)."""
     if not text:
-        raise argparse.ArgumentTypeError("the name is empty")
+        raise argparse.ArgumentTypeError("the file name is empty")
     return Path(text)
 
 
 def output_of(*endings: str) -> Callable[[str], Path]:
-    """An argument type: the name of a file to write, whose ending, if it has one, is one of these."""
+    """An argument type: the name of a file to write, with one of these endings or none."""
 
     def parse(text: str) -> Path:
         path = file_path(text)
@@ -138,15 +138,15 @@ def output_of(*endings: str) -> Callable[[str], Path]:
 
 
 def check_outputs(command: str, source: Path | None, outputs: Mapping[str, Path | None]) -> None:
-    """Refuses to write where it cannot be done, over what a command reads, and two things into one file.
+    """Refuses outputs that cannot be written, that would overwrite the input, or that share one file.
 
     Args:
         command: Name of the command.
-        source: The file that it reads, if it does.
-        outputs: The files that it is to write, by the options that name them; None for what is not wanted.
+        source: The file that it reads, if any.
+        outputs: The files to write, by the options that name them; None if not wanted.
 
     Raises:
-        UsageError: A file cannot be written, or two of the names are of the same one; nothing was changed.
+        UsageError: A file cannot be written, or two names mean the same file; nothing was changed.
     """
     options: dict[str, str] = {}
     for option, path in ((option, path) for option, path in outputs.items() if path is not None):
@@ -158,7 +158,7 @@ def check_outputs(command: str, source: Path | None, outputs: Mapping[str, Path 
         if Path(target).is_symlink():
             raise UsageError(f"cannot write {path}: it is a link to itself")
         if source is not None and target == os.path.realpath(source):
-            raise UsageError(f"{path} is what {command} reads: choose another file with {option}")
+            raise UsageError(f"{path} is the input of {command}: choose another file with {option}")
         if target in options:
             raise UsageError(f"{options[target]} and {option} name the same file: {path}")
         options[target] = option

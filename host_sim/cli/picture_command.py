@@ -36,7 +36,7 @@ def add(commands: "Subparsers") -> None:
 
 
 def _add_clip_options(parser: "Parser") -> None:
-    """Adds which part of a run the animation shows, and how."""
+    """Adds the options for the animation's part of the run, speed and width."""
     add, time = parser.add_argument, number(0, 1e9, float)
     add(
         "--from",

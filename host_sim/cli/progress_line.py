@@ -1,4 +1,4 @@
-"""The progress line of what takes long, by rich: on a terminal, and gone in the end."""
+"""A progress line, drawn by rich on a terminal and removed at the end."""
 
 import sys
 import time
@@ -11,14 +11,14 @@ _EVERY_S = 0.25
 
 
 class ProgressLine:
-    """One line on stderr, rewritten now and then; nothing where that is no terminal."""
+    """One line on stderr, rewritten now and then; nothing if stderr is not a terminal."""
 
     def __init__(self, total: int | None = None, *, shown: bool = True) -> None:
         """Begins.
 
         Args:
             total: Number of steps, for a bar and an estimate of the time left; None if it is not known.
-            shown: Whether there is to be a line at all.
+            shown: Whether to show the line.
         """
         self._then = 0.0
         self._progress = _progress(total) if shown and sys.stderr.isatty() else None
@@ -32,7 +32,7 @@ class ProgressLine:
 
         Args:
             text: What it says.
-            done: Number of steps that are done.
+            done: Number of steps done.
         """
         if self._progress is not None:
             self._then = time.monotonic()
@@ -41,7 +41,7 @@ class ProgressLine:
             self._progress.refresh()
 
     def clear(self) -> None:
-        """Removes the line, for what is printed next or for good."""
+        """Removes the line, so that other output can be printed."""
         if self._progress is not None:
             self._progress.stop()
 

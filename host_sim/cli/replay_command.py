@@ -18,9 +18,9 @@ _SHOWN_MAX = 10
 _EXAMPLES = """\
 examples:
   tools/octet replay out/run.log                     does the current firmware do the same?
-  tools/octet replay out/run.log --protocol          of any firmware: does it keep to the protocol?
+  tools/octet replay out/run.log --protocol          does the robot, with any firmware, keep to the protocol?
   tools/octet replay out/run.log --html run.html     write the run as a page to play in a browser
-  tools/octet replay out/run.log --html run.html --what-if     and to change: the firmware runs on from any tick
+  tools/octet replay out/run.log --html run.html --what-if     a page on which the firmware runs on from any tick
 """
 
 
@@ -42,13 +42,13 @@ def add(commands: "Subparsers") -> None:
         "--html", type=file_path, metavar="FILE", help="instead, write the run to FILE as a page to play in a browser"
     )
     parser.add_argument(
-        "--protocol", action="store_true", help="check only that the robot keeps to the protocol, whatever it does"
+        "--protocol", action="store_true", help="check only that the robot keeps to the protocol"
     )
     parser.add_argument(
         "--what-if",
         action="store_true",
-        help="with --html: build the firmware for pages first, so that the page can run on from any tick with what\n"
-        "you change",
+        help="with --html: build the firmware for pages first, so that the page can run on from any tick with\n"
+        "your changes",
     )
 
 
@@ -67,7 +67,7 @@ def _replay(arguments: argparse.Namespace) -> int:
 
 
 def _check_protocol(log: Path, first_node: int) -> int:
-    """Checks the robots from a node on for the protocol alone."""
+    """Checks only the protocol, for the robots from a node on."""
     from host_sim.protocol.codec import Protocol
     from host_sim.recording.conversation import check_conversation
     from host_sim.recording.log_reader import nodes_in, read_log
@@ -82,7 +82,7 @@ def _check_protocol(log: Path, first_node: int) -> int:
 
 
 def _compare(arguments: argparse.Namespace) -> int:
-    """Compares the robots from a node on; the log must have the first of them."""
+    """Compares the robots from a node on; the log must contain the first of them."""
     from host_sim.protocol.codec import Protocol
     from host_sim.recording.log_reader import nodes_in, read_log
     from host_sim.recording.replay import replay, report
@@ -114,7 +114,7 @@ def _write_page(arguments: argparse.Namespace) -> int:
 
 
 def _laboratory(arguments: argparse.Namespace, result: "Resimulation") -> dict[str, Any]:
-    """What the page needs to ask "What if?", or why it cannot."""
+    """The data that the page needs to ask "What if?"."""
     from host_sim.recording.log_reader import read_log
     from host_sim.report.laboratory import commands_in, laboratory
 

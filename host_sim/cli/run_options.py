@@ -25,7 +25,7 @@ FLEET_TABLE = "robots.csv"
 """The table of a fleet in its output folder."""
 
 _NO_ADAPTER = ("auto", "none", "fd", "socketcan")
-"""The interfaces whose bit rate is not set up here."""
+"""Interfaces whose bit rate the kernel or the process sets, not python-can."""
 
 _FLEETS = f"a fleet (more than {NODE_MAX} robots, or --worlds own)"
 _PARSERS: dict[Any, Callable[[str], Any]] = {
@@ -47,7 +47,7 @@ _GROUPS = {
     ),
     "faults, and when a result is doubtful": ("faults", "fault_seed", "unanswered_max", "gap_max_s", "late_max"),
 }
-"""How a help text lists the options; the others are about the output."""
+"""The options by their groups in the help text; the rest are output options."""
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ class RunOptions(RunConfig):
 
 
 def add_options(parser: argparse.ArgumentParser, command: str) -> None:
-    """Adds the options that a command has; only those that are given are set."""
+    """Adds a command's options; only those given on the command line are set."""
     rows = options_of(RunOptions)
     others = [name for name in rows if not any(name in names for names in _GROUPS.values())]
     for title, names in {**_GROUPS, "the output": others}.items():
@@ -114,17 +114,17 @@ def add_options(parser: argparse.ArgumentParser, command: str) -> None:
 
 
 def add_option(parser: argparse._ActionsContainer, name: str, default: object = None) -> None:
-    """Adds an option of a run to any command; without a default, with that of a run."""
+    """Adds an option of a run to any command, by default with the run's default."""
     it, row = options_of(RunOptions)[name]
     value = it.default if default is None else default
     parser.add_argument(flag_of(name, row), dest=name, default=value, **_argument(it, row))
 
 
 def run_options(arguments: Namespace, **others: Any) -> RunOptions:
-    """The options that a command line gives, and others.
+    """The options from a command line, and others.
 
     Raises:
-        UsageError: They contradict each other, or a file of them cannot be read.
+        UsageError: The options contradict each other, or an option file cannot be read.
     """
     given = {name: value for name, value in vars(arguments).items() if name in options_of(RunOptions)}
     given["settings"] = {name: value for each in given.get("settings", ()) for name, value in each.items()}
@@ -162,7 +162,7 @@ def _argument(it: Any, row: Option) -> dict[str, Any]:
 
 
 def _check(options: RunOptions) -> None:
-    """Refuses options that contradict each other; the standard library is enough for that."""
+    """Refuses options that contradict each other, with the standard library only."""
     if not options.watch or options.terminal:
         for name in ("listen", "port"):
             if getattr(options, name) != getattr(RunOptions, name):
@@ -176,7 +176,7 @@ def _check(options: RunOptions) -> None:
         raise UsageError(f"--board {options.board} is for --robot emulated: add that, or leave --board out")
     if options.bitrate != BIT_RATE and options.bus.partition(":")[0] in _NO_ADAPTER:
         raise UsageError(
-            f"--bitrate is for an adapter that is not the kernel's, not for --bus {options.bus}: leave --bitrate out"
+            f"--bitrate is for adapters that python-can configures, not for --bus {options.bus}: leave --bitrate out"
         )
     if options.is_fleet:
         _check_fleet(options)
@@ -185,15 +185,15 @@ def _check(options: RunOptions) -> None:
 
 
 def _check_program(options: RunOptions) -> None:
-    """Refuses what a robot with a program does not have."""
+    """Refuses options that do not apply to a robot with a program."""
     for name in ("robot", "robot_command", "profile", "board") if options.program else ():
         if getattr(options, name) != getattr(RunConfig, name):
             flag = flag_of(name, options_of(RunOptions)[name][1])
-            raise UsageError(f"--program is the brain of a robot that is started here: leave {flag} out")
+            raise UsageError(f"--program needs a robot that is started here: leave {flag} out")
 
 
 def _check_fleet(options: RunOptions) -> None:
-    """Refuses what a fleet does not have."""
+    """Refuses options that do not apply to a fleet."""
     if options.watch:
         raise UsageError(f"a fleet cannot be watched: take up to {NODE_MAX} robots in one world, or run it unwatched")
     if options.bus not in {"auto", "none"}:

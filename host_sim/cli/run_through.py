@@ -86,7 +86,7 @@ def _progress_shown(line: ProgressLine) -> Callable[[Simulation], object]:
 
 
 def _pause(simulation: Simulation) -> None:
-    """Lets people see how an environment ended. Robot time stands still; nothing is logged."""
+    """Pauses so that people see how an environment ended. Robot time stands still; nothing is logged."""
     from host_sim.live.paced_run import PAUSE_S
     from host_sim.live.robot_orders import discard_reports
 
@@ -97,7 +97,7 @@ def _pause(simulation: Simulation) -> None:
 
 
 def _say_refused(simulation: Simulation, before: Callable[[], object] = lambda: None) -> None:
-    """Has changes that cannot be made reported when they are due."""
+    """Reports each change that cannot be made, when it is due."""
     said = 0
 
     def say(simulation: Simulation) -> None:

@@ -1,4 +1,4 @@
-"""`tools/octet run` and `tools/octet watch`: a robot learns, while nobody or everybody looks on."""
+"""`tools/octet run` and `tools/octet watch`: runs a robot, unwatched or watched."""
 
 import argparse
 import sys
@@ -98,7 +98,7 @@ def _conduct(options: RunOptions) -> int:
 
 
 def _look_on(options: RunOptions) -> None:
-    """Follows a robot that runs by itself, until Ctrl-C or the limit; draws its log then."""
+    """Follows a robot that runs by itself until Ctrl-C or the limit, then draws its log."""
     from host_sim.cli.interruption import until_ctrl_c
     from host_sim.client.frame_log import FrameLog
     from host_sim.live.observer import Line, observe

@@ -1,4 +1,4 @@
-"""`tools/octet talk`: asks a robot about a run; or talks to ELIZA."""
+"""`tools/octet talk`: asks a robot about a run, or talks to ELIZA."""
 
 import argparse
 import sys
@@ -20,9 +20,9 @@ _ROBOT = "robot"
 _EXAMPLES = """\
 examples:
   tools/octet talk                                 ask the robot of the last run
-  tools/octet talk --at 41.9                       as it was after 41.9 s
+  tools/octet talk --at 41.9                       the robot as it was after 41.9 s
   tools/octet talk --script robot-de               ask it in German
-  tools/octet talk --script eliza                  talk to ELIZA of 1966, by a script of our own
+  tools/octet talk --script eliza                  talk to ELIZA (1966), with a script written for Octet
   echo "Why did you turn left?" | tools/octet talk
 """
 
@@ -33,9 +33,9 @@ def add(commands: "Subparsers") -> None:
         commands,
         "talk",
         _talk,
-        summary="ask the robot what it has learned, and why it did what it did",
-        description="Answers sentences in the manner of ELIZA. [log] marks an answer whose facts were looked up in\n"
-        "the log, with the lines on which they rest; [words] one that is only words. Ctrl-D ends it.",
+        summary="ask the robot what it has learned and why it acted as it did",
+        description="Answers sentences in the manner of ELIZA. [log] marks an answer with facts from the log, and\n"
+        "cites the lines; [words] marks one without facts. Ctrl-D ends the conversation.",
         epilog=_EXAMPLES,
         check=_check,
     )
@@ -50,7 +50,7 @@ def add(commands: "Subparsers") -> None:
         help="the robot's number (default: %(default)s)",
     )
     add("--no-world", action="store_true", help="ignore seed and world file, as for a real body")
-    add("--memory", type=file_path, metavar="FILE", help="ask a robot of which only this memory file is known")
+    add("--memory", type=file_path, metavar="FILE", help="ask about a memory file alone, without a log")
     add(
         "--script",
         default=_ROBOT,
@@ -83,7 +83,7 @@ def _talk(arguments: argparse.Namespace) -> int:
 
 
 def _complete(words: list[str]) -> None:
-    """Gives the console a history, and completes the words that a script knows with the tab key."""
+    """Gives the console a history and tab completion for the words that a script knows."""
     try:
         import readline
     except ImportError:

@@ -1,4 +1,4 @@
-"""`tools/octet update` and `tools/octet keygen`: new firmware over the bus, and the key that it is signed with."""
+"""`tools/octet update` and `tools/octet keygen`: new firmware over the bus, and the key for signing it."""
 
 import argparse
 import sys
@@ -25,15 +25,15 @@ _LAST_NODE = 31
 _BITRATES = (125_000, 250_000, 500_000, 1_000_000)
 _EXAMPLES = """\
 examples:
-  tools/octet update blue_pill --bus socketcan:can0                   the image that is built, to node 1
-  tools/octet update out/robot.octet --bus socketcan:can0 --node 1-3  an image that was signed before, to three robots
+  tools/octet update blue_pill --bus socketcan:can0                   sign the built image and send it to node 1
+  tools/octet update out/robot.octet --bus socketcan:can0 --node 1-3  send a signed image to three robots
   tools/octet update blue_pill --key my.pem --save out/robot.octet    only sign it
   tools/octet update --bus socketcan:can0 --node 1 --set-node 7       give robot 1 the number 7
-docs/update.md tells what happens, and what a loss of power leaves.
+docs/update.md describes the process, and what happens if power is lost.
 """
 _KEY_EXAMPLES = """\
 example: tools/octet keygen my.pem
-Keep that file: boards with its public half take no images but those that are signed with it.
+Keep that file: boards with its public key accept only images signed with it.
 """
 
 
@@ -43,11 +43,11 @@ def add(commands: "Subparsers") -> None:
         commands,
         "update",
         _update,
-        summary="put new firmware on robots, over the bus",
-        description="Puts new firmware on robots, over the bus that they drive on, into the slot that does not run.\n"
-        "Says what runs afterwards. It needs a boot loader on the board, and a robot that is not being driven.\n"
-        "Several robots are updated at once. An update that was interrupted goes on where it was.\n"
-        "Exit code 2 if a robot did not take it; it runs what it ran before.",
+        summary="update the firmware of robots over the bus",
+        description="Sends firmware over the bus to the inactive slot of robots, starts it, and reports what runs.\n"
+        "Needs the boot loader on the board, and robots that nobody is driving.\n"
+        "Several robots are updated at once. Run the same command again to resume an interrupted update.\n"
+        "Exit code 2 if a robot did not take the update; it keeps its old firmware.",
         epilog=_EXAMPLES,
         stages=lambda _: ["images"],
     )
@@ -56,10 +56,10 @@ def add(commands: "Subparsers") -> None:
         "image",
         nargs="?",
         metavar="IMAGE",
-        help="file of --save, or a board, such as blue_pill, to sign what is built",
+        help="signed image from --save; or a board, such as blue_pill, to sign its built image",
     )
     add_("--bus", metavar="BUS", help="any bus of python-can: INTERFACE:CHANNEL, such as socketcan:can0")
-    add_("--node", type=_nodes, default=[1], metavar="N[-M]", help="which robots, 1..31 (default: 1)")
+    add_("--node", type=_nodes, default=[1], metavar="N[-M]", help="node numbers of the robots, 1..31 (default: 1)")
     add_(
         "--key",
         type=Path,
@@ -71,29 +71,29 @@ def add(commands: "Subparsers") -> None:
         "--version",
         type=number(0, 2**32 - 1),
         metavar="N",
-        help="version of an image that is signed here (default: the time)",
+        help="version of an image that is signed here (default: the current time)",
     )
-    add_("--set-node", type=number(0, _LAST_NODE), metavar="N", help="give the robot this number; 0: as built")
+    add_("--set-node", type=number(0, _LAST_NODE), metavar="N", help="set the robot's node number; 0: as built")
     add_(
         "--set-bitrate",
         type=int,
         choices=(0, *_BITRATES),
         metavar="BIT/S",
-        help="bit rate that the robot uses from then on: 125000, 250000, 500000, 1000000, or 0: as built",
+        help="set the robot's bit rate: 125000, 250000, 500000, 1000000, or 0: as built",
     )
-    add_("--allow-older", action="store_true", help="let the boards take an older version")
+    add_("--allow-older", action="store_true", help="let the boards accept an older version")
     add_option(parser, "bitrate")
     keygen = add_command(
         commands,
         "keygen",
         _keygen,
-        summary="make a key that firmware is signed with",
-        description="Makes an Ed25519 key, writes it to a file that only you can read, and prints its public half,\n"
-        "which the boot loader is built with.",
+        summary="make a key for signing firmware",
+        description="Makes an Ed25519 key, writes it to a file that only you can read, and prints the public key,\n"
+        "which is built into the boot loader.",
         epilog=_KEY_EXAMPLES,
         stages=lambda _: ["images"],
     )
-    keygen.add_argument("key", type=Path, metavar="PEM", help="file to write; it must not be there yet")
+    keygen.add_argument("key", type=Path, metavar="PEM", help="file to write; it must not exist yet")
 
 
 def _nodes(text: str) -> list[int]:
@@ -103,7 +103,7 @@ def _nodes(text: str) -> list[int]:
     except ValueError:
         nodes = []
     if not nodes or nodes[0] < 1 or nodes[-1] > _LAST_NODE:
-        raise argparse.ArgumentTypeError(f"{text!r} is no node 1..{_LAST_NODE}, and no range of them such as 1-4")
+        raise argparse.ArgumentTypeError(f"{text!r} is no node number 1..{_LAST_NODE}, and no range such as 1-4")
     return nodes
 
 
@@ -122,15 +122,15 @@ def _update(arguments: argparse.Namespace) -> int:
 
     changes = arguments.set_node is not None or arguments.set_bitrate is not None
     if arguments.bus is None and arguments.save is None:
-        raise UsageError("where to? --bus names the bus, --save a file")
+        raise UsageError("nowhere to put the image: give --bus BUS or --save FILE")
     if arguments.image is None and (arguments.save is not None or not changes):
-        raise UsageError("what? IMAGE is a file of --save, or a board such as blue_pill")
+        raise UsageError("IMAGE is missing: give a file from --save, or a board such as blue_pill")
     if arguments.set_node is not None and len(arguments.node) > 1:
-        raise UsageError("--set-node gives one robot its number: --node names which")
+        raise UsageError("--set-node is for one robot: give its current number with --node")
     key = load_key(arguments.key) if arguments.key else development_key()
     images = _images(arguments, key) if arguments.image is not None else None
     if arguments.key is None:
-        print("octet: using the development key, which everybody has", file=sys.stderr)
+        print("octet: using the development key, which is public", file=sys.stderr)
     if arguments.save is not None and images is not None:
         _save(arguments.save, images)
     return _update_all(arguments, images, key) if arguments.bus is not None else 0
@@ -156,7 +156,7 @@ def _save(path: Path, images: "dict[int, SlotImage]") -> None:
 
 
 class _Task(NamedTuple):
-    """What is done to each node."""
+    """What to do to each node."""
 
     arguments: argparse.Namespace
     images: "Images"
@@ -209,7 +209,7 @@ def _update_one(link: "Share", node: int, task: _Task) -> None:
         print(f"node {node}: {stays}; version {image.version} goes to slot {'AB'[image.slot]}", flush=True)
     if is_development(before.signer):
         print(
-            f"octet: node {node} takes what is signed with the development key: anybody can update it",
+            f"octet: node {node} accepts images signed with the public development key: anybody can update it",
             file=sys.stderr,
         )
     updater.unlock()
@@ -229,7 +229,7 @@ def _install(updater: "Updater", image: "SlotImage", before: "Status", task: _Ta
 
 
 def _set_up(updater: "Updater", arguments: argparse.Namespace) -> None:
-    """Number and bit rate, last: from the next start on the board may be found elsewhere."""
+    """Sets node number and bit rate last, since they take effect at the board's next start."""
     if arguments.set_node is None and arguments.set_bitrate is None:
         return
     updater.enter()

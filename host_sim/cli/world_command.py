@@ -15,7 +15,7 @@ _EXAMPLES = """\
 examples:
   tools/octet world corridors --png corridors.png              the first environment of seed 1
   tools/octet world corridors --seed 7 --number 2 --png b.png  the second one of seed 7
-  tools/octet world my.toml                                    is there a mistake in my file?
+  tools/octet world my.toml                                    check a file of your own
 """
 
 
@@ -26,15 +26,15 @@ def add(commands: "Subparsers") -> None:
         "world",
         _world,
         summary="check a world, and draw one of its environments",
-        description="Checks a world and describes one of its environments. Exit code 2: it has a mistake.",
+        description="Checks a world and describes one of its environments. Exit code 2 if the world has a mistake.",
         epilog=_EXAMPLES,
         check=lambda arguments: check_outputs("world", Path(arguments.world), {"--png": arguments.png}),
     )
     add = parser.add_argument
-    add("world", metavar="WORLD", help=f"one of {', '.join(WORLD_NAMES)}, or a file of your own, such as my.toml")
+    add("world", metavar="WORLD", help=f"one of {', '.join(WORLD_NAMES)}, or your own file, such as my.toml")
     add_option(parser, "seed")
     add("--number", type=number(1, 1000), default=1, metavar="N", help="number of the environment" + DEFAULT)
-    add("--png", type=output_of(".png"), metavar="FILE", help="draw it to FILE")
+    add("--png", type=output_of(".png"), metavar="FILE", help="draw the environment to FILE")
     add("--width", type=number(100, 4000), default=640, metavar="PX", help="width of the picture" + DEFAULT)
 
 

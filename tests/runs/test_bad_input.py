@@ -35,7 +35,7 @@ def test_no_command_writes_over_the_log_that_it_reads(run, tmp_path, command, op
 
     assert refused.returncode == 2
     assert (
-        refused.stderr == f"octet: {tmp_path / 'link'} is what {command} reads: choose another file with {option}\n"
+        refused.stderr == f"octet: {tmp_path / 'link'} is the input of {command}: choose another file with {option}\n"
     )
     assert octet("replay", done.out / "run.log").returncode == 0
 
@@ -59,7 +59,7 @@ def test_a_world_is_not_drawn_over_its_own_file(tmp_path):
 
     refused = octet("world", world, "--png", tmp_path / "link")
 
-    assert refused.stderr == f"octet: {tmp_path / 'link'} is what world reads: choose another file with --png\n"
+    assert refused.stderr == f"octet: {tmp_path / 'link'} is the input of world: choose another file with --png\n"
     assert octet("world", world).returncode == 0
 
 
@@ -67,7 +67,7 @@ def test_a_world_is_not_drawn_over_its_own_file(tmp_path):
 def test_a_memory_is_not_kept_in_a_file_of_the_run(tmp_path, name):
     done = octet("run", "--bus", "none", "--limit-s", "2", "--out", tmp_path, "--memory", tmp_path / name)
 
-    said = f"octet: the run writes something else to {tmp_path / name}: choose another file with --memory\n"
+    said = f"octet: the run would overwrite {tmp_path / name}: choose another file with --memory\n"
     assert (done.returncode, done.stderr) == (2, said)
     assert list(tmp_path.iterdir()) == []
 

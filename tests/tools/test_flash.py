@@ -95,7 +95,7 @@ def test_an_image_for_another_board_is_refused(tmp_path: Path) -> None:
 
 def test_what_is_no_image_is_refused(tmp_path: Path) -> None:
     (tmp_path / "some.elf").write_bytes(b"\x7fELF")
-    with pytest.raises(FlashError, match="is no image of ours"):
+    with pytest.raises(FlashError, match="is not an Octet image"):
         identify(tmp_path / "some.elf", BOARDS["blue_pill"])
     with pytest.raises(FlashError, match="No such file"):
         identify(tmp_path / "none.elf", BOARDS["blue_pill"])
@@ -146,7 +146,7 @@ def test_pyocd_does_where_openocd_is_missing() -> None:
 
 
 def test_without_a_program_it_says_which_is_needed() -> None:
-    with pytest.raises(FlashError, match="openocd or pyocd is needed for stlink"):
+    with pytest.raises(FlashError, match="stlink needs openocd or pyocd"):
         make_plan(image_for("stm32f405"), STLINK, has=lambda _: False)
 
 

@@ -146,5 +146,5 @@ def test_a_second_one_in_the_same_checkout_is_refused_and_the_first_goes_on(proj
     leave.touch()
 
     assert (second.returncode, second.stdout) == (2, "")
-    assert second.stderr.endswith("tools/test: error: it is running in this checkout already: wait for its end\n")
+    assert second.stderr.endswith("tools/test: error: already running in this checkout: wait until it ends\n")
     assert last(first.communicate()[0]) == "1 passed, 0 failed"

@@ -185,7 +185,7 @@ def test_a_package_that_is_gone_from_the_venv_is_one_line() -> None:
     )
 
     assert done.returncode == 1
-    assert done.stderr == "octet: can is missing from .venv: remove that folder, and call again\n"
+    assert done.stderr == "octet: can is missing from .venv: remove that folder and run the command again\n"
 
 
 PYTHON = b"#!/usr/bin/env python3\n"

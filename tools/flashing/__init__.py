@@ -8,6 +8,6 @@ class FlashError(Exception):
 
 
 class ChoiceError(FlashError):
-    """What was asked for is not there; the message says what is."""
+    """The choice does not exist; the message lists those that do."""
 
     exit_code = 2

@@ -19,7 +19,7 @@ class Board:
     Attributes:
         name: Its name, that of its file in hal/stm32/boards and of the CMake preset that builds for it.
         chip: Such as stm32f405.
-        links: Its images: one for each link of its chip, such as bxcan and slcan, and those of a robot of its own.
+        links: Its images: one for each link of its chip, such as bxcan or slcan, and those that drive pins.
     """
 
     name: str
@@ -29,14 +29,14 @@ class Board:
 
 @dataclass(frozen=True)
 class Image:
-    """An image, and what it says of itself.
+    """An image, and the information built into it.
 
     Attributes:
         path: The .elf file; .bin and .hex lie beside it.
         board: The board that it was built for.
         chip: The board's chip.
         node: Which robot on the bus it is.
-        bitrate: Bit rate of the CAN bus, bit/s; a serial line has none.
+        bitrate: Bus bit rate, bit/s; None on a serial line.
         version: What `git describe` said.
         dbc: Hash of the protocol.
     """
@@ -62,7 +62,7 @@ def all_boards(root: Path = ROOT) -> dict[str, Board]:
 
 
 def node_max(root: Path = ROOT) -> int:
-    """The last node that the protocol has identifiers for."""
+    """The highest node number in the protocol."""
     found = re.search(r"^node_max = (\d+)", (root / "hal" / "protocol" / "robot.toml").read_text(), re.MULTILINE)
     assert found is not None
     return int(found[1])
@@ -97,17 +97,17 @@ def build(board: Board, link: str, node: int, bitrate: int, root: Path = ROOT) -
 
 
 def identify(path: Path, board: Board) -> Image:
-    """What an image says of itself.
+    """Reads the information built into an image.
 
     Raises:
-        FlashError: It cannot be read, is none of ours, or is for another board.
+        FlashError: It cannot be read, is not an Octet image, or is for another board.
     """
     try:
         found = _IDENTITY.search(path.read_bytes())
     except OSError as error:
         raise ChoiceError(f"{path}: {error.strerror}") from error
     if found is None:
-        raise ChoiceError(f"{path} is no image of ours")
+        raise ChoiceError(f"{path} is not an Octet image")
     image = Image(path, *(part.decode() for part in found.groups()))
     if image.board != board.name:
         raise ChoiceError(f"{path} is for {image.board}, not for {board.name}")

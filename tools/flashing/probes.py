@@ -13,7 +13,7 @@ _STLINK_PRODUCTS = ("3744", "3748", "374a", "374b", "374d", "374e", "374f", "375
 
 @dataclass(frozen=True)
 class Probe:
-    """What an image goes through.
+    """A debug probe or a serial port.
 
     Attributes:
         kind: One of KINDS.

@@ -1,6 +1,6 @@
 """The programs that write to a chip: openocd, pyocd, and stm32flash for the serial boot loader.
 
-None of them erases more than the image needs: what the robot has learned stays.
+They erase only the pages that the image needs, so the robot keeps its memory.
 """
 
 import re
@@ -30,7 +30,7 @@ Command = list[str]
 
 @dataclass(frozen=True)
 class Plan:
-    """What will be done.
+    """The commands that will be run.
 
     Attributes:
         program: Its name.
@@ -86,7 +86,7 @@ def make_plan(image: Image, probe: Probe, has: Callable[[str], object] = shutil.
     for program, make in makers.items():
         if has(program):
             return make(image, probe)
-    raise FlashError(f"{' or '.join(makers)} is needed for {probe.kind}, and not installed")
+    raise FlashError(f"{probe.kind} needs {' or '.join(makers)}, which is not installed")
 
 
 def _run(command: Command) -> tuple[int, str]:
@@ -99,7 +99,7 @@ def _run(command: Command) -> tuple[int, str]:
 
 def _last_line(output: str) -> str:
     lines = [line.strip() for line in output.splitlines() if line.strip()]
-    return lines[-1] if lines else "no word from it"
+    return lines[-1] if lines else "no output"
 
 
 def check_chip(plan: Plan, chip: str) -> None:
@@ -121,7 +121,7 @@ def write(plan: Plan) -> None:
     """Writes the image.
 
     Raises:
-        FlashError: It failed; what is on the chip now is not to be relied on.
+        FlashError: It failed; the chip's content is undefined.
     """
     code, output = _run(plan.write)
     if code != 0:

@@ -111,7 +111,7 @@ def _signal(database: Database, path: str) -> Signal:
 
 
 def _check_message(message: Message) -> None:
-    """The codecs know little-endian whole numbers only."""
+    """The codecs support only little-endian integers."""
     for signal in message.signals:
         if signal.byte_order != "little_endian" or (signal.scale, signal.offset, signal.is_float) != (1, 0, False):
             raise DescriptionError(f"{message.name}.{signal.name} is not a little-endian whole number as it is")

@@ -1,4 +1,4 @@
-"""tools/test --quick: the tests that uncommitted changes concern, and a word on those that it leaves out."""
+"""tools/test --quick: the tests that uncommitted changes concern, and a summary of those left out."""
 
 import argparse
 import subprocess

@@ -103,7 +103,7 @@ def pytest_stage(name: str, tests: Sequence[str], allowed: Collection[str]) -> S
     Args:
         name: of the stage, for tools/setup as well.
         tests: files and folders, or options of pytest that choose.
-        allowed: words before the colon in the reasons of skips that may be.
+        allowed: words before the colon in the reasons of accepted skips.
     """
     # One more than there are cores: tests wait for processes and browsers now and then.
     workers = os.environ.get("PYTEST_XDIST_AUTO_NUM_WORKERS", f"{len(os.sched_getaffinity(0)) + 1}")
@@ -185,12 +185,13 @@ def parse(parser: argparse.ArgumentParser, names: Sequence[str]) -> argparse.Nam
         action="append",
         default=[],
         metavar="NAME",
-        help="a stage that may go unrun, or the word before the colon in the reason of a skip",
+        help="accept that this stage cannot run, or skipped tests whose reason begins with NAME:",
     )
-    add("--time-limit", type=float, default=NO_LIMIT, metavar="MINUTES", help="for everything (default: none)")
-    add("--stall-limit", type=float, default=STALL_MIN, metavar="MINUTES", help="without news (default: %(default)g)")
-    add("--repeat", type=int, default=1, metavar="N", help="run it all so often, and say how many runs passed")
-    add("--beside", type=int, default=0, metavar="N", help="run it beside so many busy loops, as on a busy machine")
+    add("--time-limit", type=float, default=NO_LIMIT, metavar="MINUTES", help="total time limit (default: none)")
+    stall = "stop a stage after this time without progress (default: %(default)g)"
+    add("--stall-limit", type=float, default=STALL_MIN, metavar="MINUTES", help=stall)
+    add("--repeat", type=int, default=1, metavar="N", help="run everything N times, and print how many runs passed")
+    add("--beside", type=int, default=0, metavar="N", help="run N busy loops meanwhile, as on a busy machine")
     arguments = parser.parse_args()
     unknown = set(arguments.stages) - set(names)
     if unknown:
@@ -208,12 +209,12 @@ def be_alone(parser: argparse.ArgumentParser) -> None:
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        parser.error("it is running in this checkout already: wait for its end")
+        parser.error("already running in this checkout: wait until it ends")
 
 
 @contextmanager
 def busy(count: int) -> Iterator[Sequence[subprocess.Popen[bytes]]]:
-    """So many processes that do nothing but compute, and end with this one, even if it is killed."""
+    """Busy loops in `count` processes, which end with this one even if it is killed."""
     loop = "import os\nparent = os.getppid()\nwhile os.getppid() == parent: pass"
     loops = [subprocess.Popen((sys.executable, "-c", loop)) for _ in range(count)]
     try:

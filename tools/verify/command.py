@@ -9,7 +9,7 @@ OUTPUT_MAX = 4000
 
 
 class VerifyError(Exception):
-    """It cannot be verified; says why."""
+    """The check cannot be made; the message says why."""
 
 
 class ChoiceError(VerifyError):

@@ -1,4 +1,4 @@
-"""The tables of exceptions: what a check finds and lets through, each with its reason. All have one format.
+"""The tables of exceptions: findings that a check permits, each with its reason. All have one format.
 
 [[exception]]
 in = "firmware/brain.c"            # a file, or several; * stands for anything
@@ -33,7 +33,7 @@ class Finding(Protocol):
 
 
 class Permit(NamedTuple):
-    """One thing that a table lets through in one place; `*` stands for anything.
+    """One permitted finding in some files; `*` stands for anything.
 
     Attributes:
         file: Which files.
@@ -69,7 +69,7 @@ def read(path: Path) -> list[Permit]:
 
 
 def compare(findings: Sequence[Finding], table: Sequence[Permit]) -> list[str]:
-    """What does not fit, in sentences: a finding that is not let through, and what is let through in vain."""
+    """Complaints, in sentences: findings that are not permitted, and entries that match no finding."""
     complaints = [f"{it}: not allowed by the table" for it in findings if not is_covered(it, table)]
     return complaints + [f"{permit} is not found any more" for permit in uncovering(table, findings)]
 

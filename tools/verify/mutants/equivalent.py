@@ -11,13 +11,13 @@ from tools.verify.mutants.sources import Source
 
 
 def unmatched(table: Sequence[Permit], mutants: Sequence[Mutant]) -> list[str]:
-    """What the table lists and no mutant is, or any mutant of a line would be, in sentences."""
+    """Complaints about entries that match no mutant, or every mutant of a line."""
     broad = [f"{permit} would excuse any: name the mutants" for permit in table if permit.what.endswith("-> *")]
     return [*broad, *(f"{permit.file}: no mutant is `{permit.what}`" for permit in uncovering(table, mutants))]
 
 
 def needless(table: Sequence[Permit], killed: Sequence[Mutant], alive: Sequence[Mutant]) -> list[str]:
-    """What the table lists and tests do notice, wherever it is, in sentences."""
+    """Complaints about entries whose mutants tests kill."""
     unneeded = set(uncovering(table, alive)) - set(uncovering(table, killed))
     return [f"{it} is listed as equivalent, but a test kills it" for it in table if it in unneeded]
 
