@@ -1,4 +1,4 @@
-/* config.h: the numbers that a robot is set up with, each with its range and its default: those of octet.dbc. */
+/* config.h: the robot's parameters, with the ranges and defaults of octet.dbc. */
 #ifndef OCTET_CONFIG_H
 #define OCTET_CONFIG_H
 
@@ -15,6 +15,6 @@ bool config_fits(uint8_t parameter, uint32_t value);
         /* Whether value is within the range of parameter 0..PARAMETER_COUNT-1. */
 
 void config_set(struct config *config, uint8_t parameter, uint8_t value);
-        /* Sets a parameter to a value that fits. */
+        /* Sets a parameter to a value within its range. */
 
 #endif

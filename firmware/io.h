@@ -1,4 +1,4 @@
-/* io.h: what goes into the robot and what comes out of it, tick by tick. */
+/* io.h: the robot's inputs and outputs, tick by tick. */
 #ifndef OCTET_IO_H
 #define OCTET_IO_H
 
@@ -26,18 +26,18 @@ struct drive {
     int16_t right_mm_s;
     enum reason reason;
     uint8_t repeat_count;     /* remembered turns since the way was last clear; stays at 255 */
-    uint8_t action;           /* one more for each new action, 0..ACTION_SPAN-1, wraps */
+    uint8_t action;           /* counts actions, 0..ACTION_SPAN-1, wraps */
     bool eat;
 };
 
 struct command {
-    enum opcode opcode;   /* other values arrive too; the robot refuses them */
+    enum opcode opcode;   /* may hold other values; the robot refuses them */
     uint8_t which;        /* start: profile. set, get: parameter. freeze: 1 or 0. write: bit 4 for the upper four cells,
                              bit i of 0..3 to write the i-th of the four */
     uint32_t value;       /* start: seed. set: value. write: a byte for each of the four cells, the first one lowest */
 };
 
-/* Half of what another robot says that it has learned. */
+/* Half of another robot's memory. */
 struct peer {
     bool upper;                    /* the upper four cells, not the lower */
     uint8_t cell[CELL_COUNT / 2];
@@ -61,11 +61,11 @@ struct report {
 /* What the robot answers to one input: the parts whose flag is set. */
 struct output {
     bool has_answer, has_report, has_memory, has_drive;   /* to be sent */
-    bool whole_report;                                    /* the whole report now; else it may be spread over later outputs */
+    bool whole_report;                                    /* send the whole report now; else it may be spread over later outputs */
     bool silent;                                          /* the input was silence, not senses */
     bool contradiction;                                   /* the senses contradicted themselves */
     bool denied;                                          /* the wheels did not do what they were told */
-    bool store;                                           /* the memory has changed, and is to be stored */
+    bool store;                                           /* the memory has changed: store it */
     enum result answer;
     uint32_t answer_value;                                /* get: the parameter's value. start: ANSWER_WANTS_RANGES or 0 */
     struct report report;                                 /* filled even without has_report, */

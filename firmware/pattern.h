@@ -1,4 +1,4 @@
-/* pattern.h: what the three front sensors say together, and how bad that is. */
+/* pattern.h: the reading of the three front sensors, and how many of them are triggered. */
 #ifndef OCTET_PATTERN_H
 #define OCTET_PATTERN_H
 

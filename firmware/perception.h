@@ -1,21 +1,21 @@
-/* perception.h: what the robot believes of what its proximity sensors say: with FILTER and DISTRUST, parameters that are
- * off by default, not all of it. */
+/* perception.h: filters the proximity sensors, as the parameters FILTER and DISTRUST say. Both are off by default: then
+ * every reading is believed. */
 #ifndef OCTET_PERCEPTION_H
 #define OCTET_PERCEPTION_H
 
 #include "firmware/config.h"
 
 struct perception {
-    uint8_t before[2];              /* what was sensed in the two ticks before, the last one first */
+    uint8_t before[2];              /* the readings of the two ticks before, newest first */
     uint8_t in_a_row[FEEL_COUNT];   /* decisions in which the sensor was triggered; stays at 255 */
 };
 
 void perception_start(struct perception *perception);
-        /* Nothing was sensed before, and every sensor is trusted. */
+        /* Resets: no earlier readings, and every sensor is trusted. */
 
 uint8_t perception_filter(struct perception *perception, const struct config *config, uint8_t feel);
-        /* What was sensed in this tick: with FILTER, bit by bit, what two of the last three ticks have said. Call once
-           for each senses. */
+        /* The reading of this tick; with FILTER, the bitwise majority of the last three ticks. Call once for each
+           senses. */
 
 void perception_decide(struct perception *perception, const struct config *config, uint8_t feel);
         /* A decision is made with these sensors triggered. A sensor that is triggered in DISTRUST decisions in a row is not

@@ -1,4 +1,4 @@
-/* random.h: the robot's dice, xoroshiro64** of Blackman and Vigna: 8 bytes of state, 32-bit arithmetic only. */
+/* random.h: random numbers by xoroshiro64** of Blackman and Vigna: 8 bytes of state, 32-bit arithmetic only. */
 #ifndef OCTET_RANDOM_H
 #define OCTET_RANDOM_H
 
@@ -15,6 +15,6 @@ uint32_t random_next(struct random *random);
         /* The next 32 bits. */
 
 uint8_t random_below(struct random *random, uint8_t n);
-        /* 0..n-1, each as likely; n is 1..255. */
+        /* Uniform in 0..n-1; n is 1..255. */
 
 #endif

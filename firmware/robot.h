@@ -1,5 +1,5 @@
-/* robot.h: the whole robot in one struct: senses in, drive out, one tick at a time. Nothing here waits. Robots share nothing;
- * one thread at a time uses a robot. */
+/* robot.h: the whole robot in one struct: senses in, drive out, one tick at a time. Nothing here waits. Robots share no
+ * state; only one thread at a time may use a robot. */
 #ifndef OCTET_ROBOT_H
 #define OCTET_ROBOT_H
 
@@ -12,16 +12,16 @@ struct robot {
     bool running;
     uint8_t reason;       /* of the action under way */
     uint8_t action;       /* its number, 0..127 */
-    uint8_t silences;     /* since the last senses, counted 1..10 round and round; 0: none */
-    uint8_t denials;      /* actions that the wheels did not carry out, less those that they did since; stays at 2, where the next
+    uint8_t silences;     /* since the last senses: 0 for none, then 1..10 cyclically */
+    uint8_t denials;      /* actions that the wheels did not carry out, less those that they did since; stays at 2: then the next
                              one stops the robot */
-    bool turn_denied;     /* the last one of them was a turn that tells, so that only another such turn forgives it */
+    bool turn_denied;     /* the last of these was a turn long enough to judge: only another such turn clears it */
     uint8_t tick;         /* of the last senses */
     struct config config;
     struct perception perception;
     struct caution caution;
     struct sharing sharing;
-    uint16_t part_ms;     /* of the second that has begun, with a start at the latest */
+    uint16_t part_ms;     /* of the current second; a start begins a new one */
     uint16_t uptime_s;    /* robot time since power-up, counted in ticks, wraps */
     struct brain brain;
     struct motion motion;
@@ -31,7 +31,7 @@ void robot_init(struct robot *robot, uint32_t seed);
         /* Resets to the power-up state: stopped, nothing learned, the article's profile. */
 
 void robot_step(struct robot *robot, const struct senses *senses, struct drive *drive);
-        /* Runs one tick: fills *drive for these senses. A stopped robot's wheels rest. */
+        /* Runs one tick: fills *drive for these senses. Wheels of a stopped robot stay at rest. */
 
 enum result robot_execute(struct robot *robot, const struct command *command, uint32_t *value);
         /* Executes one command, or returns why not and changes nothing. Sets *value if the answer has one. */

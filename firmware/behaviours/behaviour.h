@@ -1,15 +1,15 @@
 /* behaviour.h: how the robot decides: one behaviour for each profile, chosen by START.
  *
- * A profile NAME of octet.dbc has a file NAME.c here with the two functions declared below. They are called by name and
- * not through pointers, so that the worst stack can be worked out. */
+ * A profile NAME of octet.dbc has a file NAME.c here with the two functions declared below. They are called by name,
+ * not through pointers, so that tools can compute the worst-case stack. */
 #ifndef OCTET_BEHAVIOUR_H
 #define OCTET_BEHAVIOUR_H
 
 #include "firmware/brain.h"
 
-/* bool NAME_begin(brain): A run begins; the memory is of the behaviour's kind, and all that is in *brain for every
- * behaviour is as new. True if it learns, so that its memory is to be stored. It may put something into the memory, and
- * sets brain->changed if it does.
+/* bool NAME_begin(brain): Begins a run. The memory is already of the behaviour's kind, and the fields of *brain that all
+ * behaviours share are reset. May change the memory, and then sets brain->changed. Returns true if the behaviour learns,
+ * so that its memory is stored.
  *
  * struct action NAME_next(brain, config, senses): As brain_next. */
 #define BEHAVIOUR_DECLARE(profile, name, kind) \

@@ -1,14 +1,14 @@
-/* memory_write.h: bytes that come from outside, a person or a flash page, become memory only if they are one. */
+/* memory_write.h: writes bytes from outside (a person or a flash page) to the memory, if they are a valid memory. */
 #ifndef OCTET_MEMORY_WRITE_H
 #define OCTET_MEMORY_WRITE_H
 
 #include "firmware/memory/memory.h"
 
 bool memory_adopt(struct memory *memory, const uint8_t cells[CELL_COUNT]);
-        /* Takes over all cells. False, and nothing is changed, if they are a memory of no kind. */
+        /* Sets all cells. False if they are no memory of any kind; nothing is changed then. */
 
 bool memory_write(struct memory *memory, enum memory_kind kind, uint8_t which, uint32_t bytes);
-        /* Sets the i-th cell of a half, the lower four or with bit 4 of which the upper, to byte i of bytes for each bit i,
-           0..3, of which. False, and nothing is changed, if the result is not a memory of that kind. */
+        /* For each bit i, 0..3, of which: sets the i-th cell of a half to byte i of bytes. Bit 4 of which selects the upper
+           four cells, else the lower. False if the result is not a memory of that kind; nothing is changed then. */
 
 #endif

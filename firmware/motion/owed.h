@@ -1,28 +1,28 @@
-/* owed.h: how far wheels will still roll when they are told no more. Motors follow their orders late: a speed loop whose gain is
- * 1 rolls in the end what it was told, so that it owes the difference between what it was told and what it has rolled, whatever
- * its lag and its delay. docs/motion.md says why. */
+/* owed.h: estimates how far the wheels will still roll once no more is commanded. Motors follow commands late. A speed loop with
+ * gain 1 eventually rolls the commanded distance, so it owes the difference between the distance commanded and the distance
+ * rolled, whatever its lag and delay. docs/motion.md explains why. */
 #ifndef OCTET_OWED_H
 #define OCTET_OWED_H
 
 #include <stdint.h>
 
-enum { OWED_DELAY_TICKS = 2 };   /* an order takes up to as many until it arrives */
+enum { OWED_DELAY_TICKS = 2 };   /* a command takes at most this long to arrive */
 
-/* All in 0.1 mm of both wheels together. */
+/* All distances in 0.1 mm, both wheels together. */
 struct owed {
-    int16_t counts;                   /* as far as is known */
+    int16_t counts;                   /* owed, as far as known */
     int16_t rolled;                   /* in the last tick */
-    int16_t told[OWED_DELAY_TICKS];   /* for the last tick, and for that before it */
-    uint8_t same;                     /* ticks in a row before the last one that were told the same; stays at 255 */
+    int16_t told[OWED_DELAY_TICKS];   /* commanded for the last tick and the one before */
+    uint8_t same;                     /* ticks in a row before the last one with the same command; stays at 255 */
 };
 
 void owed_tell(struct owed *owed, int32_t counts);
-        /* The wheels are told to roll that far in the next tick. */
+        /* Notes the distance commanded for the next tick. */
 
 void owed_settle(struct owed *owed, int32_t rolled, unsigned ticks);
-        /* They have rolled that far in so many ticks. */
+        /* Notes the distance rolled in this number of ticks. */
 
 int32_t owed_counts(const struct owed *owed);
-        /* What they owe; 0 where that is no more than rounding. */
+        /* The distance owed; 0 if it is only rounding. */
 
 #endif

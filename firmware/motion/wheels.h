@@ -1,4 +1,4 @@
-/* wheels.h: what wheels do, in counts of their odometers. */
+/* wheels.h: wheel distances and speeds in odometer counts. */
 #ifndef OCTET_WHEELS_H
 #define OCTET_WHEELS_H
 
@@ -16,7 +16,7 @@ uint32_t wheels_turning_mm_s(const struct config *config);
         /* The speed of each wheel in a turn. */
 
 uint32_t wheels_fastest_mm_s(const struct config *config);
-        /* The highest speed that a wheel is ever told. */
+        /* The highest speed ever commanded of a wheel. */
 
 uint32_t wheels_counts_at(uint32_t speed_mm_s, const struct config *config);
         /* What both wheels together roll in a tick at this speed. */
@@ -27,6 +27,6 @@ int32_t wheels_counts_between(uint16_t before, uint16_t now);
 uint32_t wheels_magnitude(int32_t x);
 
 int32_t wheels_limited(int32_t x, int32_t limit);
-        /* x, or what is nearest to it of -limit..limit. */
+        /* x clamped to -limit..limit. */
 
 #endif
