@@ -15,8 +15,9 @@ from host_sim.report.bus_load import COMFORTABLE, load_tables
 _HEAD = """\
 # The wire
 
-Generated from [`octet.dbc`](../hal/protocol/octet.dbc) by `tools/octet protocol`, as is the code in C, Python and
-JavaScript. Any tool that reads DBC files can decode the traffic; `cantools` is in `.venv/bin`:
+`tools/octet protocol` generates this page from [`octet.dbc`](../hal/protocol/octet.dbc), from which the code in C,
+Python and JavaScript is generated, too. Any tool that reads DBC files can decode the traffic; `cantools` is in
+`.venv/bin`:
 
 ```sh
 tools/run --environments 1 --limit-s 2 --quiet
@@ -27,8 +28,8 @@ head -n 20 out/run.log | .venv/bin/cantools decode --single-line hal/protocol/oc
 
 ## A conversation
 
-What is asked of a robot has a number in brackets; [`tools/octet check-robot`](bench.md#a-robot-of-your-own) checks
-a robot against these, number by number.
+What is asked of a robot has a number in brackets; [`tools/octet check-robot`](bench.md#a-robot-of-your-own) checks a
+robot against each of them.
 
 1. At power-up the robot sends BOOT (T1).
 2. **stop** (COMMAND). The robot answers with ANSWER (T2), then all its reports: HEARTBEAT, BOOT, both halves of
@@ -39,76 +40,75 @@ a robot against these, number by number.
    command is answered (T7); the answer to **start** says whether the robot wants RANGES (T8).
 4. SENSES with tick n; the robot answers DRIVE with tick n (T9). This repeats every 20 ms of robot time. The first
    tick may have any number (T10).
-5. The robot's other frames of a tick (MEMORY when it has learned; once a second each report, one of them in each of
-   the first ticks of the second (T11); EMERGENCY after a fault (T12)) come before that tick's DRIVE: DRIVE is
-   always the last (T13). Seconds are counted from the
-   **start** of a stopped robot (T14).
+5. The robot sends its other frames of a tick before that tick's DRIVE: MEMORY when it has learned; once a second each
+   report, one per tick in the first ticks of the second (T11); EMERGENCY after a fault (T12). DRIVE is always the
+   last (T13). Seconds are counted from the **start** of a stopped robot (T14).
 
 A program that does this is among the [recipes](recipes.md#a-world-of-your-own).
 
 ## Bytes
 
-Frames are classic CAN data frames with identifiers of 11 bits (B1), at 500 kbit/s unless the robot was flashed for
-another bit rate (B2), and have exactly the length that the table says (B3). Bit 0 is the lowest bit of byte 0, bit
-8 that of byte 1; the first bit of a signal is its lowest (little-endian) (B4). Signals with a negative range are
-two's complement (B5). Where several signals have the same bits, `opcode`, `half` or `page` says which of them is
-there (B6). Bits without a signal are 0 (B7).
+Frames are classic CAN data frames with 11-bit identifiers (B1), at 500 kbit/s unless the robot was flashed for
+another bit rate (B2), and have exactly the length given in the table (B3). Bit 0 is the lowest bit of byte 0, bit 8
+that of byte 1; the first bit of a signal is its lowest (little-endian) (B4). Signals with a negative range are two's
+complement (B5). If several signals share the same bits, `opcode`, `half` or `page` selects which of them is present
+(B6). Bits without a signal are 0 (B7).
 
-`crc` is CRC-8 with polynomial 0x1D, start value 0 and no final xor, over the low byte of the identifier, its high
-byte, and bytes 1 to the last (B8). For example, **stop** by owner 1 with counter 0 is `{stop}` for node 1, in the
+`crc` is CRC-8 with polynomial 0x1D, initial value 0 and no final xor, over the low byte of the identifier, its high
+byte, and byte 1 to the last byte (B8). For example, **stop** by owner 1 with counter 0 is `{stop}` for node 1, in the
 notation of candump.
 
 ## Protection
 
 Every message is protected as in AUTOSAR E2E profile 1, with its identifier as Data ID: a CRC over all but its own
-byte, and an alive counter from 0 to 14 (P1). The counter of SENSES and RANGES goes on with the tick, and a DRIVE
-has that of the SENSES that it answers (P2). A frame is accepted if its identifier, length and CRC are right (P3)
-and its tick or counter goes on: up to 14 ticks ahead of the last tick (P4), 1 to 7 ahead of the owner's last
-command (P5). All other frames are refused: they are counted in FAULTS (P6), told at once by EMERGENCY (P7), and
-change nothing (P8).
+byte, and an alive counter from 0 to 14 (P1). The counter of SENSES and RANGES advances with the tick, and a DRIVE has
+that of the SENSES that it answers (P2). A frame is accepted if its identifier, length and CRC are right (P3) and its
+tick or counter advances: up to 14 ticks ahead of the last tick (P4), 1 to 7 ahead of the owner's last command (P5).
+All other frames are refused: they are counted in FAULTS (P6), reported at once by EMERGENCY (P7), and change nothing
+(P8).
 
 ## Silence
 
-If no fresh SENSES come for 100 ms, the robot sends a DRIVE at rest with reason **silence** and the last tick that
-it received (S1), every 100 ms (S2), also when it is stopped (S3), and a HEARTBEAT with `silent` set every second
-(S4). Its memory and its current action stay; it continues with the next SENSES (S5). Of the SENSES that queued up
+If no fresh SENSES come for 100 ms, the robot sends a DRIVE at rest with reason **silence** and the last tick that it
+received (S1), every 100 ms (S2), even when it is stopped (S3), and a HEARTBEAT with `silent` set every second (S4).
+Its memory and its current action are kept; it continues with the next SENSES (S5). Of the SENSES that queued up
 meanwhile, only the newest are used (S6).
 
 ## Lockstep
 
-A robot that was started with `lockstep` lets the sender's clock count: silence is no fault then (L1), and the robot
+A robot that was started with `lockstep` follows the sender's clock: silence is then not a fault (L1), and the robot
 takes the SENSES of tick n + 1 only after those of tick n (L2). The same SENSES again are answered by the same DRIVE
-again, and change nothing (L3): on a bus that loses frames, repeating is all that a simulator needs to do. The same
-holds for a COMMAND, in lockstep or not (L4).
+again, and change nothing (L3): on a bus that loses frames, a simulator only needs to repeat. The same holds for a
+COMMAND, in lockstep or not (L4).
 
 ## Owner
 
-**start** makes the sender the robot's owner, until **stop** (O1), or until its SENSES have failed to come for 100
-ms (O2) (in lockstep for a second (O3)). Meanwhile the commands of other senders are refused (O4), but for **stop**
-(O5). HEARTBEAT names the owner (O6). A robot that hears two DRIVEs or HEARTBEATs with its own identifiers within a
-second has a twin: it stops (O7). Each is counted in FAULTS (O8).
+**start** makes the sender the robot's owner, until **stop** (O1), or until no SENSES have come for 100 ms (O2) (in
+lockstep for a second (O3)). Meanwhile the commands of other senders are refused (O4), except **stop** (O5). HEARTBEAT
+names the owner (O6). A robot that hears two DRIVEs or HEARTBEATs with its own identifiers within a second has a twin:
+it stops (O7). Each is counted in FAULTS (O8).
 
 ## What it was told
 
-Whoever knows the protocol can send a command in the owner's name, with the next counter, and the robot obeys. So it
-says once a second, in HEALTH, what it holds: `held` covers all commands that it has carried out (H1). Its owner
-computes the same from the answers that it got, and knows within a second that there was another one. If SENSES come
-for the tick that it took last, with another CRC than those, `held` goes on over their bytes 1 to 7, and no longer is
-what the owner computes: somebody else sends SENSES (H6). One damaged frame in 256 has a right CRC: in a second
-in which frames were damaged, these SENSES may have to come twice (H6).
+Whoever knows the protocol can send a command in the owner's name, with the next counter, and the robot obeys. So once
+a second, in HEALTH, the robot reports a check value: `held` covers all commands that it has carried out (H1). Its
+owner computes the same from the answers that it got, and detects a foreign command within a second. If SENSES come
+for the tick that the robot took last, with another CRC than those, `held` is continued over their bytes 1 to 7, and
+no longer matches the owner's value: somebody else sends SENSES (H6). One damaged frame in 256 has a valid CRC: in a
+second in which frames were damaged, these SENSES may have to come twice (H6).
 
-`held` is the lower half of a CRC-32, that of Ethernet and zip (Python has it as `zlib.crc32`), 0 over nothing (H2).
-With each COMMAND that the robot has carried out it goes on over the frame's bytes 1 to 7, but for **get** and
-**report** (H3); a **stop** without an owner sets it to 0 (H4). While the robot has no owner, HEALTH goes on over its
-eight cells, too (H5): so the report that ends a run also proves its memory. For example, after `{start}` alone,
-`held` is 0x{held:04X}.
+`held` is the lower half of a CRC-32, that of Ethernet and zip (`zlib.crc32` in Python), 0 over nothing (H2). Each
+COMMAND that the robot has carried out, except **get** and **report**, continues it over the frame's bytes 1 to 7
+(H3); a **stop** without an owner sets it to 0 (H4). While the robot has no owner, HEALTH continues it over the eight
+cells, too (H5): so the report that ends a run also proves its memory. For example, after `{start}` alone, `held` is
+0x{held:04X}.
 
-Somebody who keeps the robot's answer back could compute a **start** whose seed leaves these 16 bits as they are. So
-the ANSWER to **stop** has more: in `value` all 32 bits over the commands before it, and in `which` the sum of their
-opcodes, modulo 256 (H7). The CRC shows a command that took the place of another of its kind; the sum shows one too
-many, or one of another kind.
+Somebody who keeps the robot's answer back could compute a **start** whose seed leaves these 16 bits unchanged. So the
+ANSWER to **stop** has more: in `value` all 32 bits over the commands before it, and in `which` the sum of their
+opcodes, modulo 256 (H7). The CRC shows a command that replaced another of its kind; the sum shows one too many, or
+one of another kind.
 
-The cost on the bus is two bytes, at most 20 bits, a second for each robot, and no frame more.
+The cost on the bus is two bytes, at most 20 bits, per second and robot, and no extra frame.
 
 ## Identifiers
 
@@ -119,18 +119,16 @@ Node 1 has the identifiers below; node n, up to {nodes}, adds n - 1. A smaller i
 _PARAMETERS = """
 ## Parameters
 
-What **set** changes, until the next **start**. Those of `body_` are kept by
-[a robot of its own](hardware.md#a-robot-of-its-own), which alone has them: `tools/octet calibrate` sets and shows
-them.
+**set** changes these until the next **start**. Only [a stand-alone robot](hardware.md#a-robot-of-its-own) has the
+`body_` parameters, and it keeps them: `tools/octet calibrate` sets and shows them.
 
 """
 _LOAD = f"""
 ## Bus load
 
-What the messages take at worst, stuff bits and the gap between frames included, as `tools/octet load` computes it
-from the messages' lengths and cycle times; in brackets, robots that ask for RANGES. A bus whose regular traffic stays
-within {COMFORTABLE:.0%} delivers every frame in time. [With a log](logs.md#bus-load), the command counts what was
-there.
+Worst-case bus load, stuff bits and interframe space included, as `tools/octet load` computes it from the messages'
+lengths and cycle times; in brackets, for robots that ask for RANGES. A bus whose regular traffic stays within
+{COMFORTABLE:.0%} delivers every frame in time. [With a log](logs.md#bus-load), the command prints the measured load.
 
 """
 
