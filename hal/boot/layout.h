@@ -1,4 +1,4 @@
-/* layout.h: where a chip's flash has what an update needs, in pages as flash.h counts them. Each chip has its own. */
+/* layout.h: how a chip's flash is divided for updates, in pages as flash.h counts them. Each chip has its own. */
 #ifndef OCTET_LAYOUT_H
 #define OCTET_LAYOUT_H
 
@@ -8,7 +8,7 @@
 struct layout {
     const char *chip;             /* such as "stm32f103" */
     const char *board;            /* such as "blue_pill" */
-    uint8_t number;               /* of this division of the chip's flash: an image for another one does not fit */
+    uint8_t number;               /* of this layout: images for another one do not fit */
     uint16_t choice_page;         /* the first of two */
     uint16_t slot_page[SLOTS];    /* the first of each slot */
     uint16_t slot_pages;          /* of a slot, */
@@ -18,6 +18,6 @@ struct layout {
 extern const struct layout LAYOUT;
 
 void boot_start(unsigned slot);
-        /* Goes on with the image in that slot, with the chip as after a reset but for its watchdog. Does not return. */
+        /* Starts the image in that slot, with the chip as after a reset except for its watchdog. Does not return. */
 
 #endif

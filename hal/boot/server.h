@@ -6,9 +6,9 @@
 #include "hal/boot/uds.h"
 
 enum {
-    UPDATE_REQUEST_ID = 0x6E0,    /* and the node: 0x6E1..0x6FF. As low as they come: an update gives way to robots that drive */
-    UPDATE_ANSWER_ID = 0x060,     /* 0x061..0x07F: short, and seldom */
-    SERVER_IDLE_MS = 5000,        /* without a request; then an image is started, if there is one */
+    UPDATE_REQUEST_ID = 0x6E0,    /* plus the node: 0x6E1..0x6FF. The lowest priority: updates give way to robots that drive */
+    UPDATE_ANSWER_ID = 0x060,     /* plus the node: 0x061..0x07F. Short and rare, so high priority */
+    SERVER_IDLE_MS = 5000,        /* without a request: then it starts the image, if any */
     SERVER_LAST_MS = 20           /* for the last answer to leave */
 };
 
@@ -16,7 +16,7 @@ struct server {
     struct isotp isotp;
     struct uds uds;
     uint16_t request_id;
-    bool hurries;                 /* server_work may find something to do at once */
+    bool hurries;                 /* server_work has more to do at once */
     bool leaving;
     uint32_t leaving_ms;          /* since when */
 };
@@ -24,16 +24,16 @@ struct server {
 void server_begin(struct server *server, struct choices *choices, uint8_t node, uint32_t now_ms);
 
 void server_programming(struct server *server);
-        /* An image that was asked for a programming session has restarted the chip for it: enters it, and answers. */
+        /* Enters the programming session for which an image has restarted the chip, and answers the request. */
 
 void server_take(struct server *server, const struct frame *frame, uint32_t now_ms);
-        /* A frame has come, of whatever kind. */
+        /* Handles a received frame of any kind. */
 
 void server_send(struct server *server, struct link *link, uint32_t now_ms);
-        /* Sends what there is to be sent. */
+        /* Sends whatever is due. */
 
 bool server_work(struct server *server, uint32_t now_ms);
-        /* To be called whenever no frame waits; does a step of what takes long, which may stall for as long as an erase. False:
-           it is time to restart the chip. */
+        /* Does a step of any long operation, which may stall for as long as an erase. Call whenever no frame waits. False:
+           restart the chip now. */
 
 #endif

@@ -16,9 +16,9 @@ struct sha512 {
 void sha512_begin(struct sha512 *hash);
 void sha512_add(struct sha512 *hash, const uint8_t bytes[], size_t count);
 void sha512_end(struct sha512 *hash, uint8_t out[SHA512_BYTES]);
-        /* hash is used up. */
+        /* Consumes hash: call sha512_begin before using it again. */
 
 void sha512(const uint8_t bytes[], size_t count, uint8_t out[SHA512_BYTES]);
-        /* All in one go. */
+        /* Hashes everything in one call. */
 
 #endif

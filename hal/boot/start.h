@@ -1,12 +1,12 @@
-/* start.h: which image a start goes to. */
+/* start.h: chooses the image to start. */
 #ifndef OCTET_START_H
 #define OCTET_START_H
 
 #include "hal/boot/choice.h"
 
 int start_pick(struct choices *choices);
-        /* The slot of the image to be started, with all stored that has to be before it is: 0, 1 or SLOT_NONE. choices is
-           open. Where nothing was ever chosen, as on a chip that was flashed by a probe, whatever is signed is taken for
-           installed. An image on trial is not started unless that could be counted. */
+        /* Returns the slot of the image to start, 0, 1 or SLOT_NONE, after storing the necessary record. choices must be
+           open. If nothing was ever chosen, as on a chip flashed by a probe, every signed image counts as installed. An
+           image on trial is started only if that start could be counted. */
 
 #endif

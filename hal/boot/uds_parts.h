@@ -1,4 +1,4 @@
-/* uds_parts.h: what the two halves of uds.h's implementation have of each other, and of UDS what an image has, too. */
+/* uds_parts.h: shared by the two halves of the implementation of uds.h, and by the UDS services of an image. */
 #ifndef OCTET_UDS_PARTS_H
 #define OCTET_UDS_PARTS_H
 
@@ -24,21 +24,21 @@ enum {
     DID_SESSION = 0xF186
 };
 
-/* A request, and its answer behind the service: what is not negative begins with the service and POSITIVE. */
+/* A request, and its answer after the service byte; a positive answer begins with the service and POSITIVE. */
 struct exchange {
     const uint8_t *request;
     uint16_t len;
     uint8_t *answer;
     uint16_t size;       /* of the answer so far */
     uint8_t function;
-    bool quiet;          /* only a refusal is answered */
+    bool quiet;          /* send only negative answers */
 };
 
 /* Functions of a service. */
 enum { FUNCTION_0 = 1, FUNCTION_1 = 2, FUNCTION_2 = 4 };
 
 /* What a service takes. */
-enum { EXACT = 1 /* no longer than the shortest request */, PROGRAMMING = 2 /* session */, UNLOCKED = 4 };
+enum { EXACT = 1 /* exactly as long as the shortest request */, PROGRAMMING = 2 /* session */, UNLOCKED = 4 };
 
 struct entry {
     uint8_t service;
@@ -48,13 +48,13 @@ struct entry {
 };
 
 uint32_t uds_number(const uint8_t *bytes);
-        /* Four bytes, the highest first, as UDS has all numbers. */
+        /* A number from four bytes, big-endian as in all of UDS. */
 
 void uds_put(struct exchange *exchange, uint32_t number, unsigned bytes);
         /* Appends to the answer. */
 
 enum nrc uds_admit(const struct entry *entry, const struct entry *end, unsigned given, struct exchange *exchange);
-        /* Begins the answer to a request, if what the entry for it takes is given; what is wrong is found in the order of the
+        /* Begins the answer to a request if it meets the conditions of its entry. They are checked in the order of the
            standard. */
 
 uint16_t uds_answer(struct exchange *exchange, enum nrc why);
@@ -62,13 +62,13 @@ uint16_t uds_refuse(uint8_t service, enum nrc why, uint8_t answer[]);
         /* The length of the answer, or 0 for none. */
 
 void uds_put_times(struct exchange *exchange);
-        /* What the answer to DiagnosticSessionControl ends with. */
+        /* Appends the end of the answer to DiagnosticSessionControl. */
 
 enum nrc uds_routine(struct uds *uds, struct exchange *exchange);
 enum nrc uds_download(struct uds *uds, struct exchange *exchange);
 enum nrc uds_transfer(struct uds *uds, struct exchange *exchange);
 enum nrc uds_transfer_exit(struct uds *uds);
-        /* RoutineControl and so on, in a programming session that is unlocked. NRC_PENDING: uds_step does it. */
+        /* RoutineControl and so on, in an unlocked programming session. NRC_PENDING: uds_step will do it. */
 
 enum nrc uds_step(struct uds *uds);
         /* A step of uds->work. NRC_PENDING: there is more to do. */

@@ -27,13 +27,13 @@ uint32_t port_clock_ms(void);
 
 void port_alive(bool outage);
         /* Feeds the watchdog and drives the status light. Called whenever the body begins to wait: at least every
-           HAL_SILENCE_MS, plus the time of a store. outage: no senses arrive. */
+           HAL_SILENCE_MS plus the time of a store. outage: no senses arrive. */
 
 uint16_t port_id(void);
-        /* An identifier that the port listens for itself; 0 for none. To be called after port_open. */
+        /* An identifier that the port itself listens for; 0: none. Call after port_open. */
 
 bool port_frame(const struct frame *frame, bool at_rest, struct frame *answer);
-        /* A frame with that identifier has come. at_rest: nobody drives the robot. True: *answer is to be sent. */
+        /* Handles a frame with that identifier. at_rest: nobody drives the robot. True: send *answer. */
 
 int port_load(uint8_t memory[CELL_COUNT]);
 uint32_t port_entropy(void);
@@ -44,14 +44,14 @@ enum port_effort { PORT_QUICKLY, PORT_AT_REST };
 enum { PORT_LATER = 1 };
 
 int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort);
-        /* As hal_store. Or PORT_LATER, and nothing is changed: it takes longer than a tick, and effort is PORT_QUICKLY.
-           With PORT_AT_REST, the wheels are at rest and no answer is awaited: the call may take a second. */
+        /* As hal_store. With PORT_QUICKLY, returns PORT_LATER and changes nothing if it would take longer than a tick.
+           PORT_AT_REST: the wheels are at rest and no answer is awaited, so the call may take a second. */
 
 enum { PORT_MORE = 2 };
 
 int port_load_more(unsigned which, uint8_t bytes[CELL_COUNT]);
 int port_store_more(unsigned which, const uint8_t bytes[CELL_COUNT]);
-        /* Eight bytes of the body's own, beside the memory: which is below PORT_MORE. As port_load, and port_store with
-           PORT_AT_REST. Only machines with a body on pins have them. */
+        /* Load and store eight further bytes for the body, number which below PORT_MORE; as port_load, and port_store with
+           PORT_AT_REST. Only on machines with a body on pins. */
 
 #endif

@@ -1,5 +1,5 @@
-/* exchange.h: a robot as a library call, frames in and frames out: for running it within another program, as fast as it
- * goes. It is the same robot and the same wire as behind a bus; time is what the frames say. */
+/* exchange.h: a robot as a library, frames in and frames out, for running it within another program as fast as possible. It
+ * is the same robot with the same protocol as on a bus; its time is that of the frames. */
 #ifndef OCTET_EXCHANGE_H
 #define OCTET_EXCHANGE_H
 
@@ -14,23 +14,23 @@ struct octet {
 };
 
 void octet_init(struct octet *octet, uint8_t node, const uint8_t memory[CELL_COUNT]);
-        /* A robot as octet_open's, in memory of the caller's. Another robot_respond may take the place of the firmware's. */
+        /* Like octet_open, in memory of the caller; respond may replace the firmware's robot_respond. */
 
 struct octet *octet_open(uint8_t node, const uint8_t memory[CELL_COUNT]);
-        /* A robot as after power-up, with what was stored; empty if that is not a memory. node is 1..NODE_MAX.
-           Null if the machine is out of memory. */
+        /* Creates a robot as after power-up with this stored memory, or an empty one if it is not valid. node is
+           1..NODE_MAX. Null if out of memory. */
 
 size_t octet_exchange(struct octet *octet, const struct frame *in);
-        /* Takes one frame and returns how many frames the robot answers: 0 to one that is stale, damaged or foreign, which
-           is counted. */
+        /* Handles one frame and returns the number of answers: 0 if it is stale, damaged or foreign, which is
+           counted. */
 
 void octet_outage(struct octet *octet);
-        /* In real time: no senses have come for HAL_SILENCE_MS. The next ones are fresh, whatever their counter. */
+        /* In real time: no senses came for HAL_SILENCE_MS. The next ones are accepted with any counter. */
 
 const struct frame *octet_answers(const struct octet *octet);
         /* The answers to the last frame, in order. The address stays the same until octet_close. */
 
 void octet_close(struct octet *octet);
-        /* Frees it. A null octet is fine. */
+        /* Frees it; null is allowed. */
 
 #endif

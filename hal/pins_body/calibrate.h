@@ -1,9 +1,9 @@
 /* calibrate.h: a body measures itself, one thing at a time, as BODY_MEASURE names it.
  *
- * Light: what its sensors receive of their own light from a white wall 60 mm before each, the mean of 16 ticks.
- * Motors, wheels in the air: two stairs of duty, and a step from one to the other. The speeds on the stairs make a line: where it
- * begins is the dead band, how steep it is the feed-forward. What the step lacks of the upper speed is the lag.
- * Track, turning on the spot beside one wall: the ways of both wheels from one sight of the wall to the fourth after it. */
+ * Light: the light of its own LEDs that each sensor receives from a white wall 60 mm away, the mean of 16 ticks.
+ * Motors, wheels in the air: two levels of duty, and a step from one to the other. A line through the two speeds gives the dead
+ * band (its offset) and the feed-forward (its slope). The distance missing after the step gives the lag.
+ * Track, turning on the spot beside one wall: the distances of both wheels from one sight of the wall to the fourth after it. */
 #ifndef OCTET_CALIBRATE_H
 #define OCTET_CALIBRATE_H
 
@@ -22,7 +22,7 @@ struct calibration {
     uint16_t beats;                   /* since it began */
     uint16_t counts[PINS_SIDES];      /* in the last beat */
     uint16_t marks[PINS_SIDES][CALIBRATE_MARKS];
-    int32_t low_mv;                   /* of the battery on the lower stair */
+    int32_t low_mv;                   /* of the battery at the lower level */
     int32_t turned, first;            /* left wheel less right one, counts: since it began, and up to the first sight */
     int32_t found;                    /* what was refused */
     uint32_t light[FEEL_COUNT];
@@ -37,19 +37,19 @@ struct calibrate_look {
 };
 
 void calibrate_begin(struct calibration *calibration, uint8_t measures);
-        /* Forgets what was under way. */
+        /* Resets to rest. */
 
 void calibrate_interrupt(struct calibration *calibration);
-        /* What is under way comes to nothing. */
+        /* Aborts the measurement. */
 
 bool calibrate_beat(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits);
-        /* Once in 5 ms, while it measures. True: it has ended. What cannot be is refused, and no trait has changed; otherwise
-           traits are to be stored. */
+        /* Call every 5 ms while it measures. True: it has ended. An impossible result is refused and changes no trait; otherwise
+           store the traits. */
 
 int32_t calibrate_duty(const struct calibration *calibration);
-        /* Of both motors, in the next beat; 0: the wheels' controllers hold them. */
+        /* Duty of both motors in the next beat; 0: the wheels' controllers drive them. */
 
 int16_t calibrate_mm_s(const struct calibration *calibration);
-        /* Of the left wheel, and backward of the right one. */
+        /* Speed of the left wheel; the right one turns backward at the same speed. */
 
 #endif

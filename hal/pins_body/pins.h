@@ -1,6 +1,6 @@
-/* pins.h: what the body of a robot of its own needs of the microcontroller's pins. Each family of chips provides it:
- * hal/stm32/robot/robot_pins.c is one. Everything is done by timers and the converter by themselves; a beat of 5 ms, made
- * by the timer of the motors, tells when there is something to do. One thread calls all of it. */
+/* pins.h: what a body on pins needs from the microcontroller. Each chip family provides it: hal/stm32/robot/robot_pins.c is
+ * one. Timers and the ADC do everything in hardware; a beat of 5 ms, from the motors' timer, paces the software. One thread
+ * calls all of it. */
 #ifndef OCTET_PINS_H
 #define OCTET_PINS_H
 
@@ -9,30 +9,30 @@
 enum { PINS_SIDES = 2 };   /* 0 left, 1 right */
 
 void pins_open(void);
-        /* Timers, converter and pins, with the bridge asleep, both motors without current and the infrared LEDs off. Beats begin
-           with the call. */
+        /* Sets up timers, ADC and pins, with the bridge asleep, both motors off and the infrared LEDs off. Beats begin with the
+           call. */
 
 void pins_wait(void);
-        /* Sleeps until the next beat. One that has passed since the last call counts as the next. */
+        /* Sleeps until the next beat; returns at once if one has passed since the last call. */
 
 uint16_t pins_count(unsigned side);
         /* Counts of a wheel's encoder, forward up; wraps. */
 
 void pins_push(unsigned side, int32_t duty);
-        /* Current for a motor: duty in 1/65536 of the supply, forward positive. */
+        /* Drives a motor: duty in 1/65536 of the supply, forward positive. */
 
 void pins_wake_bridge(bool awake);
-        /* The bridge between PWM and motors; asleep, both motors are free. */
+        /* Wakes the motor bridge or puts it to sleep; asleep, both motors coast. */
 
 bool pins_bridge_failed(void);
-        /* It reports a short circuit or that it is too hot. The timer has then stopped the PWM by itself, until the bridge is woken
-           again. */
+        /* Whether the bridge reports a short circuit or overtemperature. The timer has then stopped the PWM by itself, until the
+           bridge is woken again. */
 
 void pins_shine(bool on);
-        /* The infrared LEDs of the proximity sensors. */
+        /* Switches the infrared LEDs of the proximity sensors. */
 
 void pins_measure(uint16_t light[FEEL_COUNT]);
-        /* What the proximity sensors receive, 0..4095, in the order of feel's bits: less than half a millisecond old. */
+        /* Light received by the proximity sensors, 0..4095, in the order of feel's bits, less than half a millisecond old. */
 
 uint32_t pins_battery_mv(void);
 
@@ -41,6 +41,6 @@ uint16_t pins_bursts(void);
 
 bool pins_bumped(void);
 bool pins_button(void);
-        /* Pressed at this moment; contacts bounce. */
+        /* Whether the button is pressed now, not debounced. */
 
 #endif

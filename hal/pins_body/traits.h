@@ -1,5 +1,5 @@
-/* traits.h: in what a robot differs from others of its plan, as it was calibrated: body_near_right and those behind it in octet.dbc.
- * They are kept in flash, in two records beside that of the memory: an interrupted store leaves each as it was or as it is to be. */
+/* traits.h: calibration of one robot: body_near_right and the parameters after it in octet.dbc. They are stored in flash, in two
+ * records beside that of the memory; an interrupted store leaves each record old or new. */
 #ifndef OCTET_TRAITS_H
 #define OCTET_TRAITS_H
 
@@ -8,8 +8,8 @@
 enum {
     TRAIT_FIRST = BODY_NEAR_RIGHT,
     TRAITS_KEPT = BODY_PARAMETER_END - TRAIT_FIRST,
-    TRAIT_LIGHT = 16,          /* of what the sensors measure, a unit of body_near_.. */
-    TRAIT_DEAD_OF = 8192, TRAIT_DEAD_BY = 125   /* a duty of that: 125 units of body_dead_.. */
+    TRAIT_LIGHT = 16,          /* sensor counts per unit of body_near_.. */
+    TRAIT_DEAD_OF = 8192, TRAIT_DEAD_BY = 125   /* this duty is 125 units of body_dead_.. */
 };
 
 struct traits {
@@ -17,12 +17,12 @@ struct traits {
 };
 
 bool traits_fit(uint8_t number, uint32_t value);
-        /* Whether parameter number TRAIT_FIRST..BODY_PARAMETER_END - 1 may have it. */
+        /* Whether value is in the range of parameter TRAIT_FIRST..BODY_PARAMETER_END - 1. */
 
 void traits_load(struct traits *traits);
-        /* As they were stored last; what was not, or cannot be, is as in octet.dbc. */
+        /* Loads the stored values; those missing or out of range get the defaults of octet.dbc. */
 
 int traits_store(const struct traits *traits);
-        /* 0, or HAL_E_STORE. The wheels are at rest: it may take a second. */
+        /* Returns 0, or HAL_E_STORE. May take a second: call only with the wheels at rest. */
 
 #endif

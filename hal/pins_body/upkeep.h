@@ -1,5 +1,5 @@
-/* upkeep.h: what a body on pins knows of itself, and how others come to know and change it: commands for its parameters, BODY_MEASURE
- * and those behind it. The robot knows none of them. */
+/* upkeep.h: commands for the parameters of a body on pins, BODY_MEASURE and those after it, and its calibration. The robot core
+ * knows none of them. */
 #ifndef OCTET_UPKEEP_H
 #define OCTET_UPKEEP_H
 
@@ -10,8 +10,8 @@
 struct upkeep {
     struct traits traits;
     struct calibration calibration;
-    bool unkept;           /* traits that were measured are not stored yet */
-    bool serves;           /* the command under way is for the body, which answers: */
+    bool unkept;           /* measured traits are not stored yet */
+    bool serves;           /* the current command is for the body, which answers: */
     enum result served;
     uint32_t value;
 };
@@ -20,15 +20,15 @@ uint8_t upkeep_trait(const struct upkeep *upkeep, unsigned number);
         /* The value of a parameter TRAIT_FIRST..BODY_PARAMETER_END - 1. */
 
 void upkeep_use(const struct upkeep *upkeep, struct proximity *proximity, struct wheel *wheels);
-        /* Sensors and both wheels go by the traits. */
+        /* Applies the traits to the sensors and both wheels. */
 
 void upkeep_store(struct upkeep *upkeep);
-        /* Stores what was measured, if there is anything. Wheels at rest. */
+        /* Stores new measurements, if any. Call only with the wheels at rest. */
 
 void upkeep_serve(struct upkeep *upkeep, const struct command *command, bool running);
-        /* A command has come from outside. If it is for the body, it is carried out; a robot that runs keeps what it has. */
+        /* Handles a command from outside. If it is for the body, carries it out; while the robot runs, it sets nothing. */
 
 void upkeep_answer(const struct upkeep *upkeep, struct output *out);
-        /* Where the robot's answer was to such a command, puts the body's in its place. */
+        /* If the output answers such a command, replaces the robot's answer with the body's. */
 
 #endif

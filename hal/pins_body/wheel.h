@@ -1,8 +1,8 @@
-/* wheel.h: holds the speed of one wheel by its encoder: feed-forward and PI in whole numbers, once in WHEEL_PERIOD_MS.
+/* wheel.h: speed control of one wheel by its encoder: feed-forward and PI in integers, every WHEEL_PERIOD_MS.
  *
- * The wheel follows a first-order model of 37 ms. Feed-forward drives the motor along it, and PI corrects what is missing of its
- * way, so that the wheel rolls in the end what it was told. The zero of the PI cancels the pole of the motor: what is left is
- * an integrator that crosses over at 20 rad/s, with a phase margin of 80 degrees and a gain margin of 20 dB at a delay of 7.5 ms. */
+ * The wheel follows a first-order model of 37 ms. Feed-forward drives the motor along it, and PI corrects the position
+ * error, so that the wheel eventually rolls the commanded distance. The zero of the PI cancels the pole of the motor: what remains
+ * is an integrator with a crossover at 20 rad/s, a phase margin of 80 degrees and a gain margin of 20 dB at a delay of 7.5 ms. */
 #ifndef OCTET_WHEEL_H
 #define OCTET_WHEEL_H
 
@@ -16,12 +16,12 @@ enum { WHEEL_FORWARD = 97, WHEEL_DEAD = 5243, WHEEL_LAG_MS = 60, WHEEL_KP = 23, 
 
 struct wheel {
     int32_t model_256;    /* the model's speed, 1/256 um in a period */
-    int32_t behind_um;    /* the way that the wheel is behind the model */
-    int32_t rest_256;     /* of a um that has been counted, 1/256 um */
+    int32_t behind_um;    /* distance that the wheel is behind the model */
+    int32_t rest_256;     /* remainder of the counted distance, 1/256 um */
     int32_t way_256;      /* rolled since the start, 1/256 um; wraps with the odometer */
-    uint16_t count;       /* of the encoder, when it was last read */
+    uint16_t count;       /* last reading of the encoder */
     bool known;
-    int16_t forward_more, dead_more, lag_more_ms;   /* by so much its motor differs from the one above */
+    int16_t forward_more, dead_more, lag_more_ms;   /* how its motor differs from the one above */
 };   /* all 0: at rest */
 
 int32_t wheel_run(struct wheel *wheel, uint16_t count, int16_t told_mm_s, uint32_t battery_mv);
@@ -29,7 +29,7 @@ int32_t wheel_run(struct wheel *wheel, uint16_t count, int16_t told_mm_s, uint32
            WHEEL_COUNT_256 each. */
 
 uint16_t wheel_odometer(const struct wheel *wheel);
-        /* How far it has rolled, as of the last period: 0.1 mm, forward counts up, wraps at ODOMETER_SPAN. */
+        /* Distance rolled, as of the last period: 0.1 mm, forward counts up, wraps at ODOMETER_SPAN. */
 
 enum { WHEEL_COUNT_256 = 23450 };   /* 91.6 um: 12 x 30 x 4 counts a turn of a wheel of 42 mm */
 

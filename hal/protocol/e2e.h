@@ -10,13 +10,13 @@
 enum { E2E_COUNTERS = 15 };   /* counters are 0..14 */
 
 void e2e_protect(struct frame *frame);
-        /* Puts the CRC into byte 0 of a frame that is complete but for it. len is 2..8. */
+        /* Fills in the CRC, byte 0, of an otherwise complete frame. len is 2..8. */
 
 bool e2e_is_whole(const struct frame *frame, uint8_t len);
-        /* Whether it has this length, the right CRC, and a counter. */
+        /* Whether the frame has this length, the right CRC and a valid counter. */
 
 uint8_t e2e_counter(const struct frame *frame);
-        /* The alive counter: 0..14 in a frame that is whole. */
+        /* The alive counter: 0..14 in a valid frame. */
 
 uint8_t e2e_next(uint8_t counter);
         /* The counter after this one; 0 follows 14. */

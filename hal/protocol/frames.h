@@ -1,4 +1,4 @@
-/* frames.h: the frames of one output, while they are being written. */
+/* frames.h: the frames of one output, as they are being built. */
 #ifndef OCTET_FRAMES_H
 #define OCTET_FRAMES_H
 
@@ -10,9 +10,9 @@ struct frames {
 };
 
 struct frame *frames_add(struct frames *frames, const struct wire *wire, uint32_t id_of_node_1, uint8_t len);
-        /* One more, with data all 0. The identifier is that of node 1 in octet.dbc; it becomes that of this node. */
+        /* Appends a frame with data all 0. The identifier is that of node 1 in octet.dbc; it becomes that of this node. */
 
 uint8_t frames_count_up(struct wire *wire, enum counted kind);
-        /* Returns the alive counter for a message of this kind; the next one gets another. */
+        /* Returns the alive counter for a message of this kind, and advances it. */
 
 #endif

@@ -7,25 +7,25 @@
 #include "hal/link/link.h"
 
 enum reset_cause {
-    RESET_POWER_ON,   /* or a power failure */
+    RESET_POWER_ON,   /* power-on, or a power failure */
     RESET_PIN,        /* the reset button, or a debugger */
     RESET_WATCHDOG,   /* it hung */
     RESET_SOFTWARE,   /* its body could not be opened */
-    RESET_CRASH       /* it did what it must not: see struct crash */
+    RESET_CRASH       /* a fault exception: see struct crash */
 };
 
 enum { CRASH_VALUES_MAX = 13 };   /* that octet.dbc has names for */
 
-/* What the machine knew when it crashed, in numbers that octet.dbc has words for; only the port knows what they mean. */
+/* The machine's state when it crashed, in values named by octet.dbc; only the port knows what they mean. */
 struct crash {
     uint8_t cause;
     uint8_t count;                      /* of values, 1..CRASH_VALUES_MAX */
-    uint32_t values[CRASH_VALUES_MAX];  /* the name of a value is its place */
+    uint32_t values[CRASH_VALUES_MAX];  /* a value's index is its name in octet.dbc */
 };
 
 struct health {
     enum reset_cause reset_cause;
-    bool unstored;      /* what was learned last waits to be stored */
+    bool unstored;      /* the newest memory waits to be stored */
     bool clock_exact;   /* the clock is as exact as the bus needs */
     struct link_health bus;
     const struct crash *crash;   /* null for none */

@@ -1,27 +1,27 @@
-/* session.h: which sender the robot obeys, and which tick comes next. */
+/* session.h: the session: which sender the robot obeys, and which tick comes next. */
 #ifndef OCTET_SESSION_H
 #define OCTET_SESSION_H
 
 #include "firmware/io.h"
 
-enum { SESSION_WINDOW = 14 };   /* ticks ahead of the last that are taken where the robot's own clock counts */
+enum { SESSION_WINDOW = 14 };   /* how many ticks ahead of the last are accepted in real time */
 
 /* A COMMAND as it was sent. */
 struct request {
     struct command command;   /* what the robot is to do */
     uint8_t counter;
     uint8_t owner;            /* who asks for it */
-    bool lockstep;            /* start: the owner's clock counts */
+    bool lockstep;            /* start: lockstep instead of real time */
 };
 
 struct session {
-    struct request request; /* the last one taken, */
+    struct request request; /* the last one accepted, */
     bool knows_request;     /* if there was one */
     uint8_t owner;          /* who started the robot; 0 if it was not started */
-    bool hears;             /* the owner's senses come */
-    bool lockstep;          /* the owner's clock counts */
-    bool knows_tick;        /* false: whatever tick comes next is taken */
-    uint8_t tick;           /* of the last senses taken, */
+    bool hears;             /* the owner's senses are arriving */
+    bool lockstep;          /* no timeout by the robot's own clock */
+    bool knows_tick;        /* false: any tick is accepted next */
+    uint8_t tick;           /* of the last senses accepted, */
     uint8_t counter;        /* and their alive counter */
     uint32_t told;          /* CRC-32 over the commands carried out since a stop without an owner, and over senses for a tick
                                that had others, */
@@ -32,17 +32,17 @@ struct session {
 enum arrival { ARRIVAL_FRESH, ARRIVAL_AGAIN, ARRIVAL_STALE };
 
 enum arrival session_senses(struct session *session, uint8_t tick, uint8_t counter, unsigned *missed);
-        /* Senses have come. Fresh: they are the next ones, and *missed is the number of ticks that were left out. Again:
-           in lockstep, those of the last tick. */
+        /* Judges received senses. Fresh: they are the next ones, and *missed is the number of ticks skipped. Again: in
+           lockstep, those of the last tick, repeated. */
 
 enum arrival session_request(struct session *session, const struct request *request, enum result *why);
-        /* A whole COMMAND has come. Fresh: it is to be carried out, and is session->request now. Again: it is that one, once
-           more. Stale: it is refused, and *why says why. */
+        /* Judges a received valid COMMAND. Fresh: it is now session->request, to be carried out. Again: the same request,
+           repeated. Stale: it is refused, and *why says why. */
 
 void session_executed(struct session *session, enum result result);
-        /* session->request has been carried out, or refused by the robot. */
+        /* Notes that session->request was carried out, or refused by the robot. */
 
 void session_end(struct session *session);
-        /* The robot has been stopped: it has no owner, and any tick may come next. */
+        /* Notes that the robot was stopped: it has no owner, and any tick may come next. */
 
 #endif

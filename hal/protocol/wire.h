@@ -1,5 +1,5 @@
-/* wire.h: frames to inputs and outputs to frames, as octet.dbc has them. Whatever a bus may bring is checked here,
- * once: what gets past is valid. */
+/* wire.h: converts frames to inputs and outputs to frames, as octet.dbc defines them. Everything from the bus is checked
+ * here, once: inputs are valid. */
 #ifndef OCTET_WIRE_H
 #define OCTET_WIRE_H
 
@@ -12,7 +12,7 @@ enum {
     WIRE_FRAMES_MAX = 11     /* that one output makes */
 };
 
-/* The messages that count themselves. */
+/* The messages with an alive counter of their own. */
 enum counted { COUNTED_EMERGENCY, COUNTED_MEMORY, COUNTED_HEARTBEAT, COUNTED_BOOT, COUNTED_FAULTS, COUNTED_CRASH,
                COUNTED_HEALTH, COUNTED_KINDS };
 
@@ -22,24 +22,24 @@ struct wire {
     uint16_t news;                   /* kinds of faults that no EMERGENCY has reported yet, bit i for kind i, */
     uint8_t first_news;              /* and the first of them */
     struct session session;
-    uint8_t senses_crc;              /* of the last senses taken, */
-    uint8_t other_crc;               /* and of the last others for their tick; the same if there were none */
+    uint8_t senses_crc;              /* of the last senses accepted, */
+    uint8_t other_crc;               /* and of the last different senses for that tick; the same if none */
     bool noisy;                      /* a frame was damaged since the last heartbeat */
     uint8_t counters[COUNTED_KINDS]; /* of the next message of each kind */
-    uint8_t part;                    /* of the report under way: which is sent next; 0 for none */
+    uint8_t part;                    /* of the current report: the part to send next; 0 for none */
     bool wants_ranges;               /* the behaviour asks for RANGES */
     bool has_ranges;                 /* they have come: */
     uint8_t ranges_tick;
     uint8_t range_mm[FEEL_COUNT];
-    uint32_t told_lower, told_upper; /* bit n - 1: node n has told this half of its memory since the last report */
+    uint32_t told_lower, told_upper; /* bit n - 1: node n has sent this half of its memory since the last report */
     uint8_t strangers;               /* frames with our own identifiers since the last heartbeat: one may be noise */
     bool twin;                       /* another robot with this number was heard since the last start */
-    bool unasked;                    /* the stop under way is the wire's own, and has no answer */
-    struct frame drive, answer;      /* as last sent, to be sent again when asked again */
+    bool unasked;                    /* the current stop comes from the wire itself, and has no answer */
+    struct frame drive, answer;      /* as last sent, for repetition on request */
     struct frame refusal;
-    const struct frame *again;       /* what wire_read has to be sent; null for nothing */
+    const struct frame *again;       /* the frame to repeat after wire_read; null for none */
     struct health health;            /* to be reported; the body keeps it up to date */
-    uint8_t crash_value;             /* place of the one to be told next */
+    uint8_t crash_value;             /* index of the value to report next */
 };
 
 void wire_init(struct wire *wire, uint8_t node);
@@ -50,28 +50,28 @@ void wire_ids(const struct wire *wire, uint16_t ids[WIRE_LISTEN_COUNT]);
            those has the same number. */
 
 void wire_boot(struct wire *wire, struct frame *frame);
-        /* The message that it has come up. */
+        /* Writes the BOOT message. */
 
 enum input_kind wire_read(struct wire *wire, const struct frame *frame, struct input *in);
-        /* INPUT_SENSES, INPUT_COMMAND or INPUT_PEER, as in hal_receive: fresh, whole and for us, and that part of *in is filled.
-           INPUT_SILENCE: none of that, and *in is untouched. The frame was counted, or it came before: then wire->again is
-           what was answered, to be sent once more. A twin is heard as a command to stop. */
+        /* Reads a frame. INPUT_SENSES, INPUT_COMMAND or INPUT_PEER, as in hal_receive: it is fresh, valid and for us, and that
+           part of *in is filled. INPUT_SILENCE: none of these; *in is untouched. Either the frame was counted, or it is a
+           repetition, and wire->again is the answer to send again. A frame from a twin becomes a command to stop. */
 
 size_t wire_write(struct wire *wire, const struct output *out, struct frame frames[WIRE_FRAMES_MAX]);
         /* Returns how many frames the marked parts make, 0..WIRE_FRAMES_MAX; the drive is last. A report is spread over this
            output and those after it, one part each, unless it is marked whole; a new memory goes first. */
 
 void wire_senses(struct wire *wire, const struct senses *senses, struct frame *frame);
-        /* What the robot's own body senses, for those who listen. The drive that is written next answers it. */
+        /* Writes the senses of the robot's own body, for listeners. The drive that is written next answers them. */
 
 void wire_outage(struct wire *wire);
-        /* The senses have failed to come: counted if they had been coming. The next tick need not follow the last, and
-           the owner has lost the robot. In lockstep only the latter. */
+        /* Handles silence: counts it if senses had been arriving. Then any tick may come next, and the owner has lost the
+           robot; in lockstep only the latter. */
 
 uint32_t wire_id(const struct wire *wire, uint32_t id_of_node_1);
-        /* octet.dbc has the identifiers of node 1: the same for this node. */
+        /* Converts an identifier of node 1, as in octet.dbc, to this node's. */
 
 void wire_count(struct wire *wire, enum fault fault);
-        /* One more of these. */
+        /* Counts a fault of this kind. */
 
 #endif

@@ -13,10 +13,10 @@ enum {
 };
 
 bool can_stop(void);
-        /* Leaves the bus; from here on it can be set up. False: it does not answer within CAN_STOP_MS. */
+        /* Leaves the bus and enters configuration mode. False: no answer within CAN_STOP_MS. */
 
 void can_set_up(uint32_t prescaler, uint32_t quanta, const uint16_t ids[], size_t id_count);
-        /* The bit, as in can_timing.h, and the identifiers to listen for, as in link_open: data frames only. */
+        /* Sets the bit timing, as in can_timing.h, and the identifiers to listen for, as in link_open: data frames only. */
 
 void can_start(void);
         /* Joins the bus once that has been idle for 11 bits, without waiting for it; after bus-off, 128 times as long. */
@@ -24,22 +24,22 @@ void can_start(void);
 enum can_state { CAN_JOINING, CAN_JOINED, CAN_LOST };
 
 enum can_state can_state(void);
-        /* CAN_LOST: bus-off, until can_stop and can_start have had their effect. */
+        /* CAN_LOST: bus-off, until can_stop and can_start have taken effect. */
 
 int can_take(struct frame *out);
-        /* What has come, the oldest first, of families after all else: 1, 0 for nothing, or LINK_E_GARBLED where some were
-           lost. */
+        /* Receives a frame: oldest first, but families after all others. Returns 1, 0 for none, or LINK_E_GARBLED if frames
+           were lost. */
 
 bool can_put(const struct frame *frame);
-        /* To be sent: the lowest identifier leaves first, and of equal ones the one that was put first. False: there is no
-           buffer free in which that would hold. */
+        /* Queues a frame: the lowest identifier is sent first, and equal ones in the order of these calls. False: no free
+           buffer could keep that order. */
 
 uint32_t can_waiting(uint32_t ids[CAN_BUFFERS]);
-        /* Bit n: a frame in buffer n waits to be sent or is under way, and ids[n] is its identifier. */
+        /* Bit n: buffer n holds a frame that waits or is being sent, and ids[n] is its identifier. */
 
 void can_abort(uint32_t buffers);
-        /* Forgets what waits to be sent in these, a bit each. One under way may still arrive, and keeps its buffer until
-           then. */
+        /* Cancels the frames in these buffers, one bit each. A frame that is being sent may still arrive, and keeps its buffer
+           until then. */
 
 void can_status(struct link_health *out);
         /* Fills in state, tx_errors and rx_errors. */

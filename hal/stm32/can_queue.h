@@ -1,8 +1,8 @@
-/* can_queue.h: frames on their way out, through the chip's own CAN controller.
+/* can_queue.h: the transmit queue of the chip's own CAN controller.
  *
- * The controller sends the lowest identifier first, so that other nodes' frames hold a drive up no longer than its own priority
- * allows, whatever else the robot has to say. On an idle bus frames leave in the order in which they were put all the same: an
- * urgent one lets the others go first, as long as they do go. */
+ * The controller sends the lowest identifier first, so that other nodes' frames delay a drive no longer than its priority
+ * allows, whatever else the robot sends. Yet on an idle bus frames leave in the order of the calls: an urgent one lets the
+ * others go first, as long as they do go. */
 #ifndef OCTET_CAN_QUEUE_H
 #define OCTET_CAN_QUEUE_H
 
@@ -10,30 +10,30 @@
 
 #include "hal/link/link.h"
 
-enum { CAN_QUEUE_MAX = 8 };   /* with what the controller takes: all that a robot tells of itself at once */
+enum { CAN_QUEUE_MAX = 8 };   /* with the controller's buffers, room for the robot's longest report */
 
 struct can_queue {
     struct frame frames[CAN_QUEUE_MAX];   /* not urgent, and not yet in the controller */
     uint8_t first, count;
     uint8_t dropped;      /* as in struct link_health */
-    unsigned waiting;     /* frames that had not left as of the last look */
-    uint32_t moved_ms;    /* when one last did, or none was there */
-    uint8_t stuck_ms;     /* on an idle bus a frame leaves in less, */
-    uint8_t drain_ms;     /* and all that can wait in this; but link_send has promised to be back */
+    unsigned waiting;     /* frames not yet sent, as of the last check */
+    uint32_t moved_ms;    /* when one was last sent, or none was waiting */
+    uint8_t stuck_ms;     /* on an idle bus, a frame is sent in less, */
+    uint8_t drain_ms;     /* and a full queue in this, within the limit of link_send */
 };
 
 void can_queue_begin(struct can_queue *queue, uint32_t bitrate);
         /* Empties it, for a bus of that many bit/s. */
 
 bool can_queue_put(struct can_queue *queue, const struct frame *frame);
-        /* False, and counted: the bus takes nothing. One that is more urgent than all that waits overtakes them where they do
-           not leave as fast as they would on an idle bus; if the controller is full, the least urgent frame there is dropped
-           for it. What has waited for LINK_SEND_MS without any of it leaving is out of date, and dropped. */
+        /* Queues a frame. False, and counted: the bus takes nothing. A frame more urgent than all that wait overtakes them if
+           they leave more slowly than on an idle bus; if the controller is full, its least urgent frame is dropped. Frames that
+           waited for LINK_SEND_MS without any of them leaving are out of date and dropped. */
 
 unsigned can_queue_pump(struct can_queue *queue);
-        /* Hands a frame on to the controller if one fits. Returns how many have not left. */
+        /* Moves a frame to the controller if it fits. Returns how many frames are not yet sent. */
 
 void can_queue_drop(struct can_queue *queue);
-        /* Forgets and counts all that waits. */
+        /* Drops and counts all waiting frames. */
 
 #endif

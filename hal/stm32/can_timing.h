@@ -5,13 +5,13 @@
 #include <stdint.h>
 
 enum {
-    CAN_BITRATE = OCTET_CAN_BITRATE,   /* as the build was told */
-    CAN_QUANTA_AFTER = 2,   /* behind the sample point, which is thus at 75..89 % of the bit */
-    CAN_QUANTA_JUMP = 2     /* that a bit may grow or shrink by to keep step with the other nodes */
+    CAN_BITRATE = OCTET_CAN_BITRATE,   /* bit/s, set by the build */
+    CAN_QUANTA_AFTER = 2,   /* after the sample point, which is thus at 75..89 % of the bit */
+    CAN_QUANTA_JUMP = 2     /* resynchronization jump width */
 };
 
 uint32_t can_quanta(uint32_t clock_hz, uint32_t bitrate);
-        /* Quanta of a bit, 8..18, such that a whole prescaler makes exactly that bit rate; every controller of ours can do
-           that. 0: the clock has no such divisor. */
+        /* Quanta per bit, 8..18, for which an integer prescaler gives exactly that bit rate; each of our controllers supports
+           these. 0: the clock has no such divisor. */
 
 #endif

@@ -6,14 +6,14 @@
 
 struct clock_source {
     uint32_t pll;            /* the PLL's setting with this source */
-    struct clocks clocks;    /* that come of it */
+    struct clocks clocks;    /* the resulting clocks */
 };
 
 struct clock_table {
     volatile uint32_t *cr, *cfgr, *pll, *csr, *acr;   /* of RCC, the one that sets up the PLL, and of the flash */
     uint32_t on_after_reset; /* a bit of CR that is never 0 on the chip itself, or 0 */
     uint32_t forget;         /* in CSR: clears the flags */
-    uint32_t internal;       /* CFGR: the internal oscillator as it is */
+    uint32_t internal;       /* CFGR: the internal oscillator alone */
     uint32_t buses;          /* CFGR: the same, with the buses slow enough for the PLL, where its setting does not say so */
     uint32_t switch_to_pll;  /* CFGR: SW */
     uint32_t from_pll;       /* CFGR: SWS */
@@ -25,13 +25,13 @@ struct clock_table {
 /* In the chip's clock.c. */
 extern const struct clock_table CLOCK_TABLE;
 extern const struct clock_source CLOCK_SOURCES[2];   /* the internal oscillator, the crystal */
-extern const struct clocks CLOCK_SLOW;   /* the internal oscillator as it is */
+extern const struct clocks CLOCK_SLOW;   /* the internal oscillator alone */
 
 void clock_stop(void);
-        /* Back to the internal oscillator as it is, as after a reset. */
+        /* Returns to the internal oscillator alone, as after a reset. */
 
 enum {
-    CRYSTAL_MS = 100,        /* most start in 2 ms; the maker's own code allows as much */
+    CRYSTAL_MS = 100,        /* most start in 2 ms; the vendor's code allows as much */
     SWITCH_MS = 5            /* a PLL locks in 0.3 ms; a switch takes a few cycles */
 };
 

@@ -42,8 +42,8 @@ struct fdcan_registers {      /* 44.4 */
     uint32_t txbc;            /* rw while CCE   buffers as a FIFO, or as a queue by identifier */
     uint32_t txfqs;           /* r    the next buffer that is free */
     uint32_t txbrp;           /* r    bit n: buffer n waits to be sent; reset by CCE */
-    uint32_t txbar;           /* w1s  bit n: buffer n is to be sent */
-    uint32_t txbcr;           /* w1s  bit n: buffer n is not to be sent after all */
+    uint32_t txbar;           /* w1s  bit n: send buffer n */
+    uint32_t txbcr;           /* w1s  bit n: cancel buffer n */
     uint32_t txbto;           /* r */
     uint32_t txbcf;           /* r */
     uint32_t txbtie;          /* rw */

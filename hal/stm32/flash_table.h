@@ -23,7 +23,7 @@ struct flash_table {
 extern const struct flash_table FLASH_TABLE;
 
 void flash_begin(unsigned page, uint32_t offset, const uint32_t words[]);
-        /* Begins to write the bytes that are written at once; half a word is the low half of words[0]. */
+        /* Starts one write of at_once bytes; a half-word is in the low half of words[0]. */
 
 volatile void *flash_place(unsigned page, uint32_t offset);
         /* Where that is. */

@@ -1,4 +1,4 @@
-/* machine.h: the running microcontroller, as the drivers need it: its clocks, and the time. */
+/* machine.h: the state of the microcontroller for the drivers: its clocks, and the time. */
 #ifndef OCTET_MACHINE_H
 #define OCTET_MACHINE_H
 

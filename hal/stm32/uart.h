@@ -8,16 +8,16 @@
 enum { UART_NOTHING = -1, UART_DAMAGED = -2 };
 
 void uart_start(uint32_t clock_hz, uint32_t baud);
-        /* Both directions. clock_hz: that the port runs from. */
+        /* Starts both directions. clock_hz: clock of the port. */
 
 void uart_stop(void);
-        /* Off, until uart_start: what is under way is lost. */
+        /* Switches it off until uart_start; bytes in progress are lost. */
 
 int uart_get(void);
-        /* The byte that has come, 0..255. UART_NOTHING: none. UART_DAMAGED: one came damaged, or came while the one before
-           it had not been taken yet; both are gone. */
+        /* The received byte, 0..255. UART_NOTHING: none. UART_DAMAGED: a byte was damaged, or arrived before the last one was
+           read; both are lost. */
 
 bool uart_put(uint8_t byte);
-        /* False: the byte before it has not left yet. */
+        /* False: the previous byte has not been sent yet. */
 
 #endif

@@ -1,4 +1,4 @@
-"""Work in other processes: on all cores of this machine, or on a cluster. What a dead one had is done again."""
+"""Runs work in other processes, on all cores of this machine or on a cluster. Work of dead workers is done again."""
 
 import ctypes
 import signal
@@ -24,7 +24,7 @@ Done = TypeVar("Done")
 
 
 class Workers(NamedTuple):
-    """Who does the work.
+    """The processes that do the work.
 
     Attributes:
         open: Makes an executor.
@@ -64,7 +64,7 @@ def cluster(address: str) -> Workers:
     def check() -> None:
         if client.status in ("closing", "closed"):
             raise OctetError(
-                f"the cluster at {address} is gone; what was made is there, and the same command goes on"
+                f"the cluster at {address} is gone; run the same command again to resume"
             )
 
     return Workers(open=lambda: _Cluster(client), chunk=lambda _: _CLUSTER_CHUNK, check=check)
@@ -90,11 +90,11 @@ class _Cluster(Executor):
 def run_all(
     work: Callable[[Sequence[Item]], Done], items: Sequence[Item], workers: Workers, chunk: int = 0
 ) -> Iterator[Done]:
-    """Has work done, in any order.
+    """Runs work items, in any order.
 
     Args:
         work: Does some items.
-        items: What there is to do; each says as a text what it is.
+        items: The items; `str` of each describes it.
         workers: Who does it.
         chunk: Number of items to hand over at once; 0 leaves it to the workers.
 
@@ -102,7 +102,7 @@ def run_all(
         What came of some items, as soon as they are done.
 
     Raises:
-        OctetError: Workers die again and again.
+        OctetError: Workers die repeatedly.
     """
     size = chunk or workers.chunk(len(items))
     left = [items[i : i + size] for i in range(0, len(items), size)]
@@ -112,7 +112,7 @@ def run_all(
         yield from _run_until_broken(work, left, workers)
         breaks = 0 if len(left) < count else breaks + 1
         if breaks == _BREAKS_MAX:
-            raise OctetError(f"workers die each time, perhaps in the run {left[0][0]}; what was made is there")
+            raise OctetError(f"workers die each time, perhaps in the run {left[0][0]}; finished runs are kept")
 
 
 def _run_until_broken(
@@ -136,6 +136,6 @@ def _run_until_broken(
 
 
 def _begin() -> None:
-    """A process of the pool: Ctrl-C is for the one that started it, and without that one it ends."""
+    """Prepares a process of the pool: it ignores Ctrl-C, and ends with its parent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)

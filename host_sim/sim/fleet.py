@@ -74,7 +74,7 @@ def run_fleet(
     [7, 8]
 
     Args:
-        config: The run; of its options for buses and boards, none may be set.
+        config: The run, without any options for buses and boards.
         progress: Called now and then with the number of ticks that all robots have run so far.
         film: Gets a sample at the start, and one every `SAMPLE_TICKS` until it is full.
         company: How many robots hear each other if their parameter `share` is on: up to `NODE_MAX`.

@@ -1,4 +1,4 @@
-"""What the tick loop in C has to know of each robot, and what the robot's client has to know of the loop's ticks."""
+"""Connects the tick loop in C with each robot and its client."""
 
 import os
 import sys
@@ -48,7 +48,7 @@ class LoopRobot(Protocol):
     """One robot of the loop."""
 
     def prepare(self) -> int:
-        """Takes over what has happened since the last block, and tells for how many ticks the loop may run."""
+        """Takes over what has happened since the last block. Returns for how many ticks the loop may run."""
 
     def catch_up(self, ticks: int) -> None:
         """Tells the client about a block.
@@ -58,7 +58,7 @@ class LoopRobot(Protocol):
         """
 
     def go_on(self) -> None:
-        """This robot's answer to the tick that was handed over is the next to come: its client goes on with that.
+        """Lets the client continue the tick that was handed over: this robot's answer comes next.
 
         Raises:
             RobotError: The answer cannot come any more.
@@ -183,7 +183,7 @@ class RobotBehindLink:
         self._socket = None
 
     def _know_reports(self) -> None:
-        """What others must hear, Python passes on: they hear it where it stands in the order of frames."""
+        """Tells the loop the known reports, except those that other robots must hear, which Python relays."""
         robot, reports = self._native.robot, routine_reports(self._client)
         if isinstance(self._link, RelayedLink):
             reports = [(kind, frame) for kind, frame in reports if frame.id not in MEMORY_IDS]

@@ -1,4 +1,4 @@
-"""The one place where a run is put together: robots, the world around them, and how they keep time."""
+"""Assembles a run: robots, the world around them, and their pacing."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
@@ -40,7 +40,7 @@ def make(
     memories: Sequence[Memory | None] = (),
     ready: Callable[[RobotClient], object] = lambda _: None,
 ) -> Iterator[Simulation]:
-    """Puts a run together: starts the robots, which then wait for their first senses.
+    """Assembles a run and starts the robots, which then wait for their first senses.
 
     >>> with make(RunConfig(seed=1, environments=1, limit_s=2.0)) as simulation:
     ...     for episode in simulation.run():
@@ -151,7 +151,7 @@ def _check_change(change: Change, config: RunConfig) -> None:
 
 
 def connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, log: FrameLog) -> RobotClient:
-    """A robot that is reached as a run has it, stopped and known, but not started; the stack ends it.
+    """Connects to a robot as the run says. It is stopped and identified, but not started; the stack ends it.
 
     Raises:
         UsageError: The configuration is invalid.

@@ -124,7 +124,7 @@ class NativeFleet:
             self._bodies[index].kit = self._ffi.cast("struct kit *", _address(kit))
         self._library.fleet_wake(self._robots + index)
         if self._command(robot, Opcode.START, PROFILES[profile], seed) & ANSWER_WANTS_RANGES:
-            raise UsageError(f"profile {profile} needs distances, which a fleet's robots are not told; take another")
+            raise UsageError(f"profile {profile} needs distances, which a fleet lacks: choose another one")
         for name, value in settings.items():
             self._command(robot, Opcode.SET, PARAMETERS[name].number, value)
 

@@ -1,4 +1,4 @@
-"""The options of a run, a row each: the command line, its help text, the checks and `RunConfig` are made of them."""
+"""The options of a run as a table, from which command line, help text, checks and `RunConfig` are made."""
 
 import shlex
 from dataclasses import dataclass, field, fields
@@ -28,16 +28,16 @@ _SEEDS = (0, 2**32 - 1)
 
 @dataclass(frozen=True)
 class Option:
-    """A row of the table: what is known of an option beside its name, type and default.
+    """A row of the table: the properties of an option besides its name, type and default.
 
     Attributes:
         text: What it is, for people.
-        limits: Its least and its largest value; None if it is not a number, or one of a few.
-        choices: The values to choose from; empty if there are others.
-        metavar: What stands for its value in a help text.
-        unset: What the default means, where its value does not say that.
-        flag: Its name on the command line, where that is not the field's.
-        const: The value where only the flag is given; None if there must be a value.
+        limits: Its minimum and maximum; None if it is not a number, or has choices.
+        choices: The permitted values; empty if any.
+        metavar: The placeholder of its value in the help text.
+        unset: Description of the default, if its value does not say enough.
+        flag: Its name on the command line, if it differs from the field's.
+        const: The value if the flag is given without one; None if a value is required.
         commands: The commands that have it.
         fleet: Whether a fleet has it.
     """
@@ -83,7 +83,7 @@ def flag_of(name: str, row: Option) -> str:
 
 @dataclass(frozen=True)
 class RunConfig:
-    """What a run is made of: its robots, their world, and how they are reached.
+    """The configuration of a run: its robots, their world, and how they are reached.
 
     Raises:
         UsageError: A value is out of range, or not one of the choices.
@@ -227,7 +227,7 @@ class RunConfig:
             if value != it.default and not row.allows(value):
                 raise UsageError(f"{name} must be one of {row.range}, not {value!r}")
         if self.robot == "observe" and (self.robots > 1 or not getattr(self, "watch", False)):
-            raise UsageError("one robot that runs by itself is watched: tools/octet watch --bus BUS --robot observe")
+            raise UsageError("--robot observe watches one robot: use tools/octet watch --bus BUS --robot observe")
         if self.world == CRATES and (self.is_fleet or self.physics == FAST):
             raise UsageError(f"only pymunk can push what --world {CRATES} has: no --physics {FAST}, and no fleet")
         if self.body == PINS and self.robot != "emulated":
@@ -253,7 +253,7 @@ class RunConfig:
 
     @property
     def is_fleet(self) -> bool:
-        """Whether the robots have no bus: they do not share one world, or are more than a bus has node numbers."""
+        """Whether the robots have no bus: they do not share one world, or outnumber the nodes of a bus."""
         return self.worlds != "one" or self.robots > NODE_MAX
 
     @property
@@ -263,7 +263,7 @@ class RunConfig:
 
     @property
     def told(self) -> dict[str, int]:
-        """What the robots' parameters are set to: what suits their bodies, and what `settings` says."""
+        """The parameters to set: those that suit the bodies, overridden by `settings`."""
         kind = body_kind(self.body)
         return {**(kind.settings if kind else {}), **self.settings}
 

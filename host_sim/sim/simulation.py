@@ -35,7 +35,7 @@ which Python's garbage collector knows nothing."""
 WHEEL_MM_S_MAX = math.ceil(
     math.radians(PARAMETERS["turn_speed_deg_s"].maximum) * PARAMETERS["wheel_track_mm"].maximum / 2
 )
-"""A robot tells its wheels no more, whatever its parameters are, mm/s."""
+"""The highest speed that a robot may command, whatever its parameters, mm/s."""
 
 
 @dataclass
@@ -52,12 +52,12 @@ class Simulation:
         environments: Number of environments.
         limit_s: Robot time after which an environment ends, finished or not, s.
         watch: Called with the simulation after each step.
-        changes: What the world and the bodies are to meet with.
-        block_ticks: Maximum number of ticks of a step at full speed where the loop in C can be used: `watch` finds
-            them in `loop`. Set it to 1 for a `watch` that is to be called for each tick.
+        changes: The scheduled changes of world and bodies.
+        block_ticks: Maximum number of ticks per step at full speed with the loop in C; `watch` finds them in
+            `loop`. Set it to 1 to have `watch` called for each tick.
         physics: What finds overlaps: one of `PHYSICS`.
-        native: Whether to use the loop in C where that can be: in lockstep, with robots in this process or behind
-            a socket, that want no distances.
+        native: Whether to use the loop in C if possible: in lockstep, with robots in this process or behind a
+            socket that need no distances.
         kind: What the robots' bodies are like; None: ideal.
         params: The dimensions of the world.
         record: The environments so far, and what a person changed in them.
@@ -184,7 +184,7 @@ class Simulation:
             self._push(self._crates)
 
     def _step_in_c(self, loop: NativeLoop, ticks_max: int) -> None:
-        """Runs a block; what did not go as usual in its last tick is done in Python, as everywhere."""
+        """Runs a block; a tick that the loop hands over is completed in Python."""
         left = self.record.limit_ticks - self.episode.ticks
         ticks = loop.run(self.tick, max(1, min(ticks_max, left, self._schedule.next_tick - self.tick)))
         self.tick += ticks
@@ -232,7 +232,7 @@ class Simulation:
         self.episode.ticks += 1
 
     def _note_haste(self, index: int) -> None:
-        """Notes once that a robot told its wheels more than it may."""
+        """Notes once that a robot commanded more than the maximum speed."""
         if index in self._hasty:
             return
         self._hasty.add(index)

@@ -11,7 +11,7 @@ from host_sim.world.worlds import world_of
 
 
 class Begun(NamedTuple):
-    """An environment and its first tick, at which the previous one ended, finished or not."""
+    """An environment and its first tick, where the previous one ended, finished or not."""
 
     seed: int
     number: int
@@ -81,7 +81,7 @@ class WorldRecord:
     def begin(self, begun: Begun) -> None:
         """Adds an environment. Edits after the last tick of the previous one are dropped: no robot sensed them.
 
-        What is wrong with a body goes on, unless the run begins anew.
+        Faults of bodies persist, unless the run is started over.
         """
         last: list[Edited] = []
         while self.edits and self.edits[-1].tick == begun.first_tick:

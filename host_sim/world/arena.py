@@ -66,13 +66,13 @@ class Arena:
         physics: str = FAST,
         kind: BodyKind | None = None,
     ) -> None:
-        """Puts everything where it begins.
+        """Puts everything in its initial place.
 
         Args:
             layout: Obstacles, food and start poses; a robot is placed at each start.
             params: The dimensions of the world.
-            before: For each robot that comes from another arena its body there, whose odometer and faults go on;
-                empty for robots that have not moved yet.
+            before: For each robot that comes from another arena, its body there, whose odometer and faults are
+                kept; empty for robots that have not moved yet.
             physics: One of `PHYSICS`; both have the same results.
             kind: What the bodies are like; None: ideal. Those that come from no other arena are ideal until `draw`.
         """
@@ -96,7 +96,7 @@ class Arena:
         return Layout(tuple(self.obstacles.bars.values()), tuple(self.food.at), self._starts[0], self._starts[1:])
 
     def ranges(self, index: int, tick: int = 0) -> Ranges:
-        """What a robot is told in that tick of how far away things are: walls, bars and other robots."""
+        """The distances that a robot is told in that tick: to walls, bars and other robots."""
         none = self.inside.library.RANGE_NONE
         return Ranges._make(None if range_mm == none else range_mm for range_mm in self.inside.measure(index, tick))
 
@@ -114,7 +114,7 @@ class Arena:
             body.lifted = bool(in_c.lifted)
 
     def begin(self, seed: int) -> None:
-        """Makes all bodies sound, and draws what is particular to each from a seed."""
+        """Removes all faults, and draws each body's own traits from a seed."""
         for index, body in enumerate(self.bodies):
             body.add_fault("repair")
             body.become(draw_body(self._kind, seed, index))

@@ -22,8 +22,8 @@ class Body:
 
     Attributes:
         lifted: Whether a person holds it in the air: its wheels turn, but it does not move or sense anything.
-        faults: What is wrong with it, a `struct body_faults`.
-        kit: What is particular to it, a `struct kit *`.
+        faults: Its faults, a `struct body_faults`.
+        kit: Its own traits, a `struct kit *`.
     """
 
     def __init__(self, inside: NativeWorld, index: int, before: "Body | None" = None) -> None:
@@ -60,7 +60,7 @@ class Body:
 
     @property
     def odometer(self) -> Point:
-        """Counted by the left and the right odometer since the first arena, mm, forward positive, with slip."""
+        """Counts of the left and right odometers since the first arena, mm, forward positive, slip included."""
         left_mm, right_mm = self._odometer.unpack_from(self._bytes)
         return left_mm, right_mm
 
@@ -75,7 +75,7 @@ class Body:
         return int(self._body.touches)
 
     def sense(self, tick: int) -> Senses:
-        """What the robot is told of what it senses where it stands.
+        """The senses that the robot is told at its pose.
 
         Food is seen in a corridor straight ahead if nothing hides it.
 
@@ -86,7 +86,7 @@ class Body:
         return Senses._make(self._senses.unpack_from(self._sensed_bytes))
 
     def measure_light(self, tick: int, light: Any) -> None:
-        """What the infrared sensors of a kit receive back of their own light.
+        """Measures the light of their own LEDs that the infrared sensors of a kit receive.
 
         Args:
             tick: Number of the control tick in the run.
@@ -114,7 +114,7 @@ class Body:
             self._inside.check()
 
     def add_fault(self, what: str, seed: int = 0) -> None:
-        """Breaks or mends something, as in `add_fault`.
+        """Adds or repairs a fault, as `add_fault`.
 
         Raises:
             ValueError: There is no such fault.

@@ -1,4 +1,4 @@
-"""What can be wrong with a body: in its sensors, its motors, or the wires between them and the robot."""
+"""Faults of a body: in its sensors, its motors, or the wires between them and the robot."""
 
 from importlib.util import find_spec
 from typing import Any
@@ -9,12 +9,12 @@ from host_sim.world.world_library import world_library
 
 
 def check_fault(what: str) -> None:
-    """Refuses what is not a fault.
+    """Refuses text that does not name a fault.
 
-    The plain python3 that judges a command line cannot call C: it knows the names alone.
+    The plain python3 that checks a command line cannot call C, so it checks only the names.
 
     Raises:
-        ValueError: There is no such fault; the message says what was meant.
+        ValueError: There is no such fault; the message says what is expected.
     """
     name = what.partition(":")[0]
     if name not in BODY_FAULTS:
@@ -24,12 +24,12 @@ def check_fault(what: str) -> None:
 
 
 def add_fault(faults: Any, what: str, seed: int = 0, robot: int = 0) -> None:
-    """Breaks or mends something in a body.
+    """Adds or repairs a fault of a body.
 
     Args:
         faults: Its `struct body_faults *`.
         what: The fault, such as "stuck-on:front"; docs/worlds.md has all.
-        seed: Decides, with the robot, in which ticks noise strikes.
+        seed: Determines, with the robot, the ticks of noise.
         robot: Number of the robot, from 0.
 
     Raises:

@@ -17,7 +17,7 @@ _VALUES = 2  # a value, and its tolerance
 
 @dataclass(frozen=True)
 class BodyKind:
-    """What the bodies of a run are like.
+    """The kind of the bodies of a run.
 
     Attributes:
         traits: For each trait of `KIT_TRAITS`, by name, its value and its tolerance.
@@ -28,7 +28,7 @@ class BodyKind:
     settings: Mapping[str, int] = field(default_factory=dict)
 
     def reach(self, params: SimParams) -> SimParams:
-        """The dimensions of a world whose cones reach as far as any sensor of these bodies."""
+        """The dimensions, with cones that reach as far as any sensor of these bodies."""
         reach_mm = world_library()[1].kit_reach_mm(self.in_c())
         return replace(params, sensor_reach_mm=reach_mm, front_extra_mm=0.0)
 
@@ -58,7 +58,7 @@ def body_kind(text: str) -> BodyKind | None:
     ideal; `base = "kit"` takes the others from the kit. docs/bodies.md has all.
 
     Raises:
-        UsageError: There is no such kind; for a file, the message has the line, and what may stand there.
+        UsageError: There is no such kind; for a file, the message gives the line, and what is allowed there.
     """
     if text == IDEAL:
         return None

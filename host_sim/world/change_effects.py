@@ -1,4 +1,4 @@
-"""What a change does to an arena: the edits that make it happen."""
+"""Converts a change to edits of an arena."""
 
 import math
 import random

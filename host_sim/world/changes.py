@@ -1,4 +1,4 @@
-"""Changes that a run is to meet with, as a person writes them: a plant that is put down, motors that are swapped."""
+"""Scheduled changes of a run, as a person writes them: a new plant, swapped motors."""
 
 import re
 from dataclasses import dataclass
@@ -52,7 +52,7 @@ class Change:
         """Reads a change.
 
         Raises:
-            UsageError: It is not written as one; the message says what was meant.
+            UsageError: It is not a change; the message says what is expected.
         """
         match = _CHANGE.fullmatch(text)
         if match is None:
@@ -60,7 +60,7 @@ class Change:
         if problem := _problem(match["what"]):
             raise UsageError(f"{text!r} is not a change: {problem}")
         if match["robot"] and match["what"].partition(":")[0] in _DETAILS:
-            raise UsageError(f"{text!r} is not a change: only what happens to a body is for one robot")
+            raise UsageError(f"{text!r} is not a change: only a change of a body can be for one robot")
         number, robot = (None if match[name] is None else int(match[name]) for name in ("number", "robot"))
         if 0 in {number, robot}:
             raise UsageError(f"{text!r} is not a change: environments and robots are counted from 1")
@@ -98,7 +98,7 @@ def _problem(what: str) -> str | None:
 
 
 def read_changes(text: str) -> list[str]:
-    """The changes in a word of the command line: one change, or those in a file, one in each line.
+    """The changes in a command-line argument: one change, or a file with one per line.
 
     A file is a word without an @, or after one: changes.txt, @changes.txt. In it, # begins a comment.
 
@@ -109,5 +109,5 @@ def read_changes(text: str) -> list[str]:
         return [str(Change.parse(text))]
     path = Path(text.removeprefix("@"))
     if not path.exists():
-        raise UsageError(f"{text!r} is neither a change nor a file of changes that is there: {_FORM}")
+        raise UsageError(f"{text!r} is neither a change nor an existing file of changes: {_FORM}")
     return read_words(path, _FILE_MAX, lambda word: str(Change.parse(word)))

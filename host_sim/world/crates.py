@@ -21,7 +21,7 @@ _CRATES, _ROBOTS, _FIXED = 1, 2, 4  # categories
 _GRAVITY_MM_S2 = 9810.0
 _ROBOT_KG = 1.0
 _MARGIN_MM = 1.0
-"""A blocked robot is no farther from what blocks it."""
+"""Maximum distance of a blocked robot from what blocks it."""
 _WALL_MM = 100.0
 _IN_THE_AIR_MM = -10_000.0
 
@@ -48,7 +48,7 @@ class Crates:
             self._add_fixed(pymunk.Segment(self._space.static_body, a, b, _WALL_MM))
 
     def push(self, drives: Sequence[Drive]) -> Iterator[Edit]:
-        """Lets the robots press for one tick, where they are after it, with what they asked of their wheels.
+        """Lets the robots push for one tick, at their poses after it, with their commanded speeds.
 
         Args:
             drives: Each robot's drive.

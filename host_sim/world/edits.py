@@ -30,8 +30,8 @@ class Edit:
             `body` breaks something in a body, or repairs it.
         id: The obstacle, plant or piece of food that changes.
         robot: The robot, counted from 0.
-        seed: When noise strikes follows from it.
-        heading: Where a robot looks, -3142..3142 mrad.
+        seed: Determines the ticks of noise.
+        heading: Heading of a robot, -3142..3142 mrad.
         radius: The radius of a plant, 20..500 mm.
         a: The first end of an obstacle, mm.
         b: Its second end, mm.

@@ -62,7 +62,7 @@ def generate(seed: int, number: int, params: SimParams, robots: int = 1) -> Layo
 
 @dataclass(frozen=True)
 class CrateKind:
-    """What bars are like that robots can push.
+    """Properties of bars that robots can push.
 
     Attributes:
         kg_per_m2: Mass by the area on the floor.
@@ -80,8 +80,8 @@ class World:
     Attributes:
         name: Its name.
         params: Its dimensions.
-        draw: What its layouts are drawn from, or the only one.
-        crates: What its bars are like where robots can push them; None: they stay where they are.
+        draw: How its layouts are drawn, or its only layout.
+        crates: Properties of bars that robots can push; None: bars are fixed.
     """
 
     name: str

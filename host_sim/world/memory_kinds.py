@@ -1,6 +1,6 @@
-"""What the eight bytes of a memory mean, by the behaviour's kind, and how those of one kind become those of another.
+"""The kinds of memory, and conversion between them.
 
-The firmware's own `memory_kind.h` tells. The bytes tell their kind; an empty memory is one of every kind.
+Calls the firmware's own `memory_kind.h`. The bytes show their kind; an empty memory is of every kind.
 """
 
 from collections.abc import Iterable
@@ -36,7 +36,7 @@ def sides_of(memory: Memory) -> Memory:
 
 
 def with_sides(memory: Memory, kind: MemoryKind, sides: Iterable[tuple[int, int]]) -> Memory:
-    """A memory with other turns for some patterns: with the least confidence, and whatever the side sensors say."""
+    """A memory with new turns for some patterns: with the lowest confidence, for all readings of the side sensors."""
     ffi, library = world_library()
     cells = bytearray(memory)
     for pattern, side in sides:
@@ -45,7 +45,7 @@ def with_sides(memory: Memory, kind: MemoryKind, sides: Iterable[tuple[int, int]
 
 
 def translated(memory: Memory, kind: MemoryKind) -> Memory:
-    """A memory as one of a kind; the same if it is one already.
+    """A memory converted to a kind; unchanged if it is of that kind already.
 
     >>> translated((0, 1, 0, 0, 2, 0, 0, 0), MemoryKind.CONFIDENCE)
     (0, 5, 0, 0, 6, 0, 0, 0)

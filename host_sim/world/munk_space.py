@@ -21,7 +21,7 @@ class MunkSpace:
     """A pymunk space with the obstacles and bodies of an arena.
 
     Attributes:
-        failures: What was raised in Python while C code asked; the caller of the C code raises it.
+        failures: Exceptions raised in Python during calls from C; the caller of the C code raises them again.
     """
 
     def __init__(self, ffi: Any, world: Any, bodies: Any, params: SimParams) -> None:

@@ -1,4 +1,4 @@
-"""Loads libraries of C code that were built from the very headers that declare them here."""
+"""Loads libraries of C code, and checks that they were built from the headers that declare them here."""
 
 import hashlib
 import os

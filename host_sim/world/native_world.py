@@ -15,7 +15,7 @@ class Space(Protocol):
     """What finds overlaps for a world in C: it provides the functions of `native/space.h`.
 
     Attributes:
-        failures: What was raised in Python while C code asked, and not raised again yet.
+        failures: Exceptions raised in Python during calls from C, and not raised again yet.
     """
 
     failures: list[BaseException]
@@ -25,7 +25,7 @@ class Space(Protocol):
 
 
 class NativeWorld:
-    """The memory of an arena in C, which is there as long as this is.
+    """The memory of an arena in C, with the lifetime of this object.
 
     Attributes:
         ffi: Has the declarations.
@@ -101,6 +101,6 @@ class NativeWorld:
         return list(measured)
 
     def check(self) -> None:
-        """Raises what the space raised while C code asked it, such as KeyboardInterrupt."""
+        """Raises again what the space raised during a call from C, such as KeyboardInterrupt."""
         if self.space.failures:
             raise self.space.failures.pop()

@@ -1,4 +1,4 @@
-"""What can find overlaps, by name, for those who only name it."""
+"""The names of the physics engines, without loading them."""
 
 FAST, PYMUNK = "fast", "pymunk"
 

@@ -16,7 +16,7 @@ class PlainSpace:
     """The obstacles of an arena as plain geometry, and its bodies among them.
 
     Attributes:
-        failures: None: C code asks nothing of Python.
+        failures: Always empty: this C code does not call Python.
     """
 
     def __init__(self, ffi: Any, library: Any, world: Any, params: SimParams) -> None:

@@ -1,4 +1,4 @@
-"""Room and ways in a layout: clearance around a place, where the centre of a body can get to, and how far it is."""
+"""Clearance around a place in a layout, where the centre of a body can get to, and path lengths."""
 
 from collections.abc import Iterable
 
@@ -59,15 +59,15 @@ def clearance_mm(point: Point, bars: Iterable[Bar], params: SimParams, plants: I
 def tour_mm(layout: Layout, params: SimParams) -> float:
     """The length of the shortest tour: from the start through the middles of all pieces of food, for a body's centre.
 
-    Food is eaten from a distance, so that a robot may do with less: by `eat_reach_mm` on the way to each piece and on
-    the way from all but the last.
+    Food is eaten from a distance, so that a robot's path may be shorter: by `eat_reach_mm` on the way to each piece
+    and on the way from all but the last.
 
     >>> from host_sim.world.geometry import Pose
     >>> tour_mm(Layout((), ((2000.0, 200.0), (3000.0, 200.0)), Pose(1000.0, 200.0, 0.0)), SimParams())
     2000.0
 
     Returns:
-        mm; infinite for more than eight pieces, which have too many orders to try, and where there is no way.
+        mm; infinite if there is no path, or for more than eight pieces, which have too many orders to try.
     """
     ffi, library = world_library()
     obstacles = Obstacles(layout.bars, (), params)

@@ -1,4 +1,4 @@
-"""The names of the worlds, for those who only name them."""
+"""The names of the worlds, without loading them."""
 
 RANDOM, CRATES = "random", "crates"
 

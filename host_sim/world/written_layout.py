@@ -1,4 +1,4 @@
-"""A layout that is given rather than drawn: that of a world which a person wrote."""
+"""The fixed layout of a world that a person wrote."""
 
 import math
 import sys
@@ -10,7 +10,7 @@ from host_sim.world.geometry import Bar, Point
 from host_sim.world.world_library import world_library
 
 KEYS = ("size", "start", "food", "bars")
-"""What a world is written with, in the order of `enum written_key`."""
+"""The keys of a written world, in the order of `enum written_key`."""
 
 _LISTS = KEYS[2:]
 

@@ -17,7 +17,7 @@ BARS_MAX = 40
 
 
 class WrittenError(ValueError):
-    """A mistake in what was written; the message says what was meant.
+    """A mistake in a written world; the message says what is expected.
 
     Attributes:
         key: Where it is: one of the keys, or one that should not be there.
@@ -34,8 +34,8 @@ def read_world_file(path: Path) -> World:
     """Reads a world that a person wrote, in TOML. All its environments have the same obstacles and food.
 
     Raises:
-        UsageError: The file cannot be read, or does not describe a fair world; the message says in which line, and
-            what was meant.
+        UsageError: The file cannot be read, or does not describe a fair world; the message gives the line, and
+            what is expected.
     """
     from host_sim.base.toml_file import read_toml  # noqa: PLC0415 - seldom needed, and slow to load
 

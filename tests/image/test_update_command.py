@@ -16,8 +16,8 @@ def on_the_bus(monkeypatch):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("blue_pill", "where to? --bus names the bus"),
-        ("--bus virtual:x", "what? IMAGE is a file of --save, or a board"),
+        ("blue_pill", "nowhere to put the image: give --bus BUS"),
+        ("--bus virtual:x", "IMAGE is missing: give a file from --save, or a board"),
         ("--bus virtual:x --node 1-2 --set-node 3", "--set-node gives one robot its number"),
         ("nowhere.octet --bus virtual:x", "cannot read nowhere.octet"),
         ("blue_pill --key nowhere.pem --bus virtual:x", "cannot read the key nowhere.pem"),

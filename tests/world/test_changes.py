@@ -51,7 +51,7 @@ def test_a_change_is_read_and_written(text, change):
         ("plant:5@5s", "write plant, or plant:X,Y for a place in mm"),
         ("grow:big@5s", "write grow, or grow:MM for so many mm"),
         ("stuck-on:nose@5s", "write stuck-on:SENSOR"),
-        ("plant@5s/2", "only what happens to a body is for one robot"),
+        ("plant@5s/2", "only a change of a body can be for one robot"),
         ("mirror@env0", "environments and robots are counted from 1"),
         ("mirror@5s/0", "environments and robots are counted from 1"),
     ],

@@ -43,6 +43,6 @@ extern volatile struct system_registers SCB;
 extern volatile struct interrupt_registers NVIC;
 
 void core_sleep(void);
-        /* Until an interrupt is pending that is enabled. None is ever taken: they only wake the core. */
+        /* Sleeps until an enabled interrupt is pending. None is ever taken: they only wake the core. */
 
 #endif

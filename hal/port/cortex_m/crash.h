@@ -1,14 +1,14 @@
-/* crash.h: what becomes of a robot that does what it must not, and how it knows of it afterwards. */
+/* crash.h: records a crash (a fault exception) across the reset that follows it. */
 #ifndef OCTET_CRASH_H
 #define OCTET_CRASH_H
 
 #include "hal/protocol/health.h"
 
 enum {
-    CRASH_FRAME_WORDS = 8   /* what the core pushes when an exception comes: r0..r3, r12, lr, pc, psr */
+    CRASH_FRAME_WORDS = 8   /* pushed by the core on an exception: r0..r3, r12, lr, pc, psr */
 };
 
-/* The exceptions that end a program, by the core's own numbers. */
+/* The exceptions that end a program, by the core's exception numbers. */
 enum crash_cause { CRASH_NMI = 2, CRASH_HARD_FAULT, CRASH_MEMORY_FAULT, CRASH_BUS_FAULT, CRASH_USAGE_FAULT };
 
 /* The values of a struct crash, in this order. */
@@ -19,12 +19,12 @@ enum crash_register {
 };
 
 void crash_keep(uint32_t cause, const uint32_t *frame, const uint32_t *lowest, const uint32_t *end);
-        /* Notes what an exception found, in RAM that a reset leaves alone. frame is read only if it lies within
-           lowest..end, which has room for one. Called from the exception's handler, just before the reset. */
+        /* Records the state at an exception in RAM that survives a reset. Reads frame only if it lies within lowest..end,
+           which has room for one. Called from the exception handler, just before the reset. */
 
 enum reset_cause crash_reset_cause(enum reset_cause cause);
-        /* Why the program last started, given what the chip says of it: a reset that followed a crash is RESET_CRASH.
-           To be called once, at start. */
+        /* The reason of the last start: RESET_CRASH if a crash came before the reset, else the reason that the chip gives.
+           Call once, at start. */
 
 const struct crash *crash_last(void);
         /* The last crash since power-up, or null. */

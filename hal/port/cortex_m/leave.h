@@ -1,4 +1,4 @@
-/* leave.h: two ways in which a program ends. Neither returns. */
+/* leave.h: two ways to end a program. Neither returns. */
 #ifndef OCTET_LEAVE_H
 #define OCTET_LEAVE_H
 
@@ -8,6 +8,6 @@ void leave_by_reset(void);
         /* Resets the chip. If that fails, the watchdog does it. */
 
 void leave_to(const uint32_t vectors[]);
-        /* Goes on with another program, by its vectors, as after a reset: to be called with the clocks as after one. */
+        /* Jumps to another program by its vector table. Call with the clocks as after a reset. */
 
 #endif

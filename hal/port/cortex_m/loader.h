@@ -1,4 +1,4 @@
-/* loader.h: what an image has to do with a boot loader that started it. alone.c is for an image without one. */
+/* loader.h: an image's interface to the boot loader that started it. alone.c is for an image without one. */
 #ifndef OCTET_LOADER_H
 #define OCTET_LOADER_H
 
@@ -8,10 +8,10 @@
 #include "hal/can_body/port.h"
 
 uint8_t loader_node(uint8_t built);
-        /* The robot's number: as the boot loader has it, or as built. To be called before all else here. */
+        /* The robot's node number, from the boot loader or as built. Call before the other functions here. */
 
 const char *loader_link(void);
-        /* The link's name: the bus's bit rate as the boot loader has it, or nothing. */
+        /* The link's name: the bit rate from the boot loader, or empty. */
 
 void loader_alive(bool outage);
         /* As port_alive. */

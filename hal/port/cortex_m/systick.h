@@ -1,13 +1,13 @@
-/* systick.h: time, from the timer that every Cortex-M has. */
+/* systick.h: time, from the SysTick timer of every Cortex-M. */
 #ifndef OCTET_SYSTICK_H
 #define OCTET_SYSTICK_H
 
 #include <stdint.h>
 
 void systick_start(uint32_t core_hz);
-        /* Time passes from here on. To be called again when the core's clock has changed. */
+        /* Starts the time. Call again when the core clock has changed. */
 
 uint32_t machine_ms(void);
-        /* Milliseconds since systick_start; wraps. To be asked at least every 0.7 s, else it falls behind. */
+        /* Milliseconds since systick_start; wraps. Call at least every 0.7 s, or it falls behind. */
 
 #endif

@@ -1,4 +1,4 @@
-/* gpio.h: the pins of a chip, numbered as in board.h, once their ports have power. */
+/* gpio.h: the pins of a chip, numbered as in board.h, once their ports have a clock. */
 #ifndef OCTET_GPIO_H
 #define OCTET_GPIO_H
 
@@ -17,12 +17,12 @@ enum gpio_mode {
 };
 
 void gpio_set(uint32_t pin, enum gpio_mode mode, uint32_t function);
-        /* function: the number of the peripheral's, such as BOARD_CAN_RX_FUNCTION, in chips whose pins choose theirs. */
+        /* function: alternate function number, such as BOARD_CAN_RX_FUNCTION, in chips that select it per pin. */
 
 void gpio_write(uint32_t pin, bool high);
 bool gpio_read(uint32_t pin);
 
 void gpio_start(void);
-        /* The board's LED, CAN and serial port get their pins. An open receive pin reads idle. */
+        /* Sets up the pins of the board's LED, CAN and serial port. An open receive pin reads idle. */
 
 #endif

@@ -1,11 +1,11 @@
-/* flash_errors.h: what becomes of a non-maskable interrupt. */
+/* flash_errors.h: handles the non-maskable interrupt of flash ECC errors. */
 #ifndef OCTET_FLASH_ERRORS_H
 #define OCTET_FLASH_ERRORS_H
 
 #include <stdbool.h>
 
 bool flash_forgives(void);
-        /* True: flash_read has met what it was on the watch for, and will say so; the program goes on. False: it is
-           something else, or somewhere else. */
+        /* True: flash_read expected this error and will report it; the program continues. False: it is another error, or at
+           another place. */
 
 #endif

@@ -1,5 +1,5 @@
-/* bxcan_model.h: the bxCAN controller (RM0090 chapter 32, RM0008 chapter 24), as a driver that polls sees it. What the
- * manual forbids, and what is not modelled, is refused with a reason. Python reads this header too. */
+/* bxcan_model.h: the bxCAN controller (RM0090 chapter 32, RM0008 chapter 24), as a driver that polls sees it. Accesses that
+ * the manual forbids or that are not modelled are refused with a reason. Python reads this header too. */
 #ifndef OCTET_BXCAN_MODEL_H
 #define OCTET_BXCAN_MODEL_H
 
@@ -37,7 +37,7 @@ struct bxcan_filters {
 struct bxcan {
     struct can_node node;
     unsigned bank_count;
-    bool release_slow;         /* a fault: a released frame shows on for 0.1 ms, as RFOM tells */
+    bool release_slow;         /* a fault: a released frame remains visible for 0.1 ms, as RFOM shows */
 
     uint32_t mcr, btr, ier;
     struct bxcan_mailbox mailboxes[BXCAN_MAILBOXES];
@@ -50,7 +50,7 @@ void bxcan_open(struct bxcan *can, struct can_wire *wire, unsigned bank_count);
         /* A controller on a wire, as after power-up, without faults. */
 
 void bxcan_reset(struct bxcan *can);
-        /* As after a reset; garbage wherever the manual promises nothing. */
+        /* Resets it; registers without a defined reset value hold garbage. */
 
 int bxcan_fifo_for(const struct bxcan *can, const struct frame *frame);
         /* The FIFO that the filters send a frame to, or -1. */

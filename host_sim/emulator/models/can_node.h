@@ -1,5 +1,5 @@
-/* can_node.h: what controllers of CAN have alike: how they join and leave a bus, their error counters and bus-off, after
- * ISO 11898-1. What a manual forbids, and what is not modelled, is refused with a reason. Python reads this header too. */
+/* can_node.h: what CAN controllers have in common, after ISO 11898-1: joining and leaving a bus, error counters, bus-off.
+ * Accesses that a manual forbids or that are not modelled are refused with a reason. Python reads this header too. */
 #ifndef OCTET_CAN_NODE_H
 #define OCTET_CAN_NODE_H
 
@@ -18,11 +18,11 @@ enum node_outcome { NODE_SENT, NODE_LOST_ARBITRATION, NODE_DESTROYED };
 
 struct can_node;
 
-/* What each kind of controller does in its own way. */
+/* What each kind of controller implements. */
 struct can_kind {
     int64_t (*read)(struct can_node *node, uint32_t offset);    /* what a register holds, or -1: refused */
     bool (*write)(struct can_node *node, uint32_t offset, uint32_t value);   /* false: refused */
-    bool (*offer)(struct can_node *node, struct frame *out);    /* what it would send next, and notes that in on_wire */
+    bool (*offer)(struct can_node *node, struct frame *out);    /* the frame to send next; sets on_wire */
     void (*end)(struct can_node *node, enum node_outcome outcome);   /* of on_wire, which is set to -1 */
     void (*store)(struct can_node *node, const struct frame *frame);  /* one that has arrived whole */
     void (*lose_bus)(struct can_node *node);                    /* it has just gone bus-off */
@@ -37,7 +37,7 @@ struct can_node {
     bool init_stuck;           /* faults: init is never entered; */
     bool recovery_stuck;       /* bus-off never ends; */
     unsigned stuck_mailboxes;  /* bit n: mailbox n neither sends nor gives up */
-    char refusal[NODE_REFUSAL_MAX];   /* why something was refused; empty: nothing was */
+    char refusal[NODE_REFUSAL_MAX];   /* why an access was refused; empty: none was */
 
     struct can_wire *wire;
     enum node_mode mode, wanted;
@@ -52,7 +52,7 @@ struct can_node {
 };
 
 void node_open(struct can_node *node, const struct can_kind *kind, struct can_wire *wire);
-        /* On a wire. A reset has to follow. */
+        /* Attaches it to a wire. Reset it next. */
 
 void node_reset(struct can_node *node, enum node_mode mode);
         /* Without errors, in that mode. */
@@ -61,7 +61,7 @@ int64_t node_read(struct can_node *node, uint32_t offset);
         /* What a register holds, or -1: refused. */
 
 bool node_write(struct can_node *node, uint32_t offset, uint32_t value);
-        /* False: refused. What follows from it does so when time passes on the wire. */
+        /* Writes a register; false: refused. The effects come as time passes on the wire. */
 
 bool node_refuse(struct can_node *node, const char *format, ...);
         /* Always false. */
@@ -83,6 +83,6 @@ void node_failed(struct can_node *node, enum node_error error);
 void node_arrived(struct can_node *node, const struct frame *frame, bool destroyed);
 
 uint64_t node_advance(struct can_node *node);
-        /* Enters a mode, or ends bus-off, if it is time. Returns when the next is due, or UINT64_MAX for never. */
+        /* Enters a mode, or ends bus-off, if due. Returns when the next one is due, or UINT64_MAX for never. */
 
 #endif

@@ -25,7 +25,7 @@ struct frame_queue {
 
 struct can_wire {
     bool alone;                  /* the rest of the world is not there: it neither acknowledges nor receives */
-    bool shorted;                /* what a controller sends is destroyed, and the world has given up sending */
+    bool shorted;                /* frames of controllers are destroyed, and the world does not send */
     bool busy;                   /* never idle: nothing new is sent, and no controller can join */
     uint64_t now_ns;
     uint64_t ends_ns;            /* when the frame on the wire is over */
@@ -40,16 +40,16 @@ struct can_wire {
 enum wire_sender { WIRE_IDLE = -1, WIRE_WORLD = -2 };
 
 void wire_open(struct can_wire *wire);
-        /* A quiet bus without controllers, at time 0. */
+        /* Initializes an idle bus without controllers, at time 0. */
 
 bool wire_put(struct can_wire *wire, const struct frame *frame);
-        /* The world wants to send a frame, and keeps trying until a controller listens. False: too many are waiting. */
+        /* Queues a frame from the world, which is repeated until a controller acknowledges it. False: the queue is full. */
 
 bool wire_fetch(struct can_wire *wire, struct frame *out);
-        /* The oldest frame that the world has received. False: there is none. */
+        /* Takes the oldest frame that the world has received. False: there is none. */
 
 uint64_t wire_advance(struct can_wire *wire, uint64_t now_ns);
-        /* Lets happen what is due by now, on the wire and in its controllers. Returns when something is next due,
-           UINT64_MAX for never: call again at that moment, since what is skipped happens late. */
+        /* Runs what is due by now, on the wire and in its controllers. Returns when something is next due, UINT64_MAX for
+           never: call again at that time, or it happens late. */
 
 #endif

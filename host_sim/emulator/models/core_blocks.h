@@ -1,4 +1,4 @@
-/* core_blocks.h: counts what the core executes, block by block, and drives the clock with it. Python reads this header
+/* core_blocks.h: counts the executed instructions, block by block, and drives the clock with them. Python reads this header
  * too. */
 #ifndef OCTET_CORE_BLOCKS_H
 #define OCTET_CORE_BLOCKS_H
@@ -12,14 +12,14 @@ enum { BLOCKS_KEPT = 4096 };
 
 struct core_block {
     uint64_t address;
-    uint32_t size;    /* in bytes; 0: nothing is kept here */
+    uint32_t size;    /* in bytes; 0: entry not in use */
     uint32_t count;   /* of its instructions */
 };
 
 struct core_blocks {
     struct board_clock *clock;   /* one cycle for each instruction */
     uint64_t instructions;       /* executed so far */
-    bool stopping;               /* no further block is begun */
+    bool stopping;               /* begin no further block */
     int (*stop)(void *emulator);                                                     /* Unicorn's uc_emu_stop */
     int (*read)(void *emulator, uint64_t address, void *bytes, uint64_t size);   /* Unicorn's uc_mem_read */
     struct core_block kept[BLOCKS_KEPT];

@@ -1,8 +1,8 @@
-/* register_space.h: the registers of all peripherals by address. Those that are accessed most are models in C; all others,
- * and all refused accesses, are left to Python, which reads this header too.
+/* register_space.h: the registers of all peripherals by address. The busiest ones are models in C; Python handles all
+ * others and all refused accesses, and reads this header too.
  *
- * Time in which the image only waits is skipped. It waits if it reads the same values again and again and reads the time
- * in between; a loop that counts its reads instead is executed. */
+ * Time in which the image only waits is skipped. It counts as waiting if it reads the same values repeatedly and reads the
+ * time in between; a loop that counts its reads is executed. */
 #ifndef OCTET_REGISTER_SPACE_H
 #define OCTET_REGISTER_SPACE_H
 
@@ -14,7 +14,7 @@
 #include "host_sim/emulator/models/systick_model.h"
 
 enum {
-    SPACE_WAITING_READS = 8,    /* reads in a row that bring nothing new, after which the image counts as waiting */
+    SPACE_WAITING_READS = 8,    /* reads in a row without news, after which the image counts as waiting */
     SPACE_SKIP_NS = 1000000,    /* longest skip before its next read: it may be waiting for the time itself */
     SPACE_CAN_WORDS = 0x200,    /* registers of CAN that there can be, with the words of a message RAM in the upper half */
     SPACE_CAN_RAM = 0x4000,     /* offset of that RAM from the registers */
@@ -66,13 +66,13 @@ uint32_t space_can_word(uint32_t offset);
         /* The number of the register or word of CAN at an offset; SPACE_CAN_WORDS: there is none. */
 
 void space_begin_anew(struct register_space *space);
-        /* The image does something other than wait. */
+        /* Notes that the image does something other than wait. */
 
 void space_note(struct register_space *space, bool is_news);
-        /* It has read a register that tells what has happened. */
+        /* Notes a read of a register that shows events. */
 
 void space_note_time(struct register_space *space);
-        /* It has read a register that tells the time. */
+        /* Notes a read of a register that shows the time. */
 
 uint64_t window_read(void *emulator, uint64_t offset, unsigned width, void *window);
 void window_write(void *emulator, uint64_t offset, unsigned width, uint64_t value, void *window);

@@ -26,7 +26,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def judge(arguments: Sequence[str]) -> Sequence[str]:
-    """The stages of tools/setup that a command line needs; a wrong one, or a call for help, ends the process."""
+    """The stages of tools/setup that a command line needs; ends the process if it is wrong or asks for help."""
     _parse(arguments)
     return ["tests", "web", "vcan"]
 
@@ -84,7 +84,7 @@ def _all_figures() -> "list[Figure]":
 
 
 def _compare_loops() -> bool:
-    """Compares the tick loops, and prints the results; whether all is the same."""
+    """Compares the tick loops and prints the results. Returns whether all are the same."""
     from host_sim.lab.bench.native_equality import compare_loops
 
     equal = True

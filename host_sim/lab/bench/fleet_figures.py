@@ -1,4 +1,4 @@
-"""Fleets, arenas of learners, worlds without a log, layouts: processor time, where it is not said otherwise."""
+"""Fleets, arenas of learners, worlds without a log, layouts: in processor time unless noted."""
 
 import os
 import time

@@ -1,4 +1,4 @@
-"""`tools/octet calibrate`: has a robot of its own measure itself, and shows what it keeps."""
+"""`tools/octet calibrate`: calibrates a robot with a body on pins, or shows its calibration."""
 
 import argparse
 import sys
@@ -22,13 +22,13 @@ STEPS = {
 }
 _EXAMPLES = """\
 examples:
-  tools/octet calibrate --bus socketcan:can0             all three, with a word before each
+  tools/octet calibrate --bus socketcan:can0             all three, with instructions before each
   tools/octet calibrate track --bus socketcan:can0       only that
-  tools/octet calibrate --show --bus socketcan:can0      what it keeps; nothing moves
+  tools/octet calibrate --show --bus socketcan:can0      show the stored values; nothing moves
   tools/octet calibrate --set body_track_mm=163 --bus socketcan:can0
-  tools/octet calibrate --robot emulated --seed 3        an emulated Blue Pill in a body of the kit, and the truth
+  tools/octet calibrate --robot emulated --seed 3        an emulated Blue Pill in a kit body, beside the true values
 
-A value that cannot be is refused, and the old ones stay. Without a PC, the button does it: see docs/hardware.md.
+An impossible result is refused, and the old values stay. Without a PC, use the button: see docs/hardware.md.
 """
 
 
@@ -38,8 +38,8 @@ def add(commands: "Subparsers") -> None:
         commands,
         "calibrate",
         _calibrate,
-        summary="have a robot of its own measure itself",
-        description="Has a robot of its own measure its sensors, motors and track, and store that in its flash.",
+        summary="calibrate the sensors, motors and track of a real robot",
+        description="Calibrates a robot's sensors, motors and track, and stores the results in its flash.",
         epilog=_EXAMPLES,
         check=_check,
         stages=lambda arguments: ["emulator", "images"] if arguments.robot == "emulated" else ["run"],
@@ -48,15 +48,15 @@ def add(commands: "Subparsers") -> None:
     add_("steps", nargs="*", metavar="STEP", help=f"{', '.join(STEPS)} (default: all)")
     add_("--bus", metavar="BUS", help="any bus of python-can: INTERFACE:CHANNEL, such as socketcan:can0")
     add_("--robot", choices=("external", "emulated"), default="external", help="where it is (default: %(default)s)")
-    add_("--node", type=number(1, 31), default=1, help="its node number, 1..31 (default: 1)")
+    add_("--node", type=number(1, 31), default=1, help="the robot's node number, 1..31 (default: 1)")
     add_option(parser, "bitrate")
-    add_("--show", action="store_true", help="only show what it keeps")
+    add_("--show", action="store_true", help="only show the stored values")
     add_("--set", action="append", default=[], metavar="NAME=VALUE", help="store a value instead of measuring it")
     add_(
-        "--body", default="kit", metavar="BODY", help="emulated: what its body is like: kit or a file (default: kit)"
+        "--body", default="kit", metavar="BODY", help="emulated: its body, kit or a file (default: kit)"
     )
-    add_("--seed", type=number(0, 2**32 - 1), default=1, help="emulated: from which its body is drawn (default: 1)")
-    add_("--yes", action="store_true", help="do not ask before each step: it stands there already")
+    add_("--seed", type=number(0, 2**32 - 1), default=1, help="emulated: seed of its body (default: 1)")
+    add_("--yes", action="store_true", help="do not ask before each step: the robot is in place already")
 
 
 def _check(arguments: argparse.Namespace) -> None:
@@ -64,7 +64,7 @@ def _check(arguments: argparse.Namespace) -> None:
         if step not in STEPS:
             raise UsageError(f"there is no {step!r} to calibrate: {', '.join(STEPS)}")
     if (arguments.bus is None) == (arguments.robot == "external"):
-        raise UsageError("calibrate needs a robot: --bus INTERFACE:CHANNEL where it is, or --robot emulated")
+        raise UsageError("calibrate needs a robot: give --bus INTERFACE:CHANNEL, or --robot emulated")
     if arguments.steps and (arguments.show or arguments.set):
         raise UsageError("give steps to measure, or --show or --set")
     arguments.settings = dict(map(_setting, arguments.set))
@@ -127,7 +127,7 @@ def _reached(stack: ExitStack, arguments: argparse.Namespace) -> "tuple[Calibrat
 
 
 def _measures(calibration: "Calibration", places: "Places | None", step: str, *, ask: bool) -> bool:
-    """Has it measure something, and says what came of it. True: it is stored."""
+    """Runs one measurement and prints its result. Returns whether it was stored."""
     if places:
         places.put(step)
     elif ask and sys.stdin.isatty():

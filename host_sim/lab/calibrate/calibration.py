@@ -1,4 +1,4 @@
-"""A dialogue with a robot of its own, which measures itself: what it is to measure, and what came of it."""
+"""Calibrates a robot with a body on pins over the bus: starts measurements and reads their results."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.words import BODY_PARAMETERS
 
 STEPS = ("light", "motors", "track")
-"""What it can measure, each by number from 1, as body_measure has it."""
+"""The measurements, numbered from 1 as in body_measure."""
 
 TRAITS = {name: row for name, row in BODY_PARAMETERS.items() if name not in ("body_measure", "body_refused")}
 """What it keeps."""
@@ -24,7 +24,7 @@ class Calibration:
 
     Attributes:
         client: The robot's, stopped.
-        wait: Lets so much of the robot's time pass, s.
+        wait: Waits for this much robot time, s.
     """
 
     client: RobotClient
@@ -34,14 +34,14 @@ class Calibration:
         """The value of a parameter of the body.
 
         Raises:
-            UsageError: It is no robot of its own.
+            UsageError: The robot has no body on pins.
             RobotError: It does not answer.
         """
         try:
             answer = self.client.dialogue.command("get", wanted=BODY_PARAMETERS[name].number)
         except RefusedError as error:
             raise UsageError(
-                f"node {self.client.node} is no robot of its own that can be calibrated: {error}"
+                f"node {self.client.node} has no body that can be calibrated: {error}"
             ) from None
         return int(answer.signals["value"])
 
@@ -55,14 +55,14 @@ class Calibration:
         self.client.dialogue.command("set", parameter=BODY_PARAMETERS[name].number, value=value)
 
     def traits(self) -> dict[str, int]:
-        """All that it keeps, by name."""
+        """All stored values, by name."""
         return {name: self.get(name) for name in TRAITS}
 
     def measure(self, step: str) -> str:
-        """Has it measure something.
+        """Runs a measurement.
 
         Returns:
-            Why nothing came of it, in a sentence; empty if all is well.
+            Why it failed, in a sentence; empty if it was stored.
 
         Raises:
             RobotError: It does not answer, or does not come to an end.
@@ -72,7 +72,7 @@ class Calibration:
             self.wait(_POLL_S)
             if self.get("body_measure") == 0:
                 return _why(self.get("body_refused"))
-        raise RobotError(f"node {self.client.node} still measures after {_LONGEST_S:g} s: switch it off")
+        raise RobotError(f"node {self.client.node} is still measuring after {_LONGEST_S:g} s: switch it off")
 
 
 def _why(refused: int) -> str:

@@ -1,4 +1,4 @@
-"""Where an emulated robot of its own stands while it measures itself, and what its body really is like."""
+"""Places an emulated robot for each calibration step, and knows the true values of its body."""
 
 from math import pi
 
@@ -20,7 +20,7 @@ _ABREAST = Pose(400.0, 130.0, pi)
 
 
 class Places:
-    """An emulated robot, put where each step wants it."""
+    """An emulated robot, placed as each step requires."""
 
     def __init__(self, board: PinsBoard, body: str, seed: int) -> None:
         """Gives the board a body.
@@ -66,7 +66,7 @@ class Places:
             self._tick += 1
 
     def true_traits(self) -> dict[str, float]:
-        """What it would measure without any error, by name. Those of a body as planned are the defaults."""
+        """The values without measurement error, by name. Those of a nominal body are the defaults."""
         ffi, kit = self._board.robot.ffi, self._body.kit
         names = [ffi.string(row.name).decode() for row in self._library.KIT_TRAITS]
         trait = dict(zip(names, kit.trait, strict=True))

@@ -25,8 +25,8 @@ examples:
   tools/octet campaign --repeat 'article fd lockstep seed=12 limit=8 event=hang:300@100'
   tools/octet campaign --shrink 'article none lockstep seed=12 limit=30 fault=drop:30% fault=forge:stop@300/to'
 
-The exit code is 1 if in any run a fault went unnoticed, wheels kept turning for more than 100 ms, something wrong was
-learned, something was missing from the run's files without a message, or the run broke.
+Exit code 1 if in any run a fault went unnoticed, wheels kept turning for more than 100 ms, something wrong was
+learned, the run's files lacked something without a message, or an unexpected error occurred.
 """
 
 
@@ -37,7 +37,7 @@ def add(commands: "Subparsers") -> None:
         "campaign",
         _campaign,
         summary="inject every fault, and report the outcomes",
-        description="Injects every fault into every configuration, and writes a report: a page for a browser.",
+        description="Injects every fault into every configuration, and writes an HTML report.",
         epilog=_EXAMPLES,
         check=_check,
         stages=_stages,
@@ -70,7 +70,7 @@ def add(commands: "Subparsers") -> None:
         "--limit-s",
         type=number(1, 600, float),
         metavar="S",
-        help="robot time of each run, 1..600 s (default: 60, in real time 10); more where a fault shows later",
+        help="robot time of each run, 1..600 s (default: 60, in real time 10); longer for faults that show later",
     )
     add("--jobs", type=number(1, 64), default=1, metavar="N", help="processes at once (default: %(default)d)")
     add("--repeat", metavar="CELL", help="rerun one run of a report and print its outcome")
@@ -79,13 +79,13 @@ def add(commands: "Subparsers") -> None:
 
 def _check(arguments: argparse.Namespace) -> None:
     if arguments.html is None and not (arguments.repeat or arguments.shrink):
-        raise UsageError("campaign needs a FILE.html to write the report to, or --repeat or --shrink")
+        raise UsageError("campaign needs FILE.html for the report, or --repeat or --shrink")
     check_outputs(
         "campaign", None, {"FILE.html": arguments.html, "--json": arguments.json, "--junit": arguments.junit}
     )
     links = (arguments.repeat or arguments.shrink or "").split() or arguments.links
     if bool(arguments.robot_command.strip()) != ("external" in links):
-        raise UsageError("--links external and --robot-command CMD, the robot that is there, go together")
+        raise UsageError("--links external and --robot-command CMD go together: give both")
     if arguments.jobs > 1 and "vcan" in arguments.links:
         raise UsageError("vcan0 is one bus for one robot at a time: leave out --jobs")
 

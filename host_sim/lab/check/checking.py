@@ -97,7 +97,7 @@ def _judge(courses: dict[str, _Course], missing: Collection[str]) -> Iterator[Ve
         if number in broken:
             yield Verdict(number, text, "fails", *broken[number])
         elif number in NOT_CHECKED or number in missing:
-            reason = NOT_CHECKED.get(number, "the robot would have to be started or stopped here: --robot-command")
+            reason = NOT_CHECKED.get(number, "it needs a robot that can be started and stopped: use --robot-command")
             yield Verdict(number, text, "not checked", reason)
         elif "." in number and message not in heard:
             yield Verdict(number, text, "not checked", f"no {message} came")

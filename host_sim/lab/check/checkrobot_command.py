@@ -1,4 +1,4 @@
-"""`tools/octet check-robot`: holds a robot to docs/protocol.md, sentence by sentence."""
+"""`tools/octet check-robot`: checks a robot against docs/protocol.md, sentence by sentence."""
 
 import argparse
 from typing import TYPE_CHECKING
@@ -21,8 +21,8 @@ examples:
   tools/octet check-robot --bus socketcan:can0 --node 3 --junit robot.xml
 
 The command finds its bus in CAN_INTERFACE and CAN_CHANNEL, and its number in OCTET_NODE: see docs/bench.md. A
-sentence fails if its check fails three times, since a busy host may be late itself. The exit code is 1 if a sentence
-does not hold, and 2 if there is no robot that answers.
+sentence fails if its check fails three times, since a busy host may itself be late. Exit code 1 if a sentence does
+not hold, 2 if no robot answers.
 """
 
 
@@ -38,7 +38,7 @@ def add(commands: "Subparsers") -> None:
         check=_check,
     )
     add = parser.add_argument
-    add("--robot-command", metavar="CMD", help="start this program anew for each check")
+    add("--robot-command", metavar="CMD", help="start this program as the robot, for each check")
     add(
         "--bus",
         default="fd",
@@ -53,7 +53,7 @@ def add(commands: "Subparsers") -> None:
 
 def _check(arguments: argparse.Namespace) -> None:
     if arguments.robot_command is None and arguments.bus == "fd":
-        raise UsageError("check-robot needs a robot: --robot-command CMD, or --bus INTERFACE:CHANNEL where it is")
+        raise UsageError("check-robot needs a robot: give --robot-command CMD, or --bus INTERFACE:CHANNEL")
     check_outputs("check-robot", None, {"--json": arguments.json, "--junit": arguments.junit})
 
 

@@ -40,7 +40,7 @@ def wake(talk: Talk) -> None:
             talk.hear(_AGAIN_S, lambda said: said.is_answer)
             return
     heard = sum(said.by_robot for said in talk.said)
-    why = f"it sent {heard} frames, but no such ANSWER" if heard else "it sends nothing at all"
+    why = f"it sent {heard} frames, but no such ANSWER" if heard else "it sent nothing at all"
     raise UsageError(f"the robot does not answer stop within {WAKE_S:g} s: {why}")
 
 

@@ -96,7 +96,7 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
         return self._senses(), self._info()
 
     def step(self, action: int) -> tuple[NDArray[np.int32], float, bool, bool, dict[str, Any]]:
-        """Has the robot do one thing.
+        """Carries out one action.
 
         Raises:
             gymnasium.error.ResetNeeded: No episode has begun, or the last one has ended.

@@ -1,4 +1,4 @@
-"""Where frames wait in the kernel until the monitor reads them: made long, and what did not fit into it counted."""
+"""The kernel's receive queue: makes it long, and counts the frames that it dropped."""
 
 import contextlib
 import socket
@@ -16,7 +16,7 @@ _DROPS = 8
 
 
 def lengthen(bus: can.BusABC) -> None:
-    """Has the kernel keep as many frames for us as it lets us, where the bus is a socket."""
+    """Makes the receive queue as long as the kernel allows, if the bus is a socket."""
     if (queue := _socket_of(bus)) is None:
         return
     queue.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _BYTES)
@@ -25,7 +25,7 @@ def lengthen(bus: can.BusABC) -> None:
 
 
 def dropped(bus: can.BusABC) -> int:
-    """Number of frames for which the kernel had no room, where the bus is a socket."""
+    """Number of frames that the kernel dropped, if the bus is a socket."""
     if (queue := _socket_of(bus)) is None:
         return 0
     drops: int = _MEMINFO.unpack(queue.getsockopt(socket.SOL_SOCKET, _SO_MEMINFO, _MEMINFO.size))[_DROPS]

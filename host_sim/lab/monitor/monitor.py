@@ -1,4 +1,4 @@
-"""Watches a bus until it is told to stop: as a table on a terminal, as a line for each frame elsewhere."""
+"""Watches a bus until told to stop: shows a table on a terminal, else one line per frame."""
 
 import time
 from collections.abc import Callable
@@ -25,7 +25,7 @@ _LAST_S = 2.0
 
 
 def filter_robots(bus: can.BusABC) -> None:
-    """Has the kernel, or python-can where it cannot, let through only the identifiers of robots."""
+    """Lets only the identifiers of robots through, by the kernel's filter or else python-can's."""
     bands = sorted({Protocol(NODE_MAX).id_of(name) & ~NODE_MAX for name in MESSAGES})
     bus.set_filters([CanFilter(can_id=band, can_mask=0x7FF & ~NODE_MAX, extended=False) for band in bands])
 
@@ -37,7 +37,7 @@ def watch_lines(bus: can.BusABC, watch: BusWatch, out: TextIO, goes_on: Callable
         bus: The bus.
         watch: Follows it.
         out: Where the lines go. They are flushed whenever the bus rests.
-        goes_on: Asked again and again. When it no longer does, what has come by then is written still.
+        goes_on: Called repeatedly. Once it returns false, the frames received until then are still written.
 
     Raises:
         OctetError: The bus is gone.
@@ -62,7 +62,7 @@ def watch_lines(bus: can.BusABC, watch: BusWatch, out: TextIO, goes_on: Callable
 
 
 def watch_table(bus: can.BusABC, watch: BusWatch, name: str, out: TextIO, goes_on: Callable[[], bool]) -> None:
-    """Draws the state of the bus again and again; arguments and errors as in `watch_lines`, and its name."""
+    """Draws the state of the bus repeatedly. `name` is the bus; other arguments and errors as in `watch_lines`."""
     start_s = time.monotonic()
     drawn_s = -_DRAW_S
     with full_screen(out) as draw:

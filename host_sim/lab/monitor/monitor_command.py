@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 _EXAMPLES = """\
 examples:
   tools/octet monitor socketcan:can0              a table of the robots, on a terminal
-  tools/octet monitor socketcan:can0 | grep '!'   what looks wrong; not on a terminal, each frame is a line
+  tools/octet monitor socketcan:can0 | grep '!'   only warnings, from the output of one line per frame
   tools/octet monitor slcan:/dev/ttyACM0 --all    other frames too
 """
 

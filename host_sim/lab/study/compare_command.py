@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 _EXAMPLES = """\
 examples:
   tools/octet compare out/studies/learned                           the results of a study
-  tools/octet compare out/studies/learned --plots out/plots         the same, and as pictures
-  tools/octet compare studies/bodies.toml                           a study as fleets: behaviours on real bodies
-  tools/octet compare article fixed never --seeds 40                what learning and remembering are worth
+  tools/octet compare out/studies/learned --plots out/plots         the same, and plots
+  tools/octet compare studies/bodies.toml                           run a study as fleets: behaviours on real bodies
+  tools/octet compare article fixed never --seeds 40                the value of learning and remembering
   tools/octet compare article --seeds 2 --robot emulated            the flash image, on an emulated board
   tools/octet compare article searcher --body kit                   with real motors and sensors
   tools/octet compare article forgetful --change swap-motors@env1      with the motors' plugs exchanged
@@ -96,7 +96,7 @@ def _check(arguments: argparse.Namespace) -> None:
     if find_spec("_cffi_backend"):  # the plain python3 that judges a command line cannot call C
         body_kind(arguments.body)
     if len(arguments.change) > 1:
-        raise UsageError("profiles are compared with one --change: several go into a study, as a file of changes")
+        raise UsageError("give one --change with profiles; for several, write a study with a file of changes")
 
 
 def _stages(arguments: argparse.Namespace) -> "Sequence[str]":

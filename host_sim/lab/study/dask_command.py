@@ -17,10 +17,10 @@ _EXAMPLES = """\
 examples:
   tools/octet dask scheduler                                     for this machine only; prints its address
   tools/octet dask scheduler --host 0.0.0.0                      for other machines, too
-  tools/octet dask worker tcp://host:8786                        on each machine that is to work
+  tools/octet dask worker tcp://host:8786                        on each machine that should work
   tools/octet study studies/learned.toml --dask tcp://host:8786  anywhere
 
-Who can reach the scheduler can run any program on the workers: use it in a network of your own only.
+Anyone who can reach the scheduler can run any program on the workers: use it only on a private network.
 """
 _HERE_PAGE = ["--dashboard-address", "127.0.0.1:8787"]
 
@@ -31,14 +31,14 @@ def add(commands: "Subparsers") -> None:
         commands,
         "dask",
         _dask,
-        summary="be the scheduler or a worker of a cluster for studies",
-        description="Starts Dask's own scheduler or worker, which find Octet and its libraries.",
+        summary="start the scheduler or a worker of a cluster for studies",
+        description="Starts Dask's own scheduler or worker, with Octet and its libraries importable.",
         epilog=_EXAMPLES,
         check=_help,
         stages=lambda _: ["cluster"],
     )
-    parser.add_argument("role", choices=("scheduler", "worker"), help="what to be")
-    told = "options of Dask; --help lists them, once it is installed"
+    parser.add_argument("role", choices=("scheduler", "worker"), help="what to start")
+    told = "Dask's own options; --help lists them once Dask is installed"
     parser.add_argument("words", nargs=argparse.REMAINDER, metavar="...", help=told)
 
 

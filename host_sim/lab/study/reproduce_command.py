@@ -1,4 +1,4 @@
-"""`tools/octet reproduce`: makes the tables, the plots and the numbers of docs/learning.md anew."""
+"""`tools/octet reproduce`: regenerates the tables, plots and numbers of docs/learning.md."""
 
 import argparse
 from pathlib import Path
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 _DOCUMENT = "learning.md"
 _EXAMPLES = """\
 examples:
-  tools/octet reproduce                  all of it: a quarter of an hour on two cores
-  tools/octet reproduce --only learned   one study; the other tables and plots stay
+  tools/octet reproduce                  everything: a quarter of an hour on two cores
+  tools/octet reproduce --only learned   only one study; other tables and plots stay
 """
 _PLOTS = {"learned": ("learning", "survival"), "swapped": ("recovery",), "score": ("score",)}
 
@@ -27,8 +27,8 @@ def add(commands: "Subparsers") -> None:
         commands,
         "reproduce",
         _reproduce,
-        summary="measure all of docs/learning.md anew",
-        description=f"Runs every study that {_DOCUMENT} has a table of, and writes its tables, plots and numbers.",
+        summary="measure everything in docs/learning.md again",
+        description=f"Runs every study with a table in {_DOCUMENT}, and writes the tables, plots and numbers.",
         epilog=_EXAMPLES,
         stages=lambda arguments: ["study", *worker_stages(arguments)],
     )
@@ -45,7 +45,7 @@ def add(commands: "Subparsers") -> None:
         type=file_path,
         default=ROOT / "docs",
         metavar="FOLDER",
-        help=f"folder with {_DOCUMENT}, where tables and plots go, too (default: docs/)",
+        help=f"folder with {_DOCUMENT}; tables and plots go there too (default: docs/)",
     )
     add(
         "--out",

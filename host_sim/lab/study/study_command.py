@@ -1,4 +1,4 @@
-"""`tools/octet study`: runs a study, and goes on with one that was stopped."""
+"""`tools/octet study`: runs a study, or resumes one that was stopped."""
 
 import argparse
 import os
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 examples:
-  tools/octet study studies/learned.toml                          learned against programmed
+  tools/octet study studies/learned.toml                          learned behaviour against programmed
   tools/octet study studies/learned.toml --out out/mine           into another folder
   tools/octet study studies/learned.toml --dask tcp://host:8786   on a cluster (tools/octet dask)
   tools/octet compare out/studies/learned                         its results
 
-Run the same command again to resume a study that was stopped, or to add the seeds that its file has more by now.
+Run the same command again to resume a study that was stopped, or to run seeds added to its file.
 """
 _WRITE_S = 5.0
 _OUT = Path("out/studies")
@@ -37,7 +37,7 @@ def add(commands: "Subparsers") -> None:
         commands,
         "study",
         _study,
-        summary="run a study: behaviours in many environments, as its file says",
+        summary="run a study of behaviours in many environments",
         description="Runs each condition of a study with the same seeds, on all cores, and writes Parquet.",
         epilog=_EXAMPLES,
         stages=lambda arguments: ["study", *worker_stages(arguments)],
@@ -90,7 +90,7 @@ def run_study(path: Path, out: Path, workers: "Workers", chunk: int = 0) -> str:
 
     plan = read_plan(path)
     if plan.is_fleet:
-        raise UsageError(f"{path}: robots in worlds of their own are a fleet: run it with tools/octet compare {path}")
+        raise UsageError(f"{path}: robots in worlds of their own run as a fleet: use tools/octet compare {path}")
     with open_study(out, plan) as folder:
         write_bytes(out / PLAN_FILE, path.read_bytes())
         done = folder.done()

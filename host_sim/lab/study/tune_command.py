@@ -1,4 +1,4 @@
-"""`tools/octet tune`: finds parameters of a behaviour that reach a goal sooner, and shows it on seeds held out."""
+"""`tools/octet tune`: tunes the parameters of a behaviour, and tests them on held-out seeds."""
 
 import argparse
 from pathlib import Path
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 examples:
-  tools/octet tune --profile searcher --goal time --world crowded     its parameters in crowded worlds
-  tools/octet tune --only turn_deg step_mm --body kit                 two of article's, for real wheels
-  tools/run --set @out/tune/article.txt                               a run with what was found
+  tools/octet tune --profile searcher --goal time --world crowded     the searcher's parameters, in crowded worlds
+  tools/octet tune --only turn_deg step_mm --body kit                 two parameters of article, for real wheels
+  tools/run --set @out/tune/article.txt                               a run with the result
 
 Run the same command again to resume a search that was stopped.
 """
@@ -35,20 +35,20 @@ def add(commands: "Subparsers") -> None:
         commands,
         "tune",
         _tune,
-        summary="find parameters of a behaviour that are better than its defaults",
-        description="Searches parameters by CMA-ES on fleets; compares the best with the defaults on other seeds.",
+        summary="tune the parameters of a behaviour",
+        description="Tunes parameters by CMA-ES on fleets; compares the best with the defaults on held-out seeds.",
         epilog=_EXAMPLES,
         stages=lambda arguments: ["study", *worker_stages(arguments)],
     )
     for name in ("profile", "world", "body", "limit_s"):
         add_option(parser, name)
     add = parser.add_argument
-    add("--goal", choices=("time", "finished"), default="time", help="what is to become better" + DEFAULT)
+    add("--goal", choices=("time", "finished"), default="time", help="what to improve" + DEFAULT)
     only = "parameters to search (default: all but those of the body)"
     add("--only", nargs="+", choices=PARAMETERS, metavar="NAME", help=only)
     add("--set", type=settings, action="append", default=[], metavar="NAME=VALUE", help="fix a parameter at a value")
     add("--environments", type=number(1, 1000), default=2, metavar="N", help="environments a seed" + DEFAULT)
-    add("--trials", type=number(1, 100_000), default=200, metavar="N", help="settings to try" + DEFAULT)
+    add("--trials", type=number(1, 100_000), default=200, metavar="N", help="number of settings to try" + DEFAULT)
     add("--seeds", type=number(3, 100_000), default=120, metavar="N", help="seeds for a generation's best" + DEFAULT)
     add("--held-out", type=number(2, 100_000), default=400, metavar="N", help="seeds for the comparison" + DEFAULT)
     add("--out", type=file_path, default=Path("out/tune"), metavar="FOLDER", help="folder for the results" + DEFAULT)
@@ -66,7 +66,7 @@ def _tune(arguments: argparse.Namespace) -> int:
     a, fixed = arguments, {name: value for each in arguments.set for name, value in each.items()}
     names = [name for name in a.only or PARAMETERS if name not in fixed and (a.only or name not in OF_THE_BODY)]
     if not names:
-        raise UsageError("there is nothing to search: --set fixes all that --only names")
+        raise UsageError("nothing to tune: --set fixes every parameter of --only")
     workers = workers_of(a)
     config = RunConfig(
         seed=1,

@@ -29,5 +29,5 @@ def run_all(trials: Sequence[Trial], workers: of_lab.Workers, chunk: int = 0) ->
     """
     for runs, code in of_lab.run_all(run_chunk, trials, workers, chunk):
         if code != code_version():
-            raise OctetError("a worker has another version of robot or world; what was made here is there")
+            raise OctetError("a worker has another version of robot or world; finished runs are kept")
         yield runs

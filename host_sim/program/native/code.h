@@ -1,10 +1,10 @@
-/* code.h: the instructions of a program, and what the language has by name. */
+/* code.h: the instructions of a program, and the names built into the language. */
 #ifndef OCTET_PROGRAM_CODE_H
 #define OCTET_PROGRAM_CODE_H
 
 #include "host_sim/program/native/program.h"
 
-/* The operand is a place among numbers, names or instructions, a line, a parameter, or one of the enums below. A cell of an
+/* The operand is an index of a number, name or instruction, a line, a parameter, or one of the enums below. A cell of an
  * array takes its index from the stack. */
 enum op {
     OP_LINE, OP_NUMBER, OP_LOAD, OP_LOAD_CELL, OP_LOAD_PARAMETER, OP_STORE, OP_STORE_CELL, OP_STORE_PARAMETER,
@@ -25,7 +25,7 @@ enum deed { DO_FORWARD, DO_TURN, DO_DELAY, DO_LOCATE, DO_EAT, DO_SHOW };
 
 /* A function or a command. */
 struct known_word {
-    const char *name;      /* in small letters */
+    const char *name;      /* in lower case */
     uint8_t least, most;   /* arguments */
 };
 
@@ -35,12 +35,12 @@ extern const unsigned CODE_FUNCTION_COUNT, CODE_COMMAND_COUNT;
 enum { COLOUR_GREEN = 2, COLOUR_WHITE = 15 };
 
 bool code_constant(const char *word, size_t len, double *value);
-        /* The value of a word that stands for a number, such as Green. False: it does not. */
+        /* The value of a named constant, such as Green. False: the word is not one. */
 
 bool code_same(const char *word, size_t len, const char *name);
-        /* Whether a word is this name, in capital or small letters. */
+        /* Whether a word is this name, ignoring case. */
 
 int code_find(const struct known_word words[], unsigned count, const char *word, size_t len);
-        /* The place of a word among known ones; -1: it is none of them. */
+        /* The index of a word among known ones; -1: not found. */
 
 #endif

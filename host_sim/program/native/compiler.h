@@ -1,4 +1,4 @@
-/* compiler.h: what the parts of the compiler share. After the first mistake the text has ended, so that each part stops by itself. */
+/* compiler.h: shared by the parts of the compiler. The first mistake acts as the end of the text, so that each part stops. */
 #ifndef OCTET_PROGRAM_COMPILER_H
 #define OCTET_PROGRAM_COMPILER_H
 
@@ -14,8 +14,8 @@ struct block {
     enum block_kind kind;
     struct token word;                /* that has opened it */
     uint16_t top;                     /* the instruction that a loop goes back to */
-    uint16_t otherwise;               /* the jump to what comes if a condition does not hold, */
-    uint16_t ends;                    /* and the last of the jumps to the end, which leads to the one before it; or NO_PLACE */
+    uint16_t otherwise;               /* the jump if a condition is false, */
+    uint16_t ends;                    /* and the last of a linked list of jumps to the end; or NO_PLACE */
     struct instruction load, store;   /* a for's variable, */
     uint16_t limit, step;             /* and its cells */
 };
@@ -24,7 +24,7 @@ struct compiler {
     struct program *program;
     struct token token;               /* that comes next */
     unsigned depth;                   /* of brackets */
-    struct block blocks[BLOCKS_MAX + 1];   /* the last one is for what is too much */
+    struct block blocks[BLOCKS_MAX + 1];   /* the last one is for overflow */
     unsigned block_count;
     struct token parameters[PROGRAM_ARGUMENTS_MAX];   /* of the sub */
     unsigned parameter_count;
@@ -33,16 +33,16 @@ struct compiler {
 
 void compiler_fail_at(struct compiler *compiler, const struct token *token, enum program_expected expected);
 void compiler_fail(struct compiler *compiler, enum program_expected expected);
-        /* Something else was expected in place of this token, or of the next one. Only the first mistake counts. */
+        /* Reports that something else was expected in place of this token, or of the next one. Only the first mistake counts. */
 
 void compiler_advance(struct compiler *compiler);
-        /* On to the next token. */
+        /* Moves on to the next token. */
 
 bool compiler_takes(struct compiler *compiler, const char *sign);
         /* Takes this sign if it comes next. */
 
 void compiler_expect(struct compiler *compiler, const char *sign, enum program_expected expected);
-        /* Takes this sign. */
+        /* Takes this sign, or reports that it is missing. */
 
 bool compiler_is_word(const struct compiler *compiler, const char *word);
         /* Whether this word comes next. */
@@ -51,26 +51,26 @@ uint16_t compiler_emit(struct compiler *compiler, enum op op, unsigned operand, 
         /* Adds an instruction and returns its place. */
 
 uint16_t compiler_cell(struct compiler *compiler, unsigned count);
-        /* Takes cells and returns the first one. */
+        /* Allocates cells and returns the first one. */
 
 uint16_t compiler_name(struct compiler *compiler, const struct token *word, enum name_kind kind);
-        /* The place of a name, which is new if it was not there. */
+        /* The index of a name, which is added if it is new. */
 
 void compile_expression(struct compiler *compiler);
-        /* An expression, whose value is left on the stack. */
+        /* Compiles an expression, whose value is left on the stack. */
 
 void compile_number(struct compiler *compiler, double number);
-        /* A number, which is left on the stack. */
+        /* Compiles a number, which is left on the stack. */
 
 struct instruction compile_place(struct compiler *compiler, const struct token *word, bool gives);
-        /* After a word that names a variable, a parameter, or an array with an index, which is left on the stack: the instruction
-           that gives it a value, or that loads it. */
+        /* After the name of a variable, a parameter, or an array (with its index, left on the stack): the instruction that stores
+           or loads it. */
 
 unsigned compile_arguments(struct compiler *compiler, const char *close);
-        /* Expressions between commas, up to a sign, or to the end of the statement if that is null. Returns how many. */
+        /* Compiles expressions between commas, up to a sign, or to the end of the statement if it is null. Returns how many. */
 
 unsigned compile_values(struct compiler *compiler, const struct token *word, const struct known_word *known, const char *close);
-        /* What a command, or with a closing sign a function, takes. Returns how many. */
+        /* Compiles the arguments of a command, or with a closing sign of a function. Returns how many. */
 
 bool compiler_ends_statement(const struct compiler *compiler);
         /* Whether a statement can end here. */
@@ -79,23 +79,23 @@ void compile_text(struct compiler *compiler);
         /* All statements. */
 
 void compile_block(struct compiler *compiler, const struct token *word, int keyword);
-        /* A statement that opens, divides or closes a block. */
+        /* Compiles a statement that opens, divides or closes a block. */
 
 void compile_unclosed(struct compiler *compiler);
-        /* Here no block may be open: what begins here is reached by its name alone, or the text ends. */
+        /* Reports any open block: none may be open at a label, at a sub or at the end of the text. */
 
 void compile_label(struct compiler *compiler, const struct token *word);
 void compile_sub(struct compiler *compiler);
 void compile_end_of_sub(struct compiler *compiler);
 void compile_call(struct compiler *compiler, enum name_kind kind);
 void compile_dim(struct compiler *compiler);
-        /* What defines a name, or leads to one. */
+        /* Compile the statements that define a label, a sub or an array, or call one. */
 
 void compile_line_end(struct compiler *compiler);
-        /* A line has ended, and with it an if on one line. */
+        /* Ends a line, and with it an if on one line. */
 
 bool compiler_is_reserved(const char *word, size_t len);
-        /* Whether a word is none to be chosen for a name. */
+        /* Whether a word is reserved. */
 
 /* Words of the language; those up to KEY_NEXT belong to blocks. */
 enum keyword {

@@ -1,4 +1,4 @@
-/* machine.h: what runs the instructions of a program. */
+/* machine.h: the virtual machine that runs a program. */
 #ifndef OCTET_PROGRAM_MACHINE_H
 #define OCTET_PROGRAM_MACHINE_H
 
@@ -11,33 +11,33 @@ struct machine {
     const struct config *config;
     const struct senses *senses;
     struct action action;
-    bool acts;              /* the action above is what the robot is to do now */
+    bool acts;              /* the action above is to be carried out now */
 };
 
 void machine_fail(struct machine *machine, enum program_expected expected);
-        /* The program makes a mistake in its line, and stops. */
+        /* Stops the program with a run-time error in its line. */
 
 void machine_push(struct machine *machine, double number, int cell);
 double machine_pop(struct machine *machine);
-        /* Values on the stack, with the cell that they come from, or -1. */
+        /* Push and pop values on the stack, with the cell that they come from, or -1. */
 
 void machine_put(struct machine *machine, unsigned cell, double number);
-        /* Gives a cell a value. What is put into Mem is what the robot has learned, unless its learning is frozen. */
+        /* Sets a cell. A value in Mem also goes to the robot's memory, unless learning is frozen. */
 
 void machine_take_memory(struct machine *machine);
-        /* What the robot has learned is in Mem. */
+        /* Copies the robot's memory to Mem. */
 
 void machine_clear(struct machine *machine, const struct program_name *array);
-        /* All cells of an array are 0, but those of Mem. */
+        /* Clears an array, except Mem. */
 
 struct program_value *machine_parameter(struct machine *machine, unsigned number);
-        /* A parameter of the sub that is running. */
+        /* A parameter of the current sub. */
 
 bool machine_moves(struct machine *machine, const struct instruction *it);
-        /* Executes an instruction that deals with values, variables and lines. False: it is another one. */
+        /* Executes an instruction on values, variables or lines. False: it is another kind. */
 
 double machine_operate(struct machine *machine, enum operation operation, double a, double b);
-        /* a operation b; an operation on one value has it for b. */
+        /* a operation b; a unary operation takes b. */
 
 int32_t machine_whole(double number);
         /* The whole part, limited to 32 bits. */
@@ -47,16 +47,16 @@ void machine_command(struct machine *machine, enum deed deed, unsigned count);
         /* With this number of arguments on the stack. */
 
 bool machine_continue(struct machine *machine);
-        /* Goes on with a command that takes several actions. False: there is none. */
+        /* Continues a command that takes several actions. False: there is none. */
 
 void machine_reckon(struct machine *machine);
-        /* Takes in how far the wheels have rolled. */
+        /* Updates the reckoning from the odometers. */
 
 void machine_show_at(struct machine *machine, double x, double y);
-        /* Chooses a place, where nothing is shown any more. */
+        /* Selects a place of the screen and clears it. */
 
 void machine_show_number(struct machine *machine, double number);
 void machine_show_text(struct machine *machine, const char *text, size_t len);
-        /* Adds to what is shown at the place that was chosen last. */
+        /* Appends to the text at the selected place. */
 
 #endif

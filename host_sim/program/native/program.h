@@ -1,7 +1,7 @@
 /* program.h: a robot's brain in the language of the article's listing. docs/language.md has the language.
  *
- * A program is compiled into instructions for a machine with a stack. The machine runs until the program wants the robot to do
- * something, and goes on from there when that has ended: it waits for nothing, and needs no thread. The caller provides all
+ * A program is compiled into instructions for a machine with a stack. The machine runs until the program gives the robot an
+ * action, and continues from there when the action has ended: it never waits, and needs no thread. The caller provides all
  * memory. */
 #ifndef OCTET_PROGRAM_H
 #define OCTET_PROGRAM_H
@@ -13,20 +13,20 @@
 enum {
     PROGRAM_TEXT_MAX = 16384,    /* bytes of a program, with a 0 after it */
     PROGRAM_CODE_MAX = 4096,     /* instructions */
-    PROGRAM_NUMBERS_MAX = 256,   /* different numbers that are written in it */
+    PROGRAM_NUMBERS_MAX = 256,   /* different numeric literals */
     PROGRAM_NAMES_MAX = 192,     /* variables, arrays, labels and subs */
     PROGRAM_CELLS_MAX = 1024,    /* variables and cells of arrays */
-    PROGRAM_STACK_MAX = 64,      /* values that are yet to be used, and parameters */
-    PROGRAM_CALLS_MAX = 32,      /* gosub or call without its return */
+    PROGRAM_STACK_MAX = 64,      /* values in use, and parameters */
+    PROGRAM_CALLS_MAX = 32,      /* nested gosubs and calls */
     PROGRAM_ARGUMENTS_MAX = 8,   /* of a call */
-    PROGRAM_STEPS_MAX = 200000,  /* instructions without anything for the robot to do: then it loops for ever */
+    PROGRAM_STEPS_MAX = 200000,  /* instructions without an action; then it is an endless loop */
     PROGRAM_TRACE_MAX = 256,     /* steps of the last decision that are kept */
     PROGRAM_SHOWN_MAX = 16,      /* places of the screen with a text */
     PROGRAM_SHOWN_TEXT = 48,     /* bytes of such a text, with a 0 after it */
     PROGRAM_WORD_MAX = 32        /* bytes of a word in a mistake, with a 0 after it */
 };
 
-/* What would have been right; program_expected has it in words. */
+/* What was expected; program_expected gives the words. */
 enum program_expected {
     EXPECTED_NOTHING, EXPECTED_STATEMENT, EXPECTED_VALUE, EXPECTED_LINE_END, EXPECTED_CLOSE, EXPECTED_BRACKET, EXPECTED_QUOTE,
     EXPECTED_EQUALS, EXPECTED_TO, EXPECTED_NAME, EXPECTED_COMMA, EXPECTED_ENDIF, EXPECTED_WEND, EXPECTED_NEXT, EXPECTED_IF,
@@ -63,7 +63,7 @@ struct program_name {
 
 struct program_value {
     double number;
-    int16_t cell;           /* where it comes from; -1: from no variable */
+    int16_t cell;           /* the variable that it comes from; -1: none */
 };
 
 struct program_call {
@@ -95,7 +95,7 @@ struct program {
     bool learns;                           /* if the program has it */
     struct program_mistake mistake;
 
-    /* From here on it is what program_begin resets. */
+    /* program_begin resets everything from here on. */
     uint8_t state;                         /* an enum program_state */
     uint16_t at, line;                     /* the next instruction; the line under way */
     uint8_t stack_count, call_count, frame, shown_at;
@@ -118,13 +118,13 @@ bool program_compile(struct program *program, const char *text, size_t len);
         /* Compiles a program, ready to begin. False: program->mistake says what is wrong, and the program does nothing. */
 
 void program_begin(struct program *program);
-        /* From the top, with all variables 0. A program with a mistake does nothing. */
+        /* Starts from the top, with all variables 0. A program with a mistake does nothing. */
 
 struct action program_next(struct program *program, struct brain *brain, const struct config *config,
                            const struct senses *senses);
-        /* As brain_next. A program that has ended, or that has made a mistake, rests. */
+        /* As brain_next. A program that has ended or stopped with an error rests. */
 
 const char *program_expected(uint8_t expected);
-        /* What an enum program_expected is in words. */
+        /* An enum program_expected in words. */
 
 #endif

@@ -1,5 +1,5 @@
-/* programmed.h: a robot whose brain is a program: the firmware, with another brain linked in. It is used as any other
- * struct octet of hal/library/exchange.h. */
+/* programmed.h: a robot whose brain is a program: the firmware with another brain linked in. It is used like any struct
+ * octet of hal/library/exchange.h. */
 #ifndef OCTET_PROGRAMMED_H
 #define OCTET_PROGRAMMED_H
 
@@ -12,7 +12,7 @@ struct programmed {
 };
 
 struct octet *programmed_open(uint8_t node, const uint8_t memory[CELL_COUNT], const char *text, size_t len);
-        /* As octet_open, with a program. One with a mistake opens too: its robot rests. octet_close frees it. */
+        /* As octet_open, with a program. If the program has a mistake, the robot rests. octet_close frees it. */
 
 const struct program *programmed_state(const struct octet *octet);
         /* The program of a robot that programmed_open has opened. */
@@ -20,13 +20,13 @@ const struct program *programmed_state(const struct octet *octet);
 enum { PROGRAMMED_TOLD_MAX = 1024 };
 
 void programmed_tell(const struct program *program, char told[PROGRAMMED_TOLD_MAX]);
-        /* What a person should know of a program in one line: its mistake, that it has ended, what it shows. */
+        /* The state of a program in one line for people: its mistake, that it has ended, what it shows. */
 
 struct program *programmed_program(struct brain *brain);
         /* The program that is this brain. Exactly one implementation is linked in. */
 
 void programmed_decided(const struct program *program);
-        /* It has made a decision. Linked in likewise. */
+        /* Called after each decision. Linked in likewise. */
 
 void programmed_robot_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out);
         /* robot_respond of a robot with a program. */

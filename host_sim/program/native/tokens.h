@@ -1,4 +1,4 @@
-/* tokens.h: a program's text, word by word. */
+/* tokens.h: splits a program's text into tokens. */
 #ifndef OCTET_PROGRAM_TOKENS_H
 #define OCTET_PROGRAM_TOKENS_H
 
@@ -20,8 +20,8 @@ struct token {
 };
 
 void token_next(const char *text, struct token *token);
-        /* Goes on from one token to the next; the first one comes after a token that is all 0 but for line 1. Comments, blanks,
-           and the typographic quotes and dashes of a print are understood. */
+        /* Advances to the next token; to begin, pass a token that is all 0 except line 1. Skips comments and blanks, and accepts
+           the typographic quotes and dashes of printed text. */
 
 bool token_is(const char *text, const struct token *token, const char *sign);
         /* Whether a token is this sign. */

@@ -1,6 +1,6 @@
-/* fleet.h: many robots at once, each with its own core, without a wire: the core is handed its senses, and drives.
+/* fleet.h: many robots at once, each with its own core, without frames: the core gets its senses and returns its drive.
  *
- * What a robot senses and does is what it would sense and do in a run of loop.h, where frames carry the same. The caller
+ * A robot senses and does exactly what it would in a run of loop.h, where frames carry the same. The caller
  * provides all memory. */
 #ifndef OCTET_FLEET_H
 #define OCTET_FLEET_H
@@ -21,10 +21,10 @@ struct fleet_robot {
     struct body *body;                /* its own in that world */
     uint32_t tick;                    /* number of its next tick */
     uint32_t ticks;                   /* in this environment so far */
-    uint32_t ticks_max;               /* after which it ends, finished or not */
+    uint32_t ticks_max;               /* time limit of the environment */
     uint8_t action;                   /* the last drive's */
     const uint8_t *company;           /* memories of the robots that hear each other, CELL_COUNT bytes each, */
-    uint32_t company_size;            /* how many these are; 0: it hears nobody */
+    uint32_t company_size;            /* their number; 0: it hears nobody */
     uint32_t company_place;           /* its own among them */
     uint32_t known_ticks;             /* from the start of the run until it knew a turn for each pattern of a thing on one
                                          side; 0: it does not yet */
@@ -38,13 +38,13 @@ struct fleet_robot {
 };
 
 size_t fleet_core_size(void);
-        /* The bytes of a core; those of the next one may follow. */
+        /* Size of a core, bytes; cores may lie one after the other. */
 
 void fleet_wake(struct fleet_robot *robot);
-        /* A core as after power-up, with an empty memory. */
+        /* Initializes a core as after power-up, with an empty memory. */
 
 int fleet_command(struct fleet_robot *robot, int opcode, uint8_t which, uint32_t value, uint32_t *answer);
-        /* Has the core carry out one command. 0, or a result that says why not. */
+        /* Executes one command. Returns 0, or the result that says why not. */
 
 void fleet_memories(const struct fleet_robot robots[], size_t count, uint8_t *cells);
         /* Copies the memories of robots, one after the other: CELL_COUNT bytes each. */

@@ -18,6 +18,6 @@ void log_lines_stamp(struct log_lines *lines, uint64_t time_us);
         /* Sets the time of the lines that follow: less than 10^10 s. */
 
 void log_lines_add(struct log_lines *lines, const struct frame *frame);
-        /* Adds a line, unless there is no text. The caller makes sure that there is room for LOG_LINE_MAX characters. */
+        /* Adds a line, unless text is null. The caller ensures that there is room for LOG_LINE_MAX characters. */
 
 #endif

@@ -1,7 +1,7 @@
 /* loop.h: robots in their world, a block of ticks at a time.
  *
- * Simulation.step in host_sim/sim/simulation.py is the readable reference. Here the same happens in the same order, with
- * the same frames: the robots hear and answer by the wire's own codec. The caller provides all memory.
+ * Simulation.step in host_sim/sim/simulation.py is the readable reference. This does the same in the same order, with
+ * the same frames: the robots use the wire's own codec. The caller provides all memory.
  *
  * A robot is in this process, or behind a link. For a robot behind a link, this handles only the common case: the drive
  * that answers its senses, and reports that say nothing new. Anything else, or a timeout, hands the unfinished tick to
@@ -31,11 +31,11 @@ struct loop_robot {
     uint32_t heartbeat_id;
     uint8_t senses_counter;           /* of the last SENSES */
     struct frame senses;              /* the last SENSES to a robot in this process */
-    bool halted;                      /* it has stopped by itself: at rest it answers */
+    bool halted;                      /* it has stopped by itself, and answers with drives at rest */
     uint8_t action;                   /* the last drive's */
     uint32_t begun[LOOP_REASONS];     /* actions begun, by reason */
     uint32_t food_eaten;
-    const struct frame *waiting;      /* what it said before the block, to be taken in its first tick */
+    const struct frame *waiting;      /* frames sent before the block, to be taken in its first tick */
     size_t waiting_count;
     uint32_t received;                /* frames from the robot, */
     uint32_t refused;                 /* and drives that answer other senses */
@@ -68,10 +68,10 @@ struct loop {
     uint32_t ticks;                   /* done in the block */
     struct log_lines log;             /* without text: nothing is logged */
     size_t log_size;
-    bool handed_over;                 /* the next tick has begun, but did not go as usual: */
-    size_t sent;                      /* robots that have been sent its senses, */
-    size_t answered;                  /* and robots whose drives have come */
-    int received;                     /* what link_receive has given for the next one: with 1, this */
+    bool handed_over;                 /* the next tick has begun, but is left to the caller: */
+    size_t sent;                      /* robots that got their senses, */
+    size_t answered;                  /* robots whose drives have arrived, */
+    int received;                     /* and what link_receive returned for the next one; if 1, this frame */
     struct frame in_hand;
 };
 
@@ -81,13 +81,13 @@ void loop_run(struct loop *loop, uint32_t ticks_max);
            which is not counted. In this process, that is one in which a robot does not answer. */
 
 bool turns_in_process(struct loop *loop, struct turn *turns);
-        /* Tells each robot its senses, then takes in what each one answers. False: the tick is to be handed over. */
+        /* Sends each robot its senses, then receives the answers. False: hand the tick over. */
 
 bool turns_over_links(struct loop *loop, struct turn *turns);
         /* The same for robots behind links. */
 
 void loop_record(struct loop *loop);
-        /* Counts and records one more tick of the block, which was done elsewhere. The first numbers of its rows are there
-           already, up to the drive's, and the bodies are where they are after it. */
+        /* Counts and records one more tick of the block, which the caller has completed. The first numbers of its rows, up to
+           the drive's, and the bodies' poses after it are already set. */
 
 #endif

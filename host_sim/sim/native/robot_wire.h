@@ -8,17 +8,17 @@ void robot_wire_senses(struct loop_robot *robot, const struct senses *senses, st
         /* The frame that tells a robot its senses. */
 
 bool robot_wire_drive(const struct frame *frame, uint8_t tick, struct drive *out);
-        /* Fills *out from a DRIVE. Whether it answers the senses of this tick. */
+        /* Fills *out from a DRIVE. Returns whether it answers the senses of this tick. */
 
 void robot_wire_report(struct loop_robot *robot, const struct frame *frame);
-        /* Notes a report of this tick, and whether it says something new: more than the time, and that it was sent again.
-           Of more than LOOP_FRAMES_MAX the last are kept. */
+        /* Records a report of this tick, and whether it brings anything new besides time and counters. Keeps the last
+           LOOP_FRAMES_MAX reports. */
 
 bool robot_wire_goes_on(struct loop_robot *robot, const struct frame *frame);
-        /* Whether a report goes on from the last one of its kind: whole, the next by its counter, and nothing new in it but
-           the time. Then it is noted. */
+        /* Whether a report continues the last one of its kind: valid, with the next counter, and nothing new except the time.
+           Records it if so. */
 
 bool robot_wire_is_memory(const struct frame *frame);
-        /* Whether it is half of some robot's memory. */
+        /* Whether the frame is half of a robot's memory. */
 
 #endif

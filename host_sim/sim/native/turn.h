@@ -1,4 +1,4 @@
-/* turn.h: what one robot is told and answers in one tick. */
+/* turn.h: one robot's senses and answer in one tick. */
 #ifndef OCTET_TURN_H
 #define OCTET_TURN_H
 

@@ -33,7 +33,7 @@ enum { PAGE_WIDTH_MM, PAGE_HEIGHT_MM, PAGE_BODY_MM, PAGE_TRACK_MM, PAGE_REACH_MM
 enum { PAGE_EDIT_ID, PAGE_EDIT_ROBOT, PAGE_EDIT_SEED, PAGE_EDIT_HEADING, PAGE_EDIT_RADIUS, PAGE_EDIT_A, PAGE_EDIT_B = PAGE_EDIT_A + 2,
        PAGE_EDIT_AT = PAGE_EDIT_B + 2 };
 
-enum { PAGE_NUMBERS = PAGE_DIMENSIONS };   /* that JavaScript hands over at most, but for layouts */
+enum { PAGE_NUMBERS = PAGE_DIMENSIONS };   /* maximum that JavaScript passes, except for layouts */
 
 /* What layouts are drawn from, as in struct layout_kind; the bands of food are pairs of numbers. */
 enum { PAGE_DRAW_STYLE, PAGE_DRAW_WIDTH_MM, PAGE_DRAW_HEIGHT_MM, PAGE_DRAW_BODY_MM, PAGE_DRAW_REACH_MM,
@@ -48,7 +48,7 @@ struct page_world {
     struct ranges ranges;
     struct ranges kit_ranges;   /* the same, as far as any sensor of a real body reaches */
     struct body bodies[PAGE_ROBOTS_MAX];
-    struct kit_kind kind;       /* what the bodies are like, */
+    struct kit_kind kind;       /* of the bodies, */
     bool is_real;               /* unless they are ideal */
     struct kit kits[PAGE_ROBOTS_MAX];
     struct food food[LAYOUT_FOOD_MAX];
@@ -77,48 +77,47 @@ struct page *page_state(void);
         /* The run of this instance. */
 
 bool page_open(uint32_t robots);
-        /* Wakes the robots of a run, with empty memories. False if there is no memory for them. robots is
-           1..PAGE_ROBOTS_MAX. */
+        /* Creates the robots of a run, 1..PAGE_ROBOTS_MAX, with empty memories. False if out of memory. */
 
 void page_bind(struct loop_robot *robot, struct octet *octet);
         /* Makes this the robot at a place of the run. */
 
 size_t page_exchange(uint32_t robot, uint32_t id, uint32_t len);
-        /* Gives a robot the frame with the bytes in page_bytes(). Returns how many frames it answers: page_answers(). */
+        /* Sends a robot the frame with the bytes in page_bytes(). Returns the number of answers, which are in page_answers(). */
 
 uint8_t *page_bytes(void);
-        /* Where JavaScript puts what it wants to hand over: 8 bytes. */
+        /* Buffer of 8 bytes for what JavaScript passes. */
 
 const struct frame *page_answers(uint32_t robot);
-        /* What the robot answered last. */
+        /* The robot's last answers. */
 
 int32_t page_command(uint32_t robot, uint32_t opcode, uint32_t which, uint32_t value);
-        /* Sends a command, with which and value as in struct command, and logs it and what the robot says up to its
-           answer. Returns the answer's result, an enum result; -1 if there was none. */
+        /* Sends a command, with which and value as in struct command, and logs it and the robot's frames up to its answer.
+           Returns the answer's result, an enum result; -1 if there was none. */
 
 uint32_t page_answer_value(void);
         /* The value of that answer. */
 
 uint32_t page_read_command(uint32_t robot);
-        /* Reads page_bytes() as a COMMAND to a robot, which would take it to be the first that it hears. Returns its opcode, */
+        /* Decodes page_bytes() as a COMMAND, as a robot does that has heard none before. Returns its opcode, */
 
 uint32_t page_command_which(void);
-        /* and then what struct command has of it: which */
+        /* its field which, as in struct command, */
 
 uint32_t page_command_value(void);
-        /* and value. */
+        /* and its value. */
 
 void page_send_ranges(uint32_t robot, uint32_t tick);
-        /* Sends and logs what its body measures, which goes before the senses of a tick. */
+        /* Sends and logs the RANGES of its body, which precede the senses of a tick. */
 
 void page_take_reports(uint32_t robot);
-        /* Logs all that the robot has said since. */
+        /* Logs all frames from the robot since then. */
 
 const uint8_t *page_memory(uint32_t robot);
         /* The robot's eight bytes. */
 
 const uint8_t *page_sides(uint32_t robot);
-        /* The turn for each pattern in them, whatever kind of memory they are. */
+        /* The turn for each pattern in them, for any kind of memory. */
 
 void page_write_side(uint32_t robot, uint32_t pattern, uint32_t side);
         /* Sets the turn for a pattern in page_bytes(), which hold a memory that this robot's behaviour understands. */
@@ -127,10 +126,10 @@ bool page_translate(uint32_t robot);
         /* Makes the memory in page_bytes() one that this robot's behaviour understands. False if they are not a memory. */
 
 bool page_has_halted(uint32_t robot);
-        /* Whether it has stopped by itself, because its wheels do not do what they are told. */
+        /* Whether it has stopped by itself because its wheels do not obey. */
 
 void page_set_time(double time_us);
-        /* The time of the log's lines that follow. */
+        /* Sets the time of the log lines that follow. */
 
 const char *page_log(void);
         /* The log's lines since the last page_clear_log, */
@@ -143,16 +142,16 @@ void page_clear_log(void);
 /* page_world.c: the world around them. */
 
 double *page_numbers(void);
-        /* Where JavaScript puts dimensions or the numbers of an edit. */
+        /* Buffer for dimensions or the numbers of an edit from JavaScript. */
 
 char *page_text(void);
-        /* Where JavaScript puts a text: PAGE_TEXT_MAX bytes. */
+        /* Buffer of PAGE_TEXT_MAX bytes for a text from JavaScript. */
 
 void page_set_bodies(uint32_t is_real, uint32_t is_kit);
-        /* What the bodies of the next page_build are like: ideal, or real: those of the kit, or as page_set_trait says. */
+        /* Makes the bodies of the next page_build ideal, or real: those of the kit, changed by page_set_trait. */
 
 bool page_set_trait(double value, double tolerance);
-        /* Sets the trait with the name in page_text(). False if there is none, or it cannot be. */
+        /* Sets the trait named in page_text(). False if there is none, or the value is out of range. */
 
 void page_draw_bodies(uint32_t seed);
         /* Draws each robot's body from the seed of the run. */
@@ -161,7 +160,7 @@ void page_build(void);
         /* Builds the arena with the dimensions in page_numbers(). */
 
 void page_enter(void);
-        /* An environment begins as page_draw has drawn it. */
+        /* Begins the environment that page_draw has drawn. */
 
 const char *page_edit(int32_t kind);
         /* As edit_make, with what is in page_numbers() and page_text(). */
@@ -171,11 +170,11 @@ const double *page_scene(void);
            of each piece of food its place and whether it is eaten. */
 
 void page_measure(uint32_t robot, uint32_t tick, uint8_t *range_mm);
-        /* What a robot is told of the FEEL_COUNT distances in that tick. */
+        /* The FEEL_COUNT distances that a robot is told in that tick. */
 
 uint32_t page_run(uint32_t tick, uint32_t ticks_max);
-        /* Runs a block, as loop_run does, from this tick of the run. ticks_max is 1..PAGE_TICKS_MAX. Returns how many ticks have
-           been run. */
+        /* Runs a block, as loop_run does, from this tick of the run. ticks_max is 1..PAGE_TICKS_MAX. Returns the number of
+           ticks run. */
 
 const int16_t *page_rows(uint32_t robot);
         /* For each tick of the block ROW_COUNT numbers, */
@@ -196,7 +195,7 @@ void page_history_restart(uint32_t robot);
         /* As history_relearn and history_restart. */
 
 void page_history_freeze(uint32_t robot, uint32_t on);
-        /* Whether learning is frozen from now on. */
+        /* Sets whether learning is frozen from now on. */
 
 const struct history_note *page_notes(void);
         /* Those of the last page_history_take. */
@@ -208,11 +207,11 @@ uint32_t page_lesson_count(uint32_t robot);
 /* page_program.c: robots whose brain is a program. */
 
 char *page_program_text(void);
-        /* Where JavaScript puts a program: PROGRAM_TEXT_MAX bytes. */
+        /* Buffer of PROGRAM_TEXT_MAX bytes for a program from JavaScript. */
 
 bool page_program(uint32_t robot, uint32_t len);
-        /* Puts a robot in the place of one that was never started, with that program for its brain and an empty memory. False
-           if there is no memory for it. */
+        /* Replaces a robot that was never started by one with that program for a brain and an empty memory. False if out of
+           memory. */
 
 enum { PAGE_PROGRAM_STATE, PAGE_PROGRAM_LINE, PAGE_PROGRAM_EXPECTED, PAGE_PROGRAM_STEPS, PAGE_PROGRAM_NAMES, PAGE_PROGRAM_NUMBERS };
 
@@ -231,15 +230,15 @@ const char *page_program_expected(uint32_t expected);
         /* As program_expected. */
 
 const char *page_program_shown(uint32_t robot, uint32_t place);
-        /* What it shows at a place of 0..PROGRAM_SHOWN_MAX-1. */
+        /* The text that it shows at place 0..PROGRAM_SHOWN_MAX-1. */
 
-/* page_layouts.c: the layouts that environments begin with. */
+/* page_layouts.c: the initial layouts of environments. */
 
 double *page_drawing(void);
-        /* Where JavaScript puts what they are drawn from: PAGE_DRAW_NUMBERS numbers. */
+        /* Buffer of PAGE_DRAW_NUMBERS numbers, from which layouts are drawn. */
 
 void page_write_nothing(void);
-        /* Forgets what was written. A world that is written takes the place of the style. */
+        /* Clears the written world. A written world takes precedence over the style. */
 
 void page_write_list(uint32_t key, int32_t count);
         /* As written_list, */
@@ -248,14 +247,14 @@ double *page_write_entry(uint32_t key, uint32_t index, int32_t count);
         /* and as written_entry: where JavaScript puts the entry's numbers; null beyond the arrays. */
 
 const double *page_check(void);
-        /* The first fault of the world that was written: key, entry, number of values, values, as in struct written_fault; null if
+        /* The first fault of the written world: key, entry, number of values, values, as in struct written_fault; null if
            it is a fair world. */
 
 const char *page_fault_text(void);
         /* That fault in words. */
 
 struct layout *page_drawn(void);
-        /* What page_draw has drawn. */
+        /* The layout that page_draw has drawn. */
 
 const double *page_draw(double seed, double number, uint32_t robots);
         /* Draws an environment for 1..PAGE_ROBOTS_MAX robots. Returns the numbers of bars, of pieces of food and of starts, and then these, as in struct

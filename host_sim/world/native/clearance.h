@@ -1,4 +1,4 @@
-/* clearance.h: how much room there is around a place among obstacles. */
+/* clearance.h: the clearance of a place among obstacles. */
 #ifndef OCTET_CLEARANCE_H
 #define OCTET_CLEARANCE_H
 
@@ -32,6 +32,6 @@ double clearance_mm(const struct obstacles *obstacles, struct vector at);
         /* The distance from a place to the nearest obstacle or wall; negative inside an obstacle or beyond a wall. */
 
 bool clearance_suffices(const struct obstacles *obstacles, struct vector at, double room_mm);
-        /* Whether that is at least room_mm; quicker, and true to the last bit. */
+        /* Whether that is at least room_mm; the same result, but faster. */
 
 #endif

@@ -6,20 +6,20 @@
 
 enum { CONES = 5, CONE_CORNERS = 6 };
 
-/* The outline of a cone as a body sees it that faces +x: its tip is the body's centre. */
+/* The outline of a cone, in the frame of a body that faces +x: its tip is the body's centre. */
 struct cone {
     struct vector corners[CONE_CORNERS];
 };
 
 struct cones {
     struct cone of[CONES];   /* cone n sets bit n of feel */
-    double reach_mm;         /* of the corner that is farthest from the centre */
+    double reach_mm;         /* distance of the farthest corner from the centre */
 };
 
 void cones_set(struct cones *cones, double reach_mm, double front_extra_mm);
         /* Lays out the cones. They reach reach_mm from the centre of the body, the front one front_extra_mm farther. */
 
 bool cones_overlap(const struct cone *cone, const struct capsule *thing);
-        /* Whether a thing, as the body sees it, is at least partly within a cone. */
+        /* Whether a thing, in the body's frame, is at least partly within a cone. */
 
 #endif

@@ -1,4 +1,4 @@
-/* edits.h: what a person or a schedule changes in an arena, between two ticks. */
+/* edits.h: changes to an arena between two ticks, by a person or a schedule. */
 #ifndef OCTET_EDITS_H
 #define OCTET_EDITS_H
 
@@ -22,7 +22,7 @@ struct edit {
 };
 
 const char *edit_make(struct furniture *furniture, struct world *world, const struct edit *edit);
-        /* Makes one edit: null, or why it cannot be, and then nothing was changed. Afterwards the caller has the space take the
-           capsules, and settles the world. */
+        /* Makes one edit. Returns null, or why it is impossible, with nothing changed. Afterwards the caller must pass the
+           capsules to the space and settle the world. */
 
 #endif

@@ -1,4 +1,4 @@
-/* furniture.h: what stands in an arena. Bars and plants have ids: 0, 1, ... in the order in which they are added. */
+/* furniture.h: the obstacles of an arena. Bars and plants have ids 0, 1, ... in the order in which they are added. */
 #ifndef OCTET_FURNITURE_H
 #define OCTET_FURNITURE_H
 
@@ -27,10 +27,10 @@ struct furniture {
 };
 
 void furniture_set(struct furniture *furniture, const struct bar bars[], size_t count);
-        /* Has these bars and nothing else; width_mm to body_radius_mm are there already. */
+        /* Starts with these bars and nothing else; width_mm to body_radius_mm must be set already. */
 
 void furniture_lay_out(struct furniture *furniture);
-        /* Makes the capsules anew: something was changed. */
+        /* Rebuilds the capsules after a change. */
 
 struct obstacles furniture_obstacles(const struct furniture *furniture);
         /* The same for clearance.h and draw/reach.h. They point into it. */

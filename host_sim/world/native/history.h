@@ -1,4 +1,4 @@
-/* history.h: what a robot has learned in a run: its trials and their results, its lessons, and the use of each cell. */
+/* history.h: a robot's learning in a run: trials and their results, lessons, and the use of each cell. */
 #ifndef OCTET_HISTORY_H
 #define OCTET_HISTORY_H
 
@@ -32,7 +32,7 @@ struct history_note {
 struct history_lesson {
     int32_t cell;
     int32_t side;
-    int32_t uses;      /* of its new content: 1 if it was used as it changed */
+    int32_t uses;      /* of its new content: 1 if it was used when it changed */
     int32_t by_hand;   /* 1 if it came from outside, 0 if the robot learned or forgot it */
 };
 
@@ -45,7 +45,7 @@ struct history {
     int32_t trials;                /* so far */
     int32_t used;                  /* cell of the remembered turn that began in the last tick; -1: none did */
     struct history_trial judged;   /* the trial that ended in the last tick; tick is -1 if none did */
-    bool forgets;                  /* in the last tick it may have erased a cell itself */
+    bool forgets;                  /* the robot itself may have erased a cell in the last tick */
     int32_t uses[CELL_COUNT];      /* remembered turns that used a cell's present content */
     int32_t by_hand[CELL_COUNT];   /* of a cell's last change */
     double learned[CELL_COUNT];    /* the tick of that change; -1: none */
@@ -55,20 +55,20 @@ struct history {
 };
 
 void history_begin(struct history *history, const uint8_t sides[CELL_COUNT]);
-        /* Nothing has been learned yet. sides are the turns that the robot knows. */
+        /* Begins without trials and lessons. sides are the turns that the robot knows. */
 
 size_t history_take(struct history *history, double tick, int16_t *rows, size_t ticks, struct history_note *notes);
         /* Adds ticks, from this one on: a row each, ROW_COUNT numbers, in which pattern and frozen are filled in.
            Returns the number of notes; there must be room for one for each tick. */
 
 void history_learn(struct history *history, double tick, const uint8_t sides[CELL_COUNT]);
-        /* The robot knows these turns after that tick, the last one that was taken: it learned or forgot what that tick
-           explains, and was told the rest. */
+        /* Compares the turns known after that tick, the last one taken: changes that the tick explains were learned or
+           forgotten by the robot, all others were made from outside. */
 
 void history_relearn(struct history *history, double tick, const uint8_t sides[CELL_COUNT]);
-        /* The robot knows these turns before that tick; it was told those that are new. */
+        /* Sets the turns known before that tick; new ones were made from outside. */
 
 void history_restart(struct history *history, const uint8_t sides[CELL_COUNT]);
-        /* The robot has been started again, and knows these turns. */
+        /* Restarts with these turns, as the robot was started again. */
 
 #endif

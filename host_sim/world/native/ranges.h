@@ -1,4 +1,4 @@
-/* ranges.h: how far away the things are that the proximity cones see, exactly: for robots that ask for distances. */
+/* ranges.h: exact distances to what the proximity cones see, for robots that ask for distances. */
 #ifndef OCTET_RANGES_H
 #define OCTET_RANGES_H
 
@@ -16,7 +16,7 @@ struct ranges {
 };
 
 void ranges_measure(const struct ranges *ranges, const struct world *world, const struct body *body, uint8_t *range_mm);
-        /* How far away capsules and other bodies are from where a body stands: for each of the FEEL_COUNT cones, whole mm beyond
-           its rim, or RANGE_NONE where nothing is in reach. In the air nothing is. */
+        /* Distances from a body to capsules and other bodies: for each of the FEEL_COUNT cones, whole mm beyond its rim, or
+           RANGE_NONE if nothing is in range, as for a lifted body. */
 
 #endif

@@ -5,7 +5,7 @@
 #include "host_sim/world/native/world.h"
 
 void sight_look(const struct world *world, struct body *body);
-        /* Notes the nearest food in the corridor straight ahead that nothing hides, and its distance: 1 mm or more, or
-           0 if there is none. A body in the air sees nothing. */
+        /* Finds the nearest visible food in the beam straight ahead, and its distance: 1 mm or more, or 0 if there is
+           none. A lifted body sees nothing. */
 
 #endif

@@ -1,4 +1,4 @@
-/* vector.h: a place on the arena's floor, or a way across it. */
+/* vector.h: a position on the arena's floor, or a displacement. */
 #ifndef OCTET_VECTOR_H
 #define OCTET_VECTOR_H
 

@@ -1,4 +1,4 @@
-/* vector_sums.h: sums of vectors, and whole numbers from them. No C library is needed for any. */
+/* vector_sums.h: vector arithmetic and rounding, without a C library. */
 #ifndef OCTET_VECTOR_SUMS_H
 #define OCTET_VECTOR_SUMS_H
 
@@ -31,7 +31,7 @@ static inline double vector_cross(struct vector one, struct vector other)
 
 static inline double vector_root(double square)
 {
-    return __builtin_sqrt(square);   /* an instruction of every processor that is meant */
+    return __builtin_sqrt(square);   /* an instruction on every supported processor */
 }
 
 static inline double vector_length(struct vector way)

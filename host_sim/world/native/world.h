@@ -1,5 +1,5 @@
-/* world.h: an arena: what the bodies sense, what they eat, how they move, one control tick at a time. The caller provides
- * all memory, and keeps it in place meanwhile. */
+/* world.h: an arena: what the bodies sense and eat, and how they move, one control tick at a time. The caller provides all
+ * memory, and must not move it. */
 #ifndef OCTET_WORLD_H
 #define OCTET_WORLD_H
 
@@ -29,13 +29,13 @@ struct food {
 };
 
 struct body {
-    /* What changes; body.py reads the first five: */
+    /* State; body.py reads the first five: */
     double x_mm;
     double y_mm;
     double heading_rad;
     double left_mm;               /* counted by the odometers so far */
     double right_mm;
-    double depth_mm;              /* of its deepest overlap since it was placed, */
+    double depth_mm;              /* depth of its deepest overlap since it was placed, */
     struct vector normal;         /* and its direction, out of the body */
     int32_t seen;                 /* the food last sensed straight ahead; -1: none */
     int32_t seen_mm;
@@ -44,11 +44,11 @@ struct body {
     int32_t overlaps[WORLD_CONES];   /* things in each cone */
     uint8_t feel;
     bool lifted;                  /* a person holds it in the air */
-    /* What follows from its heading: */
+    /* Derived from its heading: */
     double ahead_rad;             /* the heading of */
     struct vector ahead;          /* one millimetre straight ahead */
     struct body_faults faults;
-    struct kit *kit;              /* what makes it a real one; null: it is ideal */
+    struct kit *kit;              /* the real body; null: ideal */
 };
 
 struct world {
@@ -63,13 +63,13 @@ struct world {
 struct ranges;
 
 void world_begin(struct world *world);
-        /* To be called once the bodies' poses have been set from outside. */
+        /* Call after setting the bodies' poses from outside. */
 
 void world_settle(struct world *world);
-        /* The same where its space has them already: finds what they overlap now. */
+        /* The same if the space has the poses already: finds what the bodies overlap now. */
 
 void world_sense(struct world *world, struct body *body, uint32_t tick, struct senses *out);
-        /* What the robot is told of what its body senses where it stands. tick is the number of the tick in the run. */
+        /* What the robot is told of its body's senses at its pose. tick is the number of the tick in the run. */
 
 void world_measure(struct world *world, struct body *body, uint32_t tick, const struct ranges *ideal, uint8_t *range_mm);
         /* The distances that a robot is told in that tick, FEEL_COUNT of them as in struct senses. ideal: what an ideal body measures;
@@ -82,7 +82,7 @@ double world_way_mm(const struct world *world, double speed_mm_s);
         /* How far a wheel rolls in one control tick. */
 
 void world_move(struct world *world, struct body *body, double left_mm_s, double right_mm_s);
-        /* Does for one control tick what the robot asks of its wheels. */
+        /* Drives the wheels as the robot commands, for one control tick. */
 
 size_t world_food_left(const struct world *world);
         /* Number of pieces that have not been eaten. */

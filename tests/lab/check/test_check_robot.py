@@ -106,7 +106,7 @@ def test_what_a_robot_has_said_before_it_is_told_to_stop_is_no_answer_to_that():
         ("no-such-robot", "cannot start 'no-such-robot': No such file or directory"),
         ("", "cannot start '': it is empty"),
         ("sh -c 'echo no bus; exit 3'", "ended with exit code 3 and printed no bus"),
-        ("sleep 60", "the robot does not answer stop within 0.5 s: it sends nothing at all"),
+        ("sleep 60", "the robot does not answer stop within 0.5 s: it sent nothing at all"),
         ("'", "No closing quotation"),
     ],
 )

@@ -1,5 +1,5 @@
-/* told.h: robots whose brain is outside. The learner says what to do next; it is done by the firmware's own motion, in
- * the world of host_sim/world/native. The caller provides all memory. */
+/* told.h: robots with an external brain. The learner chooses the next action, and the firmware's own motion carries it out
+ * in the world of host_sim/world/native. The caller provides all memory. */
 #ifndef OCTET_TOLD_H
 #define OCTET_TOLD_H
 
@@ -18,7 +18,7 @@ enum told_deed {
 
 enum { TOLD_SENSES = 7 };   /* the fields of struct senses up to the odometers, in their order */
 
-/* One robot after what it was told to do. */
+/* One robot after its action. */
 struct told_robot {
     int32_t senses[TOLD_SENSES];
     uint32_t food_eaten;    /* meanwhile, */
@@ -37,14 +37,14 @@ struct told {
 };
 
 size_t told_motion_size(void);
-        /* Bytes that a body's motion takes. */
+        /* Size of a body's motion, bytes. */
 
 void told_begin(struct told *told);
-        /* Robots at rest, and what they sense. */
+        /* Puts the robots at rest and fills in what they sense. */
 
 void told_step(struct told all[], size_t count, const uint8_t deeds[]);
-        /* In several worlds with equally many bodies: has each robot do its deed. In each world it ends when the last robot
-           has; those that are done sooner rest. It ends earlier when all food is eaten and when the time of the step or of
+        /* Has each robot carry out its deed, in several worlds with equal numbers of bodies. A world's step ends when its last
+           robot is done; the others rest meanwhile. It ends earlier when all food is eaten, or when the time of the step or of
            the world is up. */
 
 #endif

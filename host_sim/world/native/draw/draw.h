@@ -20,6 +20,6 @@ void draw_dead_ends(struct draws *draws, const struct layout_params *params, str
         /* A layout of that style. */
 
 void draw_written(struct draws *draws, const struct layout_kind *kind, struct reach *reach, struct layout *out);
-        /* The layout that was written. A start that was not is drawn: a fair one. reach is room to work in. */
+        /* The written layout. If it has no start, draws a fair one. reach is working memory. */
 
 #endif

@@ -1,4 +1,4 @@
-/* draws.h: random numbers: those of random.Random(text).random() in every version of Python. */
+/* draws.h: random numbers, the same as random.Random(text).random() in every version of Python. */
 #ifndef OCTET_DRAWS_H
 #define OCTET_DRAWS_H
 
@@ -12,12 +12,12 @@ struct draws {   /* a Mersenne Twister, MT19937 */
 };
 
 void draws_seed(struct draws *draws, const char *text);
-        /* Begins the sequence of a text of at most DRAWS_TEXT_MAX characters; what is beyond is ignored. */
+        /* Seeds the generator with a text of at most DRAWS_TEXT_MAX characters; further ones are ignored. */
 
 double draws_next(struct draws *draws);
         /* A number from 0 up to, but not including, 1. */
 
 double draws_between(struct draws *draws, double low, double high);
-        /* A number from low to high, each as likely. */
+        /* A uniform number from low to high. */
 
 #endif

@@ -1,4 +1,4 @@
-/* layout.h: how an environment looks when it begins, and what it is drawn from. */
+/* layout.h: the initial layout of an environment, and what it is drawn from. */
 #ifndef OCTET_LAYOUT_H
 #define OCTET_LAYOUT_H
 
@@ -54,7 +54,7 @@ struct layout_kind {
 };
 
 struct obstacles layout_obstacles(const struct layout *layout, const struct layout_params *params);
-        /* What stands in an arena with this layout. They point into the layout. */
+        /* The obstacles of an arena with this layout. They point into the layout. */
 
 double layout_room_mm(const struct layout_params *params);
         /* Clearance of starts and food: nothing is within reach of a robot's sensors there. */

@@ -1,4 +1,4 @@
-/* layouts.h: one layout for each seed and number of an environment: always the same one. */
+/* layouts.h: draws the layout of an environment, which its seed and number determine. */
 #ifndef OCTET_LAYOUTS_H
 #define OCTET_LAYOUTS_H
 
@@ -13,7 +13,7 @@ struct layout_which {
 
 bool layouts_draw(const struct layout_kind *kind, const struct layout_which *which, struct reach *reach, struct layout *out);
         /* Draws the first fair layout: nothing is within sensor reach of a start or of a piece of food, and every piece can
-           be reached from each start. out->starts has room for the robots; start_count tells for how many there is room in
-           the arena. False if 1000 draws gave no fair layout. reach is room to work in: that of an arena of this size. */
+           be reached from each start. out->starts has room for the robots; start_count is the number of robots for which there is
+           room. False if 1000 draws gave no fair layout. reach is working memory for an arena of this size. */
 
 #endif

@@ -1,4 +1,4 @@
-/* reach.h: where in an arena the centre of a body can get to, on a grid. */
+/* reach.h: finds where in an arena the centre of a body can get to, on a grid. */
 #ifndef OCTET_REACH_H
 #define OCTET_REACH_H
 
@@ -26,7 +26,7 @@ bool reach_has(const struct reach *reach, struct vector at);
         /* Whether it can get to the cell of a place inside the arena. */
 
 void reach_keep_clear(struct reach *reach, const struct obstacles *obstacles, double room_mm);
-        /* Of these cells, keeps only those in whose middles there is that much clearance. */
+        /* Keeps only the cells whose middle has that much clearance. */
 
 struct vector reach_middle(const struct reach *reach, uint32_t cell);
         /* The middle of a cell. */

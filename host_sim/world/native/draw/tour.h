@@ -1,4 +1,4 @@
-/* tour.h: the shortest way of a body's centre through some places among obstacles. */
+/* tour.h: the shortest path of a body's centre through some places among obstacles. */
 #ifndef OCTET_TOUR_H
 #define OCTET_TOUR_H
 
@@ -8,31 +8,31 @@
 #include "host_sim/world/native/space/capsule.h"
 
 enum {
-    TOUR_PLACES_MAX = 9,    /* with the start: more places have too many orders to try each */
+    TOUR_PLACES_MAX = 9,    /* with the start: more have too many orders to try them all */
     TOUR_THINGS_MAX = 64,   /* bars and plants */
     TOUR_ROUNDS_MAX = TOUR_PLACES_MAX + 2 * TOUR_THINGS_MAX,
     TOUR_SIDES = 2,
-    TOUR_RIM = 64           /* directions in which a rim is looked at */
+    TOUR_RIM = 64           /* directions in which a rim is checked */
 };
 
-/* A circle on which a body's centre goes around the end of a bar, or around a plant; of a place, a point. */
+/* A circle on which a body's centre goes around the end of a bar or a plant; for a place, a point. */
 struct tour_round {
     struct vector at;
     double radius_mm;
-    uint64_t blocked;   /* bit n: something else is in the way in the direction rim[n] */
+    uint64_t blocked;   /* bit n: direction rim[n] is blocked by another obstacle */
 };
 
-/* A straight part of a way, from one circle to another, or from or to a place. */
+/* A straight part of a path, from one circle to another, or from or to a place. */
 struct tour_tangent {
     struct vector along;   /* one millimetre of it */
     double length_mm;
-    double way_mm;         /* of the shortest way with it at its end */
+    double way_mm;         /* length of the shortest path that ends with it */
     uint16_t from;         /* twice the number of the circle, and 1 more if it is gone around the other way */
     uint16_t to;
     bool is_new;
 };
 
-/* Room to work in. The caller provides the tangents. */
+/* Working memory. The caller provides the tangents. */
 struct tour {
     struct tour_tangent *tangents;
     uint32_t tangents_max;
@@ -49,8 +49,8 @@ struct tour {
 
 double tour_mm(struct tour *tour, const struct obstacles *obstacles, double body_radius_mm, const struct vector places[],
                uint32_t count);
-        /* The length of the shortest way from the first place through all the others, in whichever order is best, back to none.
-           It consists of tangents and arcs; an arc is taken for free if it is so every 5.6 degrees, an error of 0.15 mm of room.
-           Infinite if there is no way, or no room for it. */
+        /* The length of the shortest open path from the first place through all others, in the best order. It consists of
+           tangents and arcs; an arc counts as free if it is free every 5.6 degrees, an error of 0.15 mm in clearance. Infinite
+           if there is no path, or not enough working memory. */
 
 #endif

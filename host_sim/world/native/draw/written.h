@@ -1,4 +1,4 @@
-/* written.h: a world that a person wrote, as it was written. docs/worlds.md explains its keys. */
+/* written.h: a world file as a person wrote it, unchecked. docs/worlds.md explains its keys. */
 #ifndef OCTET_WRITTEN_H
 #define OCTET_WRITTEN_H
 
@@ -13,12 +13,12 @@ enum { WRITTEN_LEFT_OUT = -2, WRITTEN_NO_LIST = -1 };   /* in place of a count *
 
 /* Such as [x, y]. */
 struct written_entry {
-    int32_t count;   /* of numbers, those beyond WRITTEN_NUMBERS_MAX included */
+    int32_t count;   /* of numbers, including those beyond WRITTEN_NUMBERS_MAX */
     double numbers[WRITTEN_NUMBERS_MAX];   /* NaN: no number; the start's heading in degrees */
 };
 
 struct written {
-    int32_t food_count;   /* of entries, those beyond the arrays included */
+    int32_t food_count;   /* of entries, including those beyond the arrays */
     int32_t bar_count;
     struct written_entry size;
     struct written_entry start;
@@ -27,18 +27,18 @@ struct written {
 };
 
 void written_clear(struct written *written);
-        /* Nothing was written. */
+        /* Clears it. */
 
 void written_list(struct written *written, enum written_key key, int32_t count);
-        /* A list has as many entries, or is WRITTEN_NO_LIST. */
+        /* Sets the number of entries of a list, or WRITTEN_NO_LIST. */
 
 struct written_entry *written_entry(struct written *written, enum written_key key, uint32_t index);
         /* An entry; null beyond the arrays. index is 0 for size and start. */
 
 bool written_check(const struct written *written, struct layout_params params, struct reach *reach,
                    struct written_fault *out);
-        /* Whether it is a fair world; else, *out is the first fault. params are those of a world that does not say its
-           size; reach is room to work in, of WRITTEN_CELLS_MAX. */
+        /* Whether it is a fair world; if not, *out is its first fault. params apply to a world that gives no size; reach is
+           working memory for WRITTEN_CELLS_MAX cells. */
 
 void written_lay_out(const struct written *written, struct layout *out);
         /* Its bars and its food; it has no fault. */

@@ -14,11 +14,11 @@ struct written_fault {
     int32_t entry;   /* and the entry of its list, from 0; -1: all of it */
     uint32_t value_count;
     double values[WRITTEN_VALUES_MAX];
-    char text[WRITTEN_TEXT_MAX];   /* what was meant; each %g stands for the next of the values */
+    char text[WRITTEN_TEXT_MAX];   /* the message; each %g stands for the next of the values */
 };
 
 bool written_fails(struct written_fault *fault, enum written_key key, int32_t entry, const char *words, ...);
-        /* Makes the fault, and returns false. Words that do not begin with a letter follow the name of the entry. For each %s
-           comes a text; for each %g a double, which goes to the values. */
+        /* Fills in the fault, and returns false. Words that do not begin with a letter follow the name of the entry. The
+           arguments are a text for each %s, and for each %g a double, which goes to the values. */
 
 #endif

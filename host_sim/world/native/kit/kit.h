@@ -1,5 +1,5 @@
-/* kit.h: a real body: wheels that follow late and unevenly, sensors that differ. A robot's own is drawn from its seed. Where
- * the wheels have motors, the very controller of a board holds their speed: hal/pins_body/wheel.h. */
+/* kit.h: a real body: wheels that follow late and unevenly, sensors that differ. Each robot's is drawn from its seed. If the
+ * wheels have motors, the same controller as on a board controls their speed: hal/pins_body/wheel.h. */
 #ifndef OCTET_WORLD_KIT_H
 #define OCTET_WORLD_KIT_H
 
@@ -15,17 +15,17 @@ enum trait {
     TRAIT_FOLD_MM, TRAIT_HYSTERESIS_MM, TRAIT_NOISE_MM, TRAIT_WALL, TRAIT_BEAM_DEG, TRAIT_BEACON_MM, TRAIT_BEACON_NOISE, TRAIT_COUNT
 };
 
-/* What each trait may be, and what it is; docs/bodies.md says what they mean. */
+/* The range and the values of each trait; docs/bodies.md explains them. */
 struct trait_row {
     const char *name;
     double least, most;
     double ideal;
-    double kit, tolerance;   /* of a robot of the kit: within so much of it, either way */
+    double kit, tolerance;   /* of a robot of the kit: nominal value, and plus or minus this */
 };
 
 extern const struct trait_row KIT_TRAITS[TRAIT_COUNT];
 
-/* What the bodies of a run are like. */
+/* The kind of the bodies of a run. */
 struct kit_kind {
     double trait[TRAIT_COUNT];
     double tolerance[TRAIT_COUNT];   /* either way */
@@ -35,14 +35,14 @@ struct kit_wheel {
     struct wheel control;
     int32_t duty;         /* 1/65536 */
     int64_t speed;        /* of the motor, 1/65536 count in a period of the controller */
-    int64_t strength;     /* of the motor: what a duty of 1 beyond the dead band adds to that in a period */
+    int64_t strength;     /* of the motor: added to that per period and unit of duty beyond the dead band */
     uint64_t place;       /* of the motor, 1/65536 count, */
     uint64_t place_was;   /* and when it last rolled */
-    double told_mm_s;     /* as it follows with the lag, */
+    double told_mm_s;     /* commanded speed after the lag, */
     int16_t told;         /* and rounded, for the controller */
-    double motor_mm;      /* way of the motor, at the wheel's rim, */
-    double wheel_mm;      /* of the wheel behind the slack, */
-    double counted_mm;    /* and as its odometer has counted it */
+    double motor_mm;      /* distance rolled by the motor, at the wheel's rim, */
+    double wheel_mm;      /* by the wheel after the slack, */
+    double counted_mm;    /* and as counted by its odometer */
 };
 
 struct kit {
@@ -51,48 +51,48 @@ struct kit {
     bool has_sensed;
     double apart[TRAIT_COUNT];           /* from the ideal, as it was drawn */
     double trait[TRAIT_COUNT];           /* with its faults */
-    uint64_t key;                        /* from which its random numbers follow */
-    uint32_t moved;                      /* ticks in which it has rolled */
+    uint64_t key;                        /* seed of its random numbers */
+    uint32_t moved;                      /* number of ticks in which it rolled */
     uint32_t battery_mv;
     int64_t supply;                      /* battery_v, */
     uint64_t sag;                        /* and sag_v, by the nominal voltage, 1/65536 */
     int64_t speed_kept;                  /* of a motor in a period of the controller, 1/65536 */
     double counts_per_mm;                /* of the odometers; 0: exact */
-    double lag_gain;                     /* of what is missing, in a period */
+    double lag_gain;                     /* part of the difference made up in a period */
     struct kit_wheel wheels[KIT_WHEELS];
-    double told[KIT_DELAY_MAX + 1][KIT_WHEELS];   /* the last orders, the newest first */
+    double told[KIT_DELAY_MAX + 1][KIT_WHEELS];   /* the last commands, newest first */
     struct senses sensed[KIT_SENSED];             /* of the last ticks */
     const struct ranges *ranges;                  /* what its sensors measure */
 };   /* all 0: ideal */
 
 void kit_draw(struct kit *kit, const struct kit_kind *kind, uint32_t seed, uint32_t robot);
-        /* A robot's body: each trait within its tolerance, and within its range; they follow from the seed of the run, and the number
-           of the robot, from 0. kind: null: ideal. */
+        /* Draws a robot's body, each trait within its tolerance and its range, from the seed of the run and the number of the robot,
+           from 0. A null kind is ideal. */
 
 void kit_set_kind(struct kit_kind *kind, bool is_kit);
-        /* That of the kit, or an ideal one. */
+        /* The kind of the kit, or an ideal one. */
 
 double kit_reach_mm(const struct kit_kind *kind);
-        /* How far beyond its rim any sensor of such a body may sense anything. */
+        /* Maximum range of any sensor of such a body, beyond its rim. */
 
 void kit_suffer(struct kit *kit, const struct body_faults *faults);
-        /* Gives it these faults instead of those that it had. Otherwise it is as it was drawn. */
+        /* Replaces its faults by these; all else stays as drawn. */
 
 double kit_chance(const struct kit *kit, uint64_t number);
-        /* A random number from -1 up to 1, each as likely. */
+        /* A uniform random number from -1 to 1. */
 
 /* kit_wheels.c: */
 
 double kit_roll(struct kit *kit, double tick_s, double *counted_mm, double *rolled_mm);
-        /* Lets both wheels, left and right, follow their orders for a tick. rolled_mm: as far as they are told, then as far as they
-           roll. counted_mm: what the odometers count. Its track, as a part of the ideal one. */
+        /* Rolls both wheels, left and right, for a tick. rolled_mm: in, the distances commanded; out, those rolled. counted_mm:
+           what the odometers count. Returns the track as a fraction of the ideal one. */
 
 void kit_push(struct kit *kit, const int32_t duty[KIT_WHEELS]);
-        /* A board drives both motors itself for a period of the controller: duty in 1/65536 of the battery. From now on the body rolls
-           as far as it is pushed, whatever it is told, and its senses are not delayed: the board does that by itself. */
+        /* Lets a board drive both motors for a period of the controller: duty in 1/65536 of the battery. From now on the body rolls
+           as the motors push it and ignores commands, and its senses are not delayed: the board has its own delay. */
 
 uint32_t kit_supply_mv(const struct kit *kit);
-        /* Of the battery, under the load of both motors. */
+        /* Voltage of the battery under the load of both motors. */
 
 uint16_t kit_count(const struct kit *kit, unsigned side);
         /* Counts of a wheel's encoder; wraps. */
@@ -100,16 +100,16 @@ uint16_t kit_count(const struct kit *kit, unsigned side);
 /* kit_senses.c: */
 
 void kit_light(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, uint16_t light[FEEL_COUNT]);
-        /* Light of its own LEDs that each infrared sensor receives back, 0..4095: PROXIMITY_NEAR where a wall is as far away as the
-           sensor reaches. */
+        /* Light of its own LEDs that each infrared sensor receives, 0..4095: PROXIMITY_NEAR from a wall at the sensor's maximum
+           range. */
 
 void kit_light_from(const struct kit *kit, const uint8_t range_mm[FEEL_COUNT], uint32_t tick, uint16_t light[FEEL_COUNT]);
-        /* The same, from walls so far beyond its rim; RANGE_NONE: from none. */
+        /* The same, from walls at these distances beyond its rim; RANGE_NONE: no wall. */
 
 void kit_sense(struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, struct senses *senses);
-        /* Makes what an ideal body senses into what this one does; asked again in the same tick, the same. */
+        /* Converts what an ideal body senses to what this one senses; the same result if called again in the same tick. */
 
 bool kit_sees(const struct kit *kit, double ahead_mm, double aside_mm, double beam_mm);
-        /* Whether its receiver sees food, which is so far ahead and beside that line; beam_mm: the width of an ideal corridor. */
+        /* Whether its receiver sees food this far ahead and this far beside that line; beam_mm: the width of the ideal beam. */
 
 #endif

@@ -1,5 +1,5 @@
-/* capsule.h: a straight thing with round ends: a bar or a wall, or a disc, whose ends are the same. The sums are those of
- * Munk2D, in its order, so that their results are, too. */
+/* capsule.h: a straight thing with round ends: a bar or a wall, or a disc, whose ends are the same. It computes as
+ * Munk2D does, in the same order, so that the results are equal to the last bit. */
 #ifndef OCTET_CAPSULE_H
 #define OCTET_CAPSULE_H
 
@@ -11,12 +11,12 @@ struct capsule {
     struct vector a;      /* ends of its centre line */
     struct vector b;
     double radius_mm;
-    struct vector side;   /* one millimetre square to it; nothing for a disc */
-    struct vector low;    /* corners of the box around it */
+    struct vector side;   /* unit normal of the centre line; 0 for a disc */
+    struct vector low;    /* corners of its bounding box */
     struct vector high;
 };
 
-/* How a disc lies to a capsule. */
+/* The position of a disc relative to a capsule. */
 struct contact {
     double apart_mm2;       /* square of the distance from the disc's centre to the centre line */
     bool touches;           /* if so: */
@@ -27,25 +27,25 @@ struct contact {
 enum { WALLS = 4 };
 
 void capsule_set(struct capsule *capsule, struct vector a, struct vector b, double radius_mm);
-        /* Fills in a capsule: its ends, and all that follows from them. */
+        /* Fills in a capsule from its ends. */
 
 void capsule_set_walls(struct capsule walls[WALLS], double width_mm, double height_mm);
         /* The walls around an arena with a corner at (0, 0); their insides are its edge. */
 
 double capsule_apart_mm(const struct capsule *capsule, struct vector point);
-        /* A lower bound of its distance from a point: that of the box around it. Negative within the box. */
+        /* A lower bound of its distance from a point: that of its bounding box, negative within the box. */
 
 struct vector capsule_nearest(const struct capsule *capsule, struct vector point);
         /* The point of its centre line that is nearest to a point. */
 
 void capsule_meet_disc(const struct capsule *capsule, struct vector centre, double radius_mm, struct contact *out);
-        /* How a disc lies to it. */
+        /* The position of a disc relative to it. */
 
 void capsule_meet_discs(struct vector one, struct vector other, double radius_mm, struct contact *out);
         /* The same for two discs of one size; the normal is from the first one into the other. */
 
 bool capsule_hides(const struct capsule *capsule, struct vector from, struct vector to);
-        /* Whether it is on the straight way between two points. */
+        /* Whether it crosses the straight line between two points. */
 
 bool capsule_disc_hides(struct vector centre, double radius_mm, struct vector from, struct vector to);
         /* Whether a disc is. */

@@ -1,4 +1,4 @@
-/* plain_grid.h: what is near a place, for worlds with many bodies: capsules and bodies by the cells of a grid. */
+/* plain_grid.h: a grid that finds capsules and bodies near a place, for worlds with many bodies. */
 #ifndef OCTET_PLAIN_GRID_H
 #define OCTET_PLAIN_GRID_H
 
@@ -24,10 +24,10 @@ uint32_t plain_grid_cell(const struct plain_grid *grid, struct vector at);
         /* The cell of a place; the nearest one for a place outside. */
 
 double plain_grid_border_mm(const struct plain_grid *grid, struct vector at);
-        /* How far it is at least to another cell. */
+        /* Minimum distance to another cell. */
 
 void plain_grid_put(struct plain_grid *grid, uint32_t body, struct vector at);
-        /* Moves a body to the cell of a place, from whichever it was in. */
+        /* Moves a body from its cell to that of a place. */
 
 size_t plain_grid_near(const struct plain_grid *grid, struct vector at, uint32_t bodies[PLAIN_NEAR_MAX]);
         /* The bodies in the cell of a place and in those around it. */

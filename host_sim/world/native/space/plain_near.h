@@ -1,4 +1,4 @@
-/* plain_near.h: what is near a place in a space of plain geometry. */
+/* plain_near.h: finds what is near a place in a plain space. */
 #ifndef OCTET_PLAIN_NEAR_H
 #define OCTET_PLAIN_NEAR_H
 

@@ -1,4 +1,4 @@
-/* plain_space.h: a space by plain geometry: discs and cones among capsules. It needs no other library. */
+/* plain_space.h: a space by plain geometry, of discs and cones among capsules, without other libraries. */
 #ifndef OCTET_PLAIN_SPACE_H
 #define OCTET_PLAIN_SPACE_H
 
@@ -10,7 +10,7 @@
 struct plain_place {
     struct vector at;
     bool lifted;
-    double free_mm;   /* how far it may go from there before it could feel an obstacle; 0: not known */
+    double free_mm;   /* how far it can go from there without feeling an obstacle; 0: unknown */
 };
 
 struct plain_world {
@@ -19,7 +19,7 @@ struct plain_world {
     const struct cones *cones;
     size_t capsule_count;
     struct capsule *capsules;      /* walls and bars */
-    struct plain_grid *grid;       /* null: everything is looked at; for at most PLAIN_NEAR_MAX bodies */
+    struct plain_grid *grid;       /* null: check everything; for at most PLAIN_NEAR_MAX bodies */
     struct plain_place *places;    /* one for each body */
     size_t words;                  /* PLAIN_WORDS(capsule_count + body_count) once it is taken */
     uint64_t *touching;            /* words for each body, and once more: a bit for each thing that it touches */
@@ -29,6 +29,6 @@ enum { PLAIN_WORD_BITS = 64 };
 #define PLAIN_WORDS(things) (((things) + PLAIN_WORD_BITS - 1) / PLAIN_WORD_BITS)
 
 void plain_space_take(struct plain_world *space, struct world *world);
-        /* Becomes the world's space. The bodies are where they are, and what they overlap is not new to them. */
+        /* Makes this the world's space. Keeps the bodies' poses; present overlaps do not count as new collisions. */
 
 #endif

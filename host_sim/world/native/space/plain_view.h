@@ -1,4 +1,4 @@
-/* plain_view.h: what hides what in a space of plain geometry. */
+/* plain_view.h: lines of sight in a plain space. */
 #ifndef OCTET_PLAIN_VIEW_H
 #define OCTET_PLAIN_VIEW_H
 
