@@ -5,6 +5,7 @@
 void octet_init(struct octet *octet, uint8_t node, const uint8_t memory[CELL_COUNT])
 {
     octet->respond = robot_respond;
+    octet->size = sizeof *octet;
     robot_init(&octet->robot, 0);
     (void)brain_adopt(&octet->robot.brain, memory);
     wire_init(&octet->wire, node);
@@ -49,6 +50,11 @@ void octet_outage(struct octet *octet)
 const struct frame *octet_answers(const struct octet *octet)
 {
     return octet->answers;
+}
+
+size_t octet_size(const struct octet *octet)
+{
+    return octet->size;
 }
 
 void octet_close(struct octet *octet)

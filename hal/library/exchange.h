@@ -11,6 +11,7 @@ struct octet {
     struct wire wire;
     struct frame answers[WIRE_FRAMES_MAX];
     void (*respond)(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out);
+    size_t size;   /* of all there is of it, from here on */
 };
 
 void octet_init(struct octet *octet, uint8_t node, const uint8_t memory[CELL_COUNT]);
@@ -29,6 +30,9 @@ void octet_outage(struct octet *octet);
 
 const struct frame *octet_answers(const struct octet *octet);
         /* The answers to the last frame, in order. The address stays the same until octet_close. */
+
+size_t octet_size(const struct octet *octet);
+        /* How many bytes it has. A copy of them, put back in the same place, makes it again what it was. */
 
 void octet_close(struct octet *octet);
         /* Frees it; null is allowed. */

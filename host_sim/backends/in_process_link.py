@@ -22,6 +22,7 @@ struct octet *octet_open(uint8_t node, const uint8_t memory[8]);
 size_t octet_exchange(struct octet *octet, const struct frame *in);
 void octet_outage(struct octet *octet);
 const struct frame *octet_answers(const struct octet *octet);
+size_t octet_size(const struct octet *octet);
 void octet_close(struct octet *octet);
 struct octet *programmed_open(uint8_t node, const uint8_t memory[8], const char *text, size_t len);
 const void *programmed_state(const struct octet *octet);
@@ -71,6 +72,7 @@ class InProcessLink:
         opened = self._open(node, bytes(memory))
         # This function holds the library, which else might be unloaded before the robot is closed.
         self._octet = self._ffi.gc(opened, lambda octet: loaded.octet_close(octet))  # noqa: PLW0108 - see above
+        self._state: Any = self._ffi.buffer(self._octet, loaded.octet_size(opened))
         self._in: Any = self._ffi.new("struct frame *")
         self._out: Any = self._library.octet_answers(self._octet)
         self._answers: deque[Frame] = deque()
@@ -104,6 +106,15 @@ class InProcessLink:
     def lose_touch(self) -> None:
         """The robot has waited for senses in vain: it takes the next ones for fresh."""
         self._library.octet_outage(self._octet)
+
+    @property
+    def state(self) -> bytes:
+        """All that the robot is; for `go_back_to`."""
+        return bytes(self._state)
+
+    def go_back_to(self, state: bytes) -> None:
+        """Makes the robot what it was when this was its state."""
+        self._state[:] = state
 
     def hear_others(self) -> None:
         """Hands over what the robot has not heard yet of others."""

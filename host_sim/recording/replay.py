@@ -15,7 +15,11 @@ _TO_ROBOT = ("SENSES", "COMMAND")
 _AT_REST = (Reason.STOP, Reason.SILENCE)
 _SILENT = 1 << Fault.SILENCE
 _MISSED = _SILENT | 1 << Fault.MISSED | 1 << Fault.STALE
-_TRIES_MAX = 20
+_NEAR = 10
+"""A loss within a gap is assumed to begin and end among so many of its first and last senses."""
+
+_STATES_MAX = 256
+"""Maximum number of states in which the robot may be, by what it seems to have heard."""
 
 
 @dataclass(frozen=True)
@@ -86,9 +90,9 @@ class _Comparison:
         self.stopped = False
         self.unanswered = 0
         self._log, self._protocol = log, protocol
-        self._first_memory, self._program = first_memory(log, protocol), program
-        self._link = self._wake()
-        self._heard: list[Frame | None] = []  # None where it heard nothing for long
+        node, memory = protocol.node, first_memory(log, protocol)
+        self._link = ProgrammedLink(program, node, memory=memory) if program else InProcessLink(node, memory)
+        self._states: list[bytes] = []  # which the robot may be in; none: that of the link
         self._waiting: list[Frame] = []
         self._faults = 0
         self._pending: dict[int, Frame] = {}
@@ -97,12 +101,6 @@ class _Comparison:
         self._drive: Frame | None = None
         self._recorded, self._replayed = MemoryReport(), MemoryReport()
         self._memory: tuple[int, ...] | None = None
-
-    def _wake(self) -> InProcessLink:
-        node, memory = self._protocol.node, self._first_memory
-        if self._program is None:
-            return InProcessLink(node, memory)
-        return ProgrammedLink(self._program, node, memory=memory)
 
     def accept(self, line: Recorded) -> Difference | None:
         """Compares one frame of the log; None if it is as the firmware has it."""
@@ -143,8 +141,7 @@ class _Comparison:
         if not self._lockstep:
             self._waiting.append(frame)
             return
-        if frame.id == self._protocol.id_of("COMMAND"):
-            self._heard.append(frame)  # what goes before a start in real time
+        self._states = []
         self._hand_over(frame)
 
     def _hand_over(self, frame: Frame | None) -> None:
@@ -178,41 +175,55 @@ class _Comparison:
     def _answer_in_real_time(self, drive: Frame, tick: int) -> Frame | None:
         """What the firmware answers if it has heard as much of the unanswered senses as makes it drive like that.
 
-        The log has all senses that were sent. Of those that it does not answer, a robot hears none, the first or all:
-        they are lost on the way, or wait for so long that it skips to the newest.
+        Often several guesses do. All of them are kept, and later drives rule out the wrong ones.
         """
         numbers = [self._tick_of(frame) for frame in self._waiting]
         end = numbers.index(tick) + 1 if tick in numbers else len(numbers)  # the host may have gone on meanwhile
-        sent, self._waiting = self._waiting[:end], self._waiting[end:]
+        sent = self._waiting[:end]
         senses = [i for i, number in enumerate(numbers[:end]) if number is not None]
         self.unanswered += len(senses[:-1])
-        outages: list[list[Frame | None]] = [[None], []] if self._faults & _SILENT else [[]]
-        tries = sorted(range(max(len(senses), 1)), reverse=not self._faults & _MISSED)[:_TRIES_MAX]
-        self._faults = 0
         answers: list[Frame | None] = []
-        for outage, first in product(outages, tries):
-            if answers:
-                self._begin_anew()
-            before = (frame for i, frame in enumerate(sent) if i not in senses[first:])
-            heard = [*before, *outage, *(sent[i] for i in senses[-1:])]
+        equal: dict[bytes, None] = {}
+        self._states = self._states or [self._link.state]
+        for state, heard in product(self._states, self._ways(sent, senses)):
+            self._link.go_back_to(state)
             for frame in heard:
                 self._hand_over(frame)
             answers.append(self._pending.pop(tick, None))
             if answers[-1] == drive:
-                self._heard += heard
-                return drive
-        return answers[0]
+                equal[self._link.state] = None
+                if len(equal) == _STATES_MAX:
+                    break
+        if not equal:
+            return answers[0]
+        self._states, self._waiting, self._faults = list(equal), self._waiting[end:], 0
+        return drive
+
+    def _ways(self, sent: list[Frame], senses: list[int]) -> list[list[Frame | None]]:
+        """What the robot may have heard of what was sent since its last drive; None: nothing for long.
+
+        The log has all senses that were sent. Of those that it does not answer, a robot hears the first, if any, and
+        the last ones: they are lost on the way, or wait for so long that it skips to the newest.
+
+        Args:
+            sent: Senses and commands, which do arrive.
+            senses: Where the senses are among them.
+        """
+        count = len(senses)
+        near = [i for i in range(count) if i < _NEAR or i >= count - _NEAR]
+        outages: list[list[Frame | None]] = [[None], []] if self._faults & _SILENT else [[]]
+        ways: list[list[Frame | None]] = []
+        for outage, lost, again in product(outages, near, near):
+            if lost < again or (lost == again and (outage or lost == count - 1)):
+                unheard, at = set(senses[lost:again]), senses[again]
+                before = [frame for i, frame in enumerate(sent[:at]) if i not in unheard]
+                ways.append([*before, *outage, *sent[at:]])
+        return ways or [list(sent)]
 
     def _tick_of(self, frame: Frame) -> int | None:
         """The tick of senses."""
         decoded = self._protocol.decode(frame) if frame.id == self._protocol.id_of("SENSES") else None
         return decoded and decoded.signals["tick"]
-
-    def _begin_anew(self) -> None:
-        self._link = self._wake()
-        for frame in self._heard:
-            self._hand_over(frame)
-        self._pending.clear()
 
     def _compare_memory(self, frame: Frame, decoded: DecodedFrame) -> Difference | None:
         recorded = self._recorded.join(decoded)

@@ -6,10 +6,11 @@ from pathlib import Path
 import pytest
 
 from host_sim.backends.in_process_link import InProcessLink
+from host_sim.backends.programmed_robot import ProgrammedLink
 from host_sim.backends.relay import Relay, RelayedLink
 from host_sim.base.errors import OctetError
 from host_sim.protocol.codec import Frame, Protocol
-from host_sim.protocol.generated import Senses
+from host_sim.protocol.generated import Opcode, Senses
 
 KNOWS = (0, 1, 0, 0, 2, 0, 0, 0)
 
@@ -44,6 +45,23 @@ def test_what_was_taken_can_be_put_back_before_what_c_code_has_got():
     assert link.taken() == [said[0], *said]
     assert names(protocol, said)[:3] == ["ANSWER", "HEARTBEAT", "BOOT"]
     assert link.taken() == []
+
+
+@pytest.mark.parametrize("wake", [InProcessLink, lambda: ProgrammedLink(b"while true\nrTurn 5\nrForward 1\nwend\n")])
+def test_a_robot_that_goes_back_to_a_state_does_the_same_again(wake):
+    link, protocol = wake(), Protocol()
+    start = {"counter": 1, "opcode": Opcode.START, "owner": 1, "profile": 0, "seed": 7, "lockstep": 1}
+    link.send(protocol.encode("COMMAND", start))
+    before, done = link.state, []
+    for _ in range(2):
+        link.go_back_to(before)
+        link.taken()
+        for tick in range(50):
+            link.send(protocol.encode_senses(Senses(tick, 0, False, False, 0, 0, 0), tick % 15))
+        done.append(link.taken())
+
+    assert done[0] == done[1]
+    assert len(set(done[0])) > 10
 
 
 def test_a_robot_that_was_closed_says_nothing_more():

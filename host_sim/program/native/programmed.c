@@ -11,6 +11,7 @@ struct octet *programmed_open(uint8_t node, const uint8_t memory[CELL_COUNT], co
         return NULL;
     octet_init(&programmed->octet, node, memory);
     programmed->octet.respond = programmed_robot_respond;
+    programmed->octet.size = sizeof *programmed;
     (void)program_compile(&programmed->program, text, len);
     return &programmed->octet;   /* its first member: free takes it */
 }

@@ -2,6 +2,8 @@
 #include "tests/test.h"
 #include "tests/hal/protocol/wire_frames.h"
 
+#include <string.h>
+
 static const uint8_t STORED[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 1};
 
 static struct octet *octet;
@@ -149,6 +151,22 @@ TEST(the_first_boot_message_that_is_heard_is_the_second_one)
 
     TEST_ASSERT_EQUAL(0, octet_boot_unpack(&boot, data_of(OCTET_BOOT_FRAME_ID, count), OCTET_BOOT_LENGTH));
     TEST_ASSERT_EQUAL_UINT8(1, boot.counter);
+}
+
+TEST(a_copy_put_back_makes_it_what_it_was)
+{
+    uint8_t copy[sizeof *octet];
+    struct frame before;
+
+    TEST_ASSERT_EQUAL_size_t(sizeof copy, octet_size(octet));
+    exchange(command_of(OPCODE_START));
+    memcpy(copy, octet, sizeof copy);
+    exchange(senses_frame(1, 0));
+    before = out[0];
+    exchange(senses_frame(1, 1));
+    memcpy(octet, copy, sizeof copy);
+    TEST_ASSERT_EQUAL_size_t(1, exchange(senses_frame(1, 0)));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &out[0], sizeof before);
 }
 
 TEST(after_an_outage_any_senses_are_fresh)
