@@ -18,7 +18,7 @@ _CHOSEN = "OCTET_VCAN_CHOSEN"
 
 
 def check_robot(bus: str, robot: str, nodes: Sequence[int]) -> None:
-    """Refuses a kind of robot where it cannot be.
+    """Refuses a kind of robot that cannot be on a bus.
 
     Args:
         bus: The bus as given on the command line.
@@ -32,9 +32,9 @@ def check_robot(bus: str, robot: str, nodes: Sequence[int]) -> None:
     if robot in ("qemu", "emulated"):
         _check_emulated(bus, robot, nodes)
     elif robot in ("external", "observe") and interface in ("auto", "none", "fd"):
-        raise UsageError(f"--robot {robot} needs --bus INTERFACE:CHANNEL, the bus that it is on, not --bus {bus}")
+        raise UsageError(f"--robot {robot} needs the bus of the robot, --bus INTERFACE:CHANNEL, not --bus {bus}")
     elif robot == "spawn" and interface not in ("auto", "none") and not HAS_ROBOT_PROCESSES:
-        raise UsageError(f"on this system a robot starts in this process only, not on {bus}: use --bus none")
+        raise UsageError(f"on this system a robot can only run in this process, not on {bus}: use --bus none")
     elif robot == "spawn" and ":" in bus and interface != "socketcan":
         raise UsageError(f"a robot cannot be started on {bus}, only on socketcan or fd: use --robot external")
 

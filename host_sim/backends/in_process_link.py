@@ -34,7 +34,7 @@ def load_library(ffi: Any, path: Path = LIBRARY) -> Any:
     """The firmware as a library.
 
     Raises:
-        OctetError: It is not there, or no library.
+        OctetError: It is missing, or cannot be loaded.
     """
     try:
         return ffi.dlopen(os.fspath(path))
@@ -51,7 +51,7 @@ class RobotPointers(NamedTuple):
 
 
 class InProcessLink:
-    """A robot that answers within `send`. It knows no time but the ticks, and is never late."""
+    """A robot that answers within `send`. Its only time is that of the ticks, and it is never late."""
 
     def __init__(
         self, node: int = 1, memory: Sequence[int] = (0,) * 8, library: Path = LIBRARY, relay: Relay | None = None
@@ -104,7 +104,7 @@ class InProcessLink:
                 self._relay.hear(self._node, answer)
 
     def lose_touch(self) -> None:
-        """The robot has waited for senses in vain: it takes the next ones for fresh."""
+        """Tells the robot that senses did not arrive in time: it accepts the next ones as fresh."""
         self._library.octet_outage(self._octet)
 
     @property
@@ -117,13 +117,13 @@ class InProcessLink:
         self._state[:] = state
 
     def hear_others(self) -> None:
-        """Hands over what the robot has not heard yet of others."""
+        """Passes on what the robot has not heard yet from others."""
         if self._relay is not None:
             for frame in self._relay.take(self._node):
                 self.send(frame)
 
     def receive(self, timeout_s: float) -> Frame | None:
-        """As in `Link`. What is not there yet will not come: waiting passes the time, no more."""
+        """As in `Link`. Waiting only passes the time: a frame that is not there yet will not come."""
         if self._answers:
             return self._answers.popleft()
         time.sleep(timeout_s)

@@ -1,4 +1,4 @@
-"""A robot of one's own: a program that is started here, watched, and started again when it has ended."""
+"""A user's own robot: a program that is started here, monitored, and restarted when it ends."""
 
 from collections.abc import Callable
 from contextlib import ExitStack, suppress
@@ -16,7 +16,7 @@ from host_sim.transport.link import Link
 from host_sim.transport.reconnecting_link import ReconnectingLink
 
 BOOT_S = 10.0
-"""A robot that has said nothing by then never does."""
+"""A robot must send its first frame within this time."""
 
 _SLICE_S = 0.1
 
@@ -39,7 +39,7 @@ class OwnRobot:
 
     @property
     def environment(self) -> dict[str, str]:
-        """What it is told beside its bus."""
+        """Its environment variables besides those for the bus."""
         return {"OCTET_NODE": str(self.node)}
 
     def on_socket_pair(self, stats: LineStats) -> BusLink:
@@ -94,7 +94,7 @@ class OwnRobot:
 
 @dataclass
 class _WatchedLink:
-    """A link over a bus, which does not tell when a robot's program ends: then it is started again."""
+    """A link over a bus that restarts the robot's program when it has ended, which a bus does not show."""
 
     link: Link
     robot: OwnRobot

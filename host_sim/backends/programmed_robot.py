@@ -46,7 +46,7 @@ class ProgrammedLink(InProcessLink):
         return self._library.programmed_open(node, memory, self._text, len(self._text))
 
     def told(self) -> str:
-        """What a person should know of the program: its mistake, its end, what it shows; empty for nothing."""
+        """The state of the program for people: its mistake, its end, what it shows; empty for nothing."""
         told = self._ffi.new("char[]", _TOLD_MAX)
         self._library.programmed_tell(self._library.programmed_state(self._octet), told)
         text: Any = self._ffi.string(told)

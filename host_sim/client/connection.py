@@ -26,10 +26,10 @@ class Connection:
         line: What happens to the line below the frames.
         deadline_s: Time for the robot to answer before it is given up, s of wall-clock time.
         answers_at_once: Whether the robot answers within `send`, or not at all.
-        now: Tells the time in which the link waits, s.
-        sense: What a robot that senses by itself makes of its body, of what the world says that it senses, and of
+        now: Gives the time of the link's timeouts, s.
+        sense: For a robot with sensors of its own: computes its senses from its body, the world's senses and
             the number of the tick; None for all others.
-        pins: Tells what is on such a robot's pins, as `RobotOnPins.figures` does.
+        pins: Reads such a robot's pins, as `RobotOnPins.figures`.
     """
 
     link: Link

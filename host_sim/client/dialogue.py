@@ -55,8 +55,8 @@ class Dialogue:
     def ask(self, opcode: str, signals: Mapping[str, int], timeout_s: float) -> DecodedFrame | None:
         """As `command`, but None if there is no answer in time.
 
-        A command whose counter the robot does not take is sent with another one: in a session that was cut short, the
-        robot counted on from other commands.
+        A command whose counter the robot refuses is sent with another one: in an earlier, interrupted session the
+        robot may have counted other commands.
         """
         answer = None
         for jump in (1, _JUMP, _JUMP):
@@ -91,7 +91,7 @@ class Dialogue:
         self.inbox.reporting, self.inbox.rested = True, opcode != "stop"
 
     def await_reports(self) -> bool:
-        """Whether every report comes that was asked for; False as soon as one is known to be missing.
+        """Waits for every report that was asked for. Returns False as soon as one is known to be missing.
 
         It ends after the answer: what was on its way before that may be the end of an older one.
         """

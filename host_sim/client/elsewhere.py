@@ -42,7 +42,7 @@ def take_last_reports(client: RobotClient, reports: Sequence[Frame]) -> None:
 
 
 def routine_reports(client: RobotClient) -> list[tuple[str, Frame]]:
-    """The last report of each kind that would be taken in without a further look if it came with the next counter."""
+    """The last report of each kind that needs no further handling if it is repeated with the next counter."""
     heartbeat = client.reports.heartbeat
     names = {"FAULTS"}
     if client.inbox.holds():

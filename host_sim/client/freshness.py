@@ -33,7 +33,7 @@ class Freshness:
     """
 
     def __init__(self) -> None:
-        """Takes any message for new."""
+        """Accepts any message as new."""
         self.last: Frame | None = None
         self._late: Frame | None = None
 

@@ -27,8 +27,8 @@ class Inbox:
         protocol: Decodes them.
         record: Called with each valid frame that is new, for the log.
         now: Tells the time, s.
-        lockstep: Whether the simulator's clock counts, so that only the last senses are answered.
-        owner: Number of this simulator.
+        lockstep: Whether the robot waits for the simulator, so that only the last senses are answered.
+        owner: Owner ID of this simulator.
         counts: Frame counters.
         asked: The commands that were sent.
         told: Those that the robot has carried out.
@@ -41,8 +41,8 @@ class Inbox:
         sent_tick: Number of the last of them, as on the wire.
         sent_counter: Alive counter of the last of them.
         reporting: Whether a whole report is awaited.
-        rested: Whether a stopped robot has said that its wheels rest, or need not say so.
-        silent: Whether the robot has said that it hears nothing: all that it had to say before was sent.
+        rested: Whether a stopped robot has reported that its wheels rest, or need not report it.
+        silent: Whether the robot has reported silence, after which nothing earlier can still arrive.
         owed: Number of repeated senses whose answers have not come yet.
         answered_again: Number of answers to what was repeated, and was answered before.
         drive: The last new drive.
@@ -198,7 +198,7 @@ class Inbox:
         return same and frame != self._drive_frame
 
     def _take_silence(self, drive: Drive, frame: Frame) -> Drive | None:
-        """In lockstep, silence only tells of a slow host; on its own clock, the robot rests."""
+        """In lockstep, silence only shows a slow host; in real time, the robot rests."""
         self.silent = True
         if self.lockstep or self.session is None:
             self.counts.duplicate += 1
@@ -297,12 +297,12 @@ class Inbox:
         self.record(frame)
 
     def lose(self, how: str, doubt: str = "", *, booted: bool = False) -> None:
-        """The robot may no longer be the one that was started, or no longer be alone; supervision finds out.
+        """Reports that the robot may have left the session, or may not be alone; supervision finds out.
 
         Args:
-            how: How that shows.
-            doubt: What makes the result doubtful whatever is found out; empty for nothing.
-            booted: Whether the robot said that it has started anew.
+            how: The evidence.
+            doubt: Why the result is unreliable whatever is found out; empty if it is not.
+            booted: Whether the robot reported that it has restarted.
         """
         if self.session is not None:
             raise SessionLostError(f"it {how} (tick {self.tick})", doubt=doubt, booted=booted)

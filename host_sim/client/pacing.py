@@ -55,7 +55,7 @@ class Lockstep:
         self._clients = clients
 
     def exchange(self, senses: Sequence[Senses], begun: BegunTick = _NOTHING) -> Sequence[Drive]:
-        """As in `Pace`, but for what has been done elsewhere."""
+        """As in `Pace`, except for the part done elsewhere."""
         sent, drives = begun.sent, [*begun.drives]
         for client, sensed in zip(self._clients[len(drives) : sent], senses[len(drives) : sent], strict=True):
             client.note_sent(sensed)
@@ -115,7 +115,7 @@ def applied(last: Drive | None, tick: int, came: bool) -> Drive:
 
 
 class RealTime:
-    """Ticks follow the wall clock and wait for no robot: a late answer applies when it comes, as on a real body."""
+    """Ticks follow the wall clock and wait for no robot: a late answer takes effect on arrival, as on a real body."""
 
     def __init__(self, clients: Sequence[RobotClient], tick_s: float) -> None:
         """Starts with the wheels at rest; the clock begins with the first tick.
@@ -130,7 +130,7 @@ class RealTime:
         self._next_s: float | None = None
 
     def rest(self) -> None:
-        """The world stands still on purpose: its clock begins anew with the next tick."""
+        """Pauses the world: its clock restarts with the next tick."""
         self._next_s = None
 
     def exchange(self, senses: Sequence[Senses]) -> Sequence[Drive]:

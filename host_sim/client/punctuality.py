@@ -19,7 +19,7 @@ class Limits:
 
 
 _TICKS_MIN = 50
-"""In fewer ticks, a share says nothing."""
+"""Minimum number of ticks for a meaningful share."""
 
 
 @dataclass
@@ -47,9 +47,9 @@ class Punctuality:
     robot_s: float = 0.0
 
     def begin(self, late_s: float, tick_s: float) -> float:
-        """A tick begins, some time after it should. Returns how much of that is lost, s.
+        """Notes the delay of a tick. Returns how much of it is lost, s.
 
-        What is less than a tick is caught up. More is not: many ticks at once would not be real time either.
+        A delay under a tick is caught up. A longer one is not: many ticks at once would not be real time either.
         """
         lost_s = late_s if late_s > tick_s else 0.0
         self.ticks, self.robot_s, self.lost_s = self.ticks + 1, self.robot_s + tick_s, self.lost_s + lost_s
@@ -58,7 +58,7 @@ class Punctuality:
         return lost_s
 
     def miss(self, gap_s: float, tick_s: float) -> bool:
-        """A tick has no answer, and none has come for some time. Returns whether this is now too long."""
+        """Notes a tick without an answer, and the time since the last one. Returns whether that is now too long."""
         self.unanswered += 1
         self.gap_s = max(self.gap_s, gap_s)
         return round(gap_s - tick_s, 6) < self.limits.gap_s <= gap_s

@@ -29,21 +29,21 @@ class RobotClient:
     Attributes:
         connection: Carries the frames.
         protocol: Encodes and decodes them.
-        log: Records every frame sent and every valid frame received, in order. What is repeated, and what a robot
-            says only because it waits, is left out: the log does not depend on how long things took.
+        log: Records every frame sent and every valid frame received, in order. Repetitions, and frames
+            that a robot sends only because it waits, are left out: the log does not depend on timing.
         round_trip: How long answers take.
         inbox: Takes in what comes.
         waiting: Waits for it.
         dialogue: Sends commands.
-        punctuality: How far a run in real time was one.
+        punctuality: How close the run was to real time.
         refused: The frames that were refused.
         incidents: What happened that makes the result of the run doubtful, the first `INCIDENTS_MAX`.
         unlisted: Number of incidents after those.
         firmware: The signals of the BOOT in the handshake, which name the firmware.
-        memory_kind: What the bytes of its memory mean to the behaviour with which it was started.
+        memory_kind: The kind of memory of the behaviour with which it was started.
         wants_ranges: Whether it was started with a behaviour that decides by distances.
-        ranges: The distances that go before the next senses, where they are wanted.
-        unsettled: Tick at which an environment ended whose last memory may yet turn out to be lost; None if none may.
+        ranges: The distances to send before the next senses, if the robot wants them.
+        unsettled: Tick of the end of an environment whose last memory may have been lost; None if there is none.
     """
 
     def __init__(
@@ -61,8 +61,8 @@ class RobotClient:
             connection: Carries the frames.
             protocol: Encodes and decodes them.
             log: Records them.
-            lockstep: Whether the simulator's clock counts: the robot waits for senses as long as they take.
-            owner: Number of this simulator, 1..255, by which the robot knows whom it obeys.
+            lockstep: Whether the robot waits for senses as long as they take, instead of in real time.
+            owner: Owner ID of this simulator, 1..255; the robot obeys only its owner.
         """
         self.connection, self.protocol, self.log = connection, protocol, log
         self.round_trip = RoundTrip()
@@ -116,7 +116,7 @@ class RobotClient:
         return self.inbox.tick
 
     def distrust(self, what: str) -> None:
-        """Notes that something happened which makes the result of the run doubtful."""
+        """Notes an incident that makes the result of the run doubtful."""
         if len(self.incidents) < INCIDENTS_MAX:
             self.incidents.append(Incident(self.tick, self.node, what))
         else:
@@ -207,7 +207,7 @@ class RobotClient:
         self._lossy = self._lossy or (self.inbox.owed > 0 and self._owed_tick < ticks)
 
     def check_settled(self) -> None:
-        """Notes if it has turned out since that a memory was lost at the end of an environment."""
+        """Notes an incident if the last memory of an environment has turned out to be lost."""
         at, settled = self._settled or (self.tick, self.memory)
         is_late = at == self.tick and settled != self.memory
         if is_late or (self.unsettled is not None and self.reports.gap):

@@ -28,7 +28,7 @@ class RobotReports:
         faults_before: Each of them as it was reported the time before.
         heartbeat: The signals of its HEARTBEAT; empty before the first.
         boot: The signals of its BOOT, which names the firmware; empty before the first.
-        held: HEALTH's check of what the robot was told.
+        held: HEALTH's checksum of the commands that the robot carried out.
         memories: Number of whole memories so far.
         ended: Whether the last one of a whole report has come since `await_end`.
         gap: Number of memories that were lost on the way before the first one since this was last set to None.

@@ -8,7 +8,7 @@ _VARIATIONS = 4
 
 
 class RoundTrip:
-    """Estimates the round trip as RFC 6298 does for TCP: smoothed, with its variation, doubled where it is too short.
+    """Estimates the round-trip time as RFC 6298 does for TCP: smoothed, with its variation, doubled after a timeout.
 
     >>> trip = RoundTrip()
     >>> trip.sample(0.05)
@@ -16,8 +16,8 @@ class RoundTrip:
     0.15
 
     Attributes:
-        timeout_s: Time after which an answer is taken for lost, s.
-        is_sure: Whether no answer has come later than expected since the last sample.
+        timeout_s: Time after which an answer is considered lost, s.
+        is_sure: Whether no answer was late since the last sample.
         mean_s: Mean time from a frame to its answer lately, s; None before the first.
     """
 
@@ -30,7 +30,7 @@ class RoundTrip:
         self._variation_s = 0.0
 
     def sample(self, seconds: float) -> None:
-        """Learns from the answer to a frame that was sent once: of several, none could tell which was answered."""
+        """Adds the time of an answer to a frame that was sent once: with repetitions it would be ambiguous."""
         self.is_sure = True
         if self._smoothed_s is None:
             self._smoothed_s, self._variation_s = seconds, seconds / 2
@@ -41,10 +41,10 @@ class RoundTrip:
         self.note(seconds)
 
     def note(self, seconds: float) -> None:
-        """Counts in how long an answer took, repeats and all."""
+        """Adds the time of an answer to the mean, repetitions included."""
         self.mean_s = seconds if self.mean_s is None else self.mean_s + _GAIN * (seconds - self.mean_s)
 
     def back_off(self) -> None:
-        """Waits twice as long from now on, until an answer comes to a frame that was sent once."""
+        """Doubles the timeout, until a frame that was sent once is answered."""
         self.is_sure = False
         self.timeout_s = min(2 * self.timeout_s, _MOST_S)

@@ -1,4 +1,4 @@
-"""Checks what a robot was told: recomputes the CRC that it reports from the commands that it answered."""
+"""Checks which commands a robot obeyed: recomputes the CRC that it reports from the commands that it answered."""
 
 from collections.abc import Sequence
 from zlib import crc32
@@ -15,17 +15,17 @@ class Told:
 
     Attributes:
         owned: Whether one of them has made this simulator its owner.
-        given_up: Whether somebody else has told it something: from now on all agrees.
+        given_up: Whether somebody else has commanded it: from now on everything counts as agreement.
     """
 
     def __init__(self) -> None:
-        """A robot that was stopped without having an owner."""
+        """Begins with a robot that was stopped without having an owner."""
         self.owned = self.given_up = False
         self._crc = self._opcodes = 0
         self._proved = True
 
     def carry_out(self, command: Frame, answer: DecodedFrame) -> None:
-        """The robot has answered that it carried out a command."""
+        """Notes a command that the robot has carried out."""
         opcode = command.data[1] >> 4
         if opcode in _ASKING:
             return
@@ -39,6 +39,6 @@ class Told:
         self.owned = opcode in _BEGINNING or (self.owned and opcode != Opcode.STOP)
 
     def agrees(self, held: int, memory: Sequence[int]) -> bool:
-        """Whether the robot was told this and nothing else; without an owner, also whether its memory is this."""
+        """Whether the robot got these commands and no others; without an owner, also whether this is its memory."""
         crc = self._crc if self.owned else crc32(bytes(memory), self._crc)
         return self.given_up or (self._proved and held == crc & 0xFFFF)

@@ -34,9 +34,9 @@ class Waiting:
     inbox: Inbox
 
     def receive(self, take: Callable[[Frame], T | None], timeout_s: float) -> T | None:
-        """What `take` makes of the first frame that it takes; None after the timeout.
+        """The first result of `take` that is not None; None after the timeout.
 
-        Only the time of waiting counts: a host that was held up, or a line that was gone, costs the robot nothing.
+        Only time spent waiting counts, not that of a stalled host or a lost line.
         """
         left_s, spare = timeout_s, _WAITING_MAX
         while True:
@@ -54,11 +54,11 @@ class Waiting:
     def receive_or_repeat(
         self, repeat: Callable[[], None], take: Callable[[Frame], T | None], timeout_s: float
     ) -> T | None:
-        """As `receive`, for an answer: `repeat` sends again what it is to answer, when that takes too long.
+        """As `receive`, for an answer: if it takes too long, `repeat` sends the question again.
 
-        A robot that is still answering what was repeated before would only be later for more of it. So the pauses
-        double, and the timeout begins anew, a few times at most. Where a line is noisy, not the pauses double but the
-        copies.
+        While a robot works through earlier repetitions, further ones would only delay it. So the pauses double, and
+        the timeout starts over, a few times at most. On a noisy line the number of copies doubles instead of the
+        pauses.
         """
         line, left_s, wait_s, stretch = self.connection.line, timeout_s, self._first_wait_s(), 1
         again, garbled = self.inbox.answered_again, line.garbled

@@ -1,5 +1,5 @@
-"""A small emulated microcontroller board: the very image that is flashed, on models of the hardware that it touches.
+"""A small emulated microcontroller board: runs the flash image on models of the hardware that it uses.
 
-The core is Unicorn's (GPL-2: for tests and emulation only, imported in `core.py` alone). Time is made of executed
-instructions, so that a run is the same on any machine, however loaded.
+The core is Unicorn's (GPL-2: for tests and emulation only, imported in `core.py` alone). Time counts executed
+instructions, so that a run is the same on any machine under any load.
 """

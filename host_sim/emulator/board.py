@@ -110,7 +110,7 @@ class EmulatedBoard:
         return None
 
     def pass_time(self, span_s: float) -> list[Frame]:
-        """Lets so much time pass on the board, without waiting for it.
+        """Lets time pass on the board, without waiting for the wall clock.
 
         Returns:
             What it sent meanwhile.
@@ -119,7 +119,7 @@ class EmulatedBoard:
         return [Frame(frame.id, frame.data) for frame in said]
 
     def cut_power(self) -> None:
-        """Off and on again: only the flash is as before."""
+        """Switches the board off and on again: only the flash keeps its content."""
         self.restart("power")
 
     def restart(self, cause: str) -> None:
@@ -129,7 +129,7 @@ class EmulatedBoard:
         self.hardware.restart(cause)
 
     def status(self) -> str:
-        """How the board is, in a few words."""
+        """The state of the board in a few words."""
         return f"is an emulated {self.hardware.chip.name}, and was reset {len(self.resets)} times"
 
     def close(self) -> None:

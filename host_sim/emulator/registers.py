@@ -15,11 +15,11 @@ _WORD = 4
 
 
 class BoardError(RobotError):
-    """The image did what the hardware does not allow, or what no model here knows; says where."""
+    """The image did what the hardware does not allow or what is not modelled; the message says where."""
 
 
 class PowerCut(Exception):  # noqa: N818 - nothing is wrong with the board
-    """The power has gone, as was asked for."""
+    """The power was cut, as requested."""
 
 
 @dataclass

@@ -1,1 +1,1 @@
-"""Bus faults on purpose: a schedule as data, and a link that follows it."""
+"""Fault injection on the bus: a schedule as data, and a link that follows it."""

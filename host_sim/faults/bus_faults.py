@@ -38,7 +38,7 @@ class Fault(Protocol):
 
         Args:
             passing: The frame.
-            dice: Source of all that is random, so that the same dice give the same fault.
+            dice: Source of all random numbers, so that equal dice give equal faults.
         """
 
 
@@ -144,13 +144,13 @@ class Babble:
 
 
 class Forger(Protocol):
-    """Somebody who knows the messages of a bus, listens, and sends frames in another's name."""
+    """A forger, who knows the messages of a bus, listens, and sends frames in another's name."""
 
     def hear(self, frame: Frame) -> None:
         """Somebody sends a frame."""
 
     def forge(self, dice: Random) -> Frame:
-        """A frame whose CRC is true."""
+        """A frame with a valid CRC."""
 
 
 Forgers = Callable[[str], Forger]
@@ -158,7 +158,7 @@ Forgers = Callable[[str], Forger]
 
 
 class Forge:
-    """Somebody sends a frame in another's name, with a true CRC: `forge:stop` a command, `forge:MEMORY` a message."""
+    """A forged frame with a valid CRC: `forge:stop` for a command, `forge:MEMORY` for a message."""
 
     def __init__(self, size: str, forgers: Forgers) -> None:
         """Takes the name of a command or of a message (any message)."""
@@ -216,5 +216,5 @@ FAULTS: dict[str, Callable[[str, Forgers], Fault]] = {
 
 def _number(text: str, least: int, most: int) -> int:
     if not text.isdecimal() or not least <= int(text) <= most:
-        raise UsageError(f"a fault's size is a number, {least} to {most}, not {text}")
+        raise UsageError(f"a fault's size is a number from {least} to {most}, not {text}")
     return int(text)

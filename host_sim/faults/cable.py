@@ -19,7 +19,7 @@ _GONE = -1
 
 
 class Cable:
-    """What goes into one end comes out of the other, but for the bytes that noise changes.
+    """A cable: what goes into one end comes out of the other, except for bytes changed by noise.
 
     Attributes:
         ends: The names of the two ttys.

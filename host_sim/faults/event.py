@@ -34,7 +34,7 @@ class Event:
         """Reads an event.
 
         Raises:
-            UsageError: It is not written as one.
+            UsageError: It is not an event.
         """
         match = _EVENT.fullmatch(text)
         if match is None:

@@ -62,7 +62,7 @@ class _Way:
 
 
 class FaultyLink:
-    """A link between the simulator and another link, whose frames meet with faults in both directions.
+    """A link that wraps another one and injects faults into its frames in both directions.
 
     Attributes:
         schedule: The faults, and a record of them.
@@ -75,7 +75,7 @@ class FaultyLink:
         Args:
             link: Where the robot is.
             schedule: The faults.
-            clock: The time in which frames are late; by default that of the wall clock.
+            clock: The clock for delays; by default the wall clock.
         """
         self.schedule = schedule
         self.link, self._clock = link, clock or WallClock()

@@ -14,7 +14,7 @@ Direction = Literal["to", "from"]
 DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
 
 FAULT_NAMES = ("drop", "duplicate", "reorder", "delay", "corrupt", "truncate", "flood", "babble", "forge")
-"""What can happen to a frame."""
+"""The names of the faults of frames."""
 
 _RULE = re.compile(
     r"(?P<name>[a-z]+)"
@@ -109,7 +109,7 @@ class Rule:
 
 
 def read_rules(text: str) -> list[str]:
-    """The rules in a word of the command line: one rule, or for `@FILE` one in each line of a file.
+    """The rules in a command-line argument: one rule, or for `@FILE` those in a file, one per line.
 
     Raises:
         UsageError: The file cannot be read, or something in it is not a rule.

@@ -14,7 +14,7 @@ from host_sim.live.server import LiveServer
 
 
 def watch_run(live: PacedRun, listener: Listener, out: TextIO) -> None:
-    """Plays a whole run while people watch; Ctrl-C ends it in order.
+    """Plays a whole run while people watch; Ctrl-C ends it in an orderly way.
 
     Args:
         live: The run, before its first environment.

@@ -37,7 +37,7 @@ class Connections:
         Args:
             server: Handles the requests.
             headers: Headers of the answers to requests that are not HTTP.
-            logger: Gets what goes wrong.
+            logger: Gets the errors.
         """
         self.most = min(CONNECTIONS_MAX, files_max() // 2)
         self._server, self._headers, self._logger = server, headers, logger

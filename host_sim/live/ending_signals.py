@@ -18,9 +18,9 @@ TICK_S = 0.5
 
 @contextmanager
 def on_ending_signals(loop: "asyncio.AbstractEventLoop", close: Callable[[], None]) -> Iterator[None]:
-    """Has each of these signals call a function, between two steps of an event loop.
+    """Calls a function on each of these signals, between two steps of an event loop.
 
-    Where no step ends within `TICK_S`, the one that does not ends with a RobotError.
+    A step that does not end within `TICK_S` is ended with a RobotError.
     """
 
     def end() -> None:

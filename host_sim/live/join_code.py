@@ -30,7 +30,7 @@ _WORDS = (
 
 
 class TooManyGuessesError(OctetError):
-    """A code that is not even looked at."""
+    """There were too many wrong codes; this one was not checked."""
 
 
 class JoinCode:
@@ -47,7 +47,7 @@ class JoinCode:
         self._wrong: deque[tuple[float, str]] = deque()
 
     def opens(self, given: str, address: str) -> bool:
-        """Whether a code is the right one, in capitals and without its hyphen, too.
+        """Whether a code is right; upper case and a missing hyphen do not matter.
 
         Args:
             given: What was typed.

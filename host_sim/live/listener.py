@@ -20,17 +20,17 @@ _Address = ipaddress.IPv4Address | ipaddress.IPv6Address
 
 
 class Listener:
-    """The listening socket of the server, opened before the run begins: a port in use must not spoil a run.
+    """The listening socket of the server, opened before the run, so that a port in use cannot spoil it.
 
     Attributes:
         host: Address that it listens on.
         port: Port that it listens on.
-        is_open: Whether other machines are listened to.
+        is_open: Whether other machines can connect.
         token: Secret that a page's address must contain: other users of this machine can connect, too.
         board_token: Secret that the board's address must contain, which only its owner is told.
         socket: The socket.
         urls: The page's address, by number; one for each network that this machine is in.
-        code: By what a page's address can be short enough to type; None for this machine only.
+        code: The code that makes a page's address short enough to type; None for this machine only.
         short_urls: Such an address for each of `urls`; where there is no code, `urls`.
         board_url: The board's address.
         qr_modules: The first of the page's addresses as a QR code: see `modules_of`; empty for this machine only.
@@ -67,7 +67,7 @@ class Listener:
             raise
 
     def _name(self) -> None:
-        """Works out under which addresses others find the socket."""
+        """Finds the addresses by which others reach the socket."""
         numbers = numbers_of(self.socket)
         homes = [f"[{number}]:{self.port}" if ":" in number else f"{number}:{self.port}" for number in numbers]
         self.urls = [f"http://{home}/?token={self.token}" for home in homes]

@@ -1,4 +1,4 @@
-"""Looks on while a robot runs by itself, without a word on the bus: what it senses, knows and does, and why."""
+"""Observes a robot that runs by itself, without sending anything: what it senses, knows and does, and why."""
 
 import shutil
 import time
@@ -55,7 +55,7 @@ class Observer:
     """
 
     def __init__(self, node: int) -> None:
-        """Knows nothing of the robot's memory until it is reported."""
+        """Begins without the robot's memory, until it is reported."""
         self.params = SimParams()
         self._node = node
         limit = PARAMETERS["boredom_limit"].default
@@ -66,7 +66,7 @@ class Observer:
         self._meals: list[Point] = []
 
     def follow(self, frames: Iterable[Frame]) -> Iterator[State]:
-        """The robot's state after each tick, as frames come."""
+        """Yields the robot's state after each tick, as frames arrive."""
         recorder, trajectory = self._recorder, self._recorder.trajectory
         for tick in TickReader(Protocol(self._node), bytes(CELL_COUNT)).read(frames):
             if self._senses is not None:

@@ -18,7 +18,7 @@ _ONLY_WATCHING = "every robot has a page of its own already: here you can watch"
 
 
 class NotYoursError(OctetError):
-    """A command that this page may not give."""
+    """The page may not give this command."""
 
 
 @dataclass

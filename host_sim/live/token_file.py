@@ -1,4 +1,4 @@
-"""The access token of pages on this machine; it stays the same, so a page can stay open across runs."""
+"""The access token of pages on this machine, which persists so that a page can stay open across runs."""
 
 import contextlib
 import os

@@ -34,8 +34,8 @@ class Visitor:
         feed: What it is sent.
         rights: What it may do.
         pause_s: Gives the minimum time between two messages to it.
-        begins: Whether it begins a run that waits, when it is told to play.
-        ask: Is given what the page says to a robot; None for a board, which does not talk.
+        begins: Whether its Play command begins a waiting run.
+        ask: Takes what the page says to a robot; None for a board, which does not talk.
     """
 
     socket: web.WebSocketResponse

@@ -9,13 +9,13 @@ from host_sim.protocol.generated import CELL_COUNT, MESSAGES, PARAMETERS, PROFIL
 
 
 class Forger:
-    """Somebody who has listened, and sends frames in another's name: commands and senses as it awaits them."""
+    """A forger, who has listened, and sends commands and senses in another's name as the robot expects them."""
 
     def __init__(self, what: str, protocol: Protocol) -> None:
         """Has heard nothing yet.
 
         Args:
-            what: Name of a command, in small letters, or of a message; empty for any message.
+            what: Name of a command, in lower case, or of a message; empty for any message.
             protocol: The protocol of the node that they are for.
 
         Raises:

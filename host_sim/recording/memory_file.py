@@ -12,7 +12,7 @@ from host_sim.protocol.generated import CELL_COUNT
 from host_sim.world.memory_kinds import Memory, kinds_of, sides_of
 
 _SIZE_MAX = 4096
-"""Larger files are not looked at."""
+"""Larger files are not read."""
 
 
 def load_memory(path: Path) -> tuple[int, ...] | None:
@@ -33,7 +33,7 @@ def load_memory(path: Path) -> tuple[int, ...] | None:
 
 
 def check_writable(path: Path) -> None:
-    """Checks that a memory file can be written, so that nothing is learned that cannot be saved.
+    """Checks that a memory file can be written, so that nothing learned is lost.
 
     Raises:
         UsageError: It cannot.
@@ -52,9 +52,9 @@ def check_writable(path: Path) -> None:
 class MemorySaver:
     """Keeps a memory file up to date while a robot learns.
 
-    What the file held before is never lost to a memory that knows less, as that of a robot that was reset or that
-    forgets: it is kept beside it, as `FILE.1`. What was learned in the same run may be forgotten without a word. The
-    memory of a doubtful run goes to `FILE.doubtful`, and the file is again what it was before the run.
+    If the new memory knows less than the file did before the run, as after a reset, the old one is kept as `FILE.1`.
+    What was learned in the same run may be forgotten without a message. The memory of a doubtful run goes to
+    `FILE.doubtful`, and the file is restored to its content before the run.
     """
 
     def __init__(self, path: Path, loaded: Sequence[int] | None, report: Callable[[str], object]) -> None:

@@ -55,7 +55,7 @@ class Replay:
 
 
 def replay(log: LogReader, protocol: Protocol, program: bytes | None = None) -> Replay:
-    """Feeds what one robot has heard, by a log, to the firmware, and compares drives and memories.
+    """Feeds the frames to one robot from a log to the firmware, and compares drives and memories.
 
     Args:
         log: The log.
@@ -173,7 +173,7 @@ class _Comparison:
         return None if answer == frame else Difference(self._time_us, frame, answer)
 
     def _answer_in_real_time(self, drive: Frame, tick: int) -> Frame | None:
-        """What the firmware answers if it has heard as much of the unanswered senses as makes it drive like that.
+        """The firmware's answer, if some number of unanswered senses explains the recorded drive.
 
         Often several guesses do. All of them are kept, and later drives rule out the wrong ones.
         """

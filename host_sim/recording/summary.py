@@ -23,7 +23,7 @@ _COUNTED = {"trials": Reason.TRIAL, "remembered_turns": Reason.REMEMBERED, "bore
 
 @dataclass(frozen=True)
 class Summary:
-    """What came of a run, of one robot or of thousands.
+    """The results of a run, of one robot or of thousands.
 
     Attributes:
         content: The contents of `summary.json`: see `summarize`, or `summarize_fleet` for a fleet.
@@ -66,8 +66,8 @@ def summarize(
       their limit, and may be more), round_trip_ms (mean time of an answer), real_time (ticks, how
       fast the clock was, share of ticks without an answer, longest gap, share that began late by more than a tick,
       the most that one was late; null in lockstep), line (outages and unsent frames).
-    - changes: The changes that were asked for: those that happened, those refused because they could not be, and
-      those missed, for which the run or their environment was too short.
+    - changes: The scheduled changes: those that happened, those refused as impossible, and those missed because the
+      run or their environment was too short.
     - incidents: What happened that makes the result doubtful, each with tick and node; empty for a sound run. Of very
       many, the last entry of a robot says how many are left out.
     - log_sha256: SHA-256 of the lines of the log without the data of BOOT, in hexadecimal.
@@ -163,7 +163,7 @@ def _robot(client: RobotClient) -> dict[str, Any]:
 
 
 def _link(robot: dict[str, Any]) -> str:
-    """What was not as it should be between simulator and robot; empty if nothing."""
+    """What went wrong between simulator and robot; empty if nothing did."""
     frames, faults, saturated = robot["frames"], robot["faults"], robot["saturated"]
     counts = {
         "repeated": frames["repeated"],

@@ -1,4 +1,4 @@
-"""A program of one's own on a bus: a process that finds the bus in its environment, by the names that python-can has.
+"""A user's own program on a bus: a process that finds the bus in its environment, in python-can's variables.
 
 CAN_INTERFACE is `octet` and CAN_CHANNEL the number of an open socket, which carries Linux's `struct can_frame`, one a
 datagram, as SocketCAN does; or they are an interface and a channel of python-can's, such as `socketcan` and `vcan0`.
@@ -24,7 +24,7 @@ _PRINTED_MAX = 300
 
 
 class BusProcess:
-    """A running program, with all that it starts.
+    """A running program, with all processes that it starts.
 
     Attributes:
         pid: Process id. All that the program starts is in a process group of this number.

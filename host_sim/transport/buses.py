@@ -1,4 +1,4 @@
-"""Opens the link that a bus name on the command line stands for."""
+"""Opens the link for a bus name from the command line."""
 
 import errno
 import logging

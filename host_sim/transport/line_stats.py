@@ -12,7 +12,7 @@ class LineStats:
     Attributes:
         outages: Number of times that the line was gone.
         unsent: Number of frames that could not be sent; a frame that matters is sent again.
-        garbled: Number of lines of text that are no frame: noise.
+        garbled: Number of lines of text that were not frames: noise.
         copies: How many times a serial line sends each frame at once: more than once while it is noisy.
         reason: Why the line was gone last.
     """
@@ -40,7 +40,7 @@ class LineStats:
         self._garbled_before = self.garbled
 
     def account(self) -> str:
-        """What is worth telling in an error message, as a continuation of a sentence; empty for nothing."""
+        """Details for an error message, as a continuation of a sentence; empty if there are none."""
         parts = []
         if self.outages:
             parts.append(f"the line was gone {self.outages} times, last: {self.reason}")

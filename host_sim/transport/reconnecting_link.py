@@ -1,4 +1,4 @@
-"""A link that reconnects: after a bus went down, or an adapter was unplugged."""
+"""A link that reconnects after a bus went down or an adapter was unplugged."""
 
 import time
 from collections.abc import Callable
@@ -16,7 +16,7 @@ class ReconnectingLink:
     """Opens a link again whenever it is gone. What is sent meanwhile is lost; `receive` waits until it is back."""
 
     def __init__(self, name: str, open_link: Callable[[], Link], stats: LineStats, patience_s: float) -> None:
-        """Opens the link for the first time. One that is down is waited for as one that goes down later.
+        """Opens the link for the first time. If it is down, waits for it, as if it went down later.
 
         Args:
             name: Name of the line, for messages.
@@ -51,8 +51,8 @@ class ReconnectingLink:
     def receive(self, timeout_s: float) -> Frame | None:
         """As in `Link`.
 
-        A line that is gone is waited for, whatever the timeout, and then the result is None: something has to be sent
-        before it is known whether the line works again.
+        If the line is gone, waits for it, whatever the timeout, and then returns None: only sending something shows
+        whether the line works again.
 
         Raises:
             RobotError: The line has been gone for too long.

@@ -13,7 +13,7 @@ _SLICE_S = 0.0005
 
 
 class Share:
-    """What one node's update has of the link; as a `Link`. A thread of its own may use it."""
+    """One node's share of the link, as a `Link`. Another thread may use it."""
 
     def __init__(self, outbox: "SimpleQueue[Frame]") -> None:
         """Nothing has come yet.
@@ -32,7 +32,7 @@ class Share:
     def receive(self, timeout_s: float) -> Frame | None:
         """As in `Link`."""
         if self.ended:
-            raise LinkDownError("the update was interrupted; the same command goes on where it was")
+            raise LinkDownError("the update was interrupted; run the same command again to resume")
         try:
             return self.inbox.get(timeout=timeout_s) if timeout_s > 0 else self.inbox.get_nowait()
         except Empty:
@@ -43,7 +43,7 @@ class Share:
 
 
 class Hub:
-    """Hands frames on between a link and updates, each in a thread; only the caller's thread touches the link."""
+    """Passes frames between a link and updates, each in a thread; only the caller's thread uses the link."""
 
     def __init__(self, link: Link) -> None:
         """Nobody has a share yet.
@@ -56,11 +56,11 @@ class Hub:
         self._shares: dict[int, Share] = {}
 
     def share(self, node: int) -> Share:
-        """What the update of that node uses as its link."""
+        """The link for the update of that node."""
         return self._shares.setdefault(ANSWER_ID + node, Share(self._outbox))
 
     def run(self, jobs: Mapping[int, Callable[[], None]]) -> dict[int, BaseException | None]:
-        """Does the jobs, all at once.
+        """Runs the jobs concurrently.
 
         Returns:
             What each of them raised.

@@ -54,12 +54,12 @@ LAYOUTS = {
 
 @dataclass(frozen=True)
 class SlotImage:
-    """What goes into one slot: header, program, signature.
+    """The content of one slot: header, program, signature.
 
     Attributes:
         data: All of it.
         slot: 0 or 1.
-        version: A number that rises.
+        version: Its version number; later ones are higher.
         board: What it is for.
     """
 
@@ -112,24 +112,24 @@ def read_image(data: bytes) -> SlotImage:
     """Reads one signed image; its signature is the board's to check.
 
     Raises:
-        UsageError: It is none, or was cut short.
+        UsageError: It is not an image, or was cut short.
     """
     if len(data) < HEADER.size or not data.startswith(_MAGIC):
-        raise UsageError("no image of ours: it does not begin as one")
+        raise UsageError("not an Octet image: it has no Octet header")
     _, size, crc, version, number, slot, _, _, board = HEADER.unpack_from(data)
     if number != _FORMAT or slot >= SLOTS or len(data) < size + SIGNATURE:
         raise UsageError("the image was cut short, or its header is damaged")
     data = data[: size + SIGNATURE]
     if zlib.crc32(data[_CRC_FROM:size]) != crc:
-        raise UsageError("the image is damaged: its CRC does not fit")
+        raise UsageError("the image is damaged: its CRC is wrong")
     return SlotImage(data, slot, version, board.rstrip(b"\0").decode("ascii", "replace"))
 
 
 def read_file(path: Path) -> dict[int, SlotImage]:
-    """Reads an update: an image for each slot, one behind the other.
+    """Reads an update: an image for each slot, one after the other.
 
     Raises:
-        UsageError: It cannot be read, or is none.
+        UsageError: It cannot be read, or is not an update.
     """
     try:
         data = path.read_bytes()
@@ -144,12 +144,12 @@ def read_file(path: Path) -> dict[int, SlotImage]:
     except UsageError as error:
         raise UsageError(f"{path}: {error}") from error
     if len({(image.board, image.version) for image in images.values()}) != 1 or len(images) != SLOTS:
-        raise UsageError(f"{path}: no update: an update has an image for each slot")
+        raise UsageError(f"{path} is not an update: an update has an image for each slot")
     return images
 
 
 def built_images(board: str, link: str, version: int, key: Ed25519PrivateKey) -> list[SlotImage]:
-    """Signs what the build has left for a board: an image for each slot.
+    """Signs the images that were built for a board, one for each slot.
 
     Raises:
         UsageError: The board has no boot loader.
@@ -167,5 +167,5 @@ def built_images(board: str, link: str, version: int, key: Ed25519PrivateKey) ->
 
 
 def version_now() -> int:
-    """A version that is higher than those before: seconds since 1970."""
+    """A version that is higher than all before: seconds since 1970."""
     return int(time.time())

@@ -63,13 +63,13 @@ class IsoTpConnection(BaseConnection):
         return True
 
     def empty_rxqueue(self) -> None:
-        """As in udsoncan: what was answered to an earlier request counts no more."""
+        """As in udsoncan: discards answers to earlier requests."""
         self._layer.process(0.0)
         self._layer.clear_rx_queue()
         self._layer.stop_receiving()
 
     def specific_send(self, payload: bytes, timeout: float | None = None) -> None:  # noqa: ARG002 - udsoncan's
-        """As in udsoncan; what is still on its way is given up."""
+        """As in udsoncan; aborts a message in progress."""
         self._layer.stop_sending()
         self._layer.clear_tx_queue()
         self._layer.send(payload)
@@ -86,7 +86,7 @@ class IsoTpConnection(BaseConnection):
                 raise TimeoutException(f"no answer within {timeout} s")  # type: ignore[no-untyped-call]
 
     def answers(self, service: int, timeout_s: float) -> int:
-        """How many boards answer to a service that none has: each refuses it by its number."""
+        """Number of boards that answer to a service that none has: each refuses it by the service's number."""
         self.empty_rxqueue()
         self._link.send(Frame(self._request_id, bytes([1, service, *_PADDING])))
         count = 0

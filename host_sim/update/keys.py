@@ -22,17 +22,17 @@ __all__ = ["Ed25519PrivateKey", "development_key", "is_development", "load_key",
 
 
 def development_key() -> Ed25519PrivateKey:
-    """The key of images that nobody has to protect: everybody has it."""
+    """The public key pair for images that need no protection."""
     return Ed25519PrivateKey.from_private_bytes(hashlib.sha256(b"octet development key: everybody has it").digest())
 
 
 def public_bytes(key: Ed25519PrivateKey) -> bytes:
-    """The public half, 32 bytes."""
+    """The public key, 32 bytes."""
     return key.public_key().public_bytes(Encoding.Raw, PublicFormat.Raw)
 
 
 def is_development(shown: bytes) -> bool:
-    """Whether a public key, or its begin, is that of the development key."""
+    """Whether a public key, or its first bytes, belongs to the development key."""
     return public_bytes(development_key()).startswith(shown)
 
 
@@ -62,7 +62,7 @@ def load_key(path: Path) -> Ed25519PrivateKey:
     except OSError as error:
         raise UsageError(f"cannot read the key {path}: {error.strerror}") from error
     except (TypeError, ValueError) as error:
-        raise UsageError(f"{path} is no private key without a password, in PEM") from error
+        raise UsageError(f"{path} is not a private key in PEM format without a password") from error
     if not isinstance(key, Ed25519PrivateKey):
-        raise UsageError(f"{path} is no Ed25519 key; tools/octet keygen makes one")
+        raise UsageError(f"{path} is not an Ed25519 key; tools/octet keygen makes one")
     return key

@@ -1,4 +1,4 @@
-"""What a boot loader says of its board, and why it refuses an update."""
+"""The status that a boot loader reports, and its reasons to refuse an update."""
 
 import struct
 from dataclasses import dataclass
@@ -7,13 +7,13 @@ from host_sim.base.errors import RobotError
 
 _STATUS = struct.Struct(">BBBBIIIBIB4s")
 REASONS = {
-    1: "it is no image of ours",
+    1: "it is not an Octet image",
     2: "it is for another chip",
     3: "it is for another board",
     4: "it is for another layout of the flash",
     5: "it is for the other slot",
     6: "it is too long for its slot",
-    7: "it is older than the board takes; --allow-older lowers that",
+    7: "it is older than the board accepts; --allow-older permits it",
     8: "it is not the image that was announced",
     9: "it arrived damaged",
     10: "it is not signed by the key of this board",
@@ -22,24 +22,24 @@ REASONS = {
 
 
 class UpdateError(RobotError):
-    """The board did not take the update, and runs what it ran before; says why."""
+    """The board refused the update and keeps its old firmware; the message says why."""
 
     exit_code = 2
 
 
 @dataclass(frozen=True)
 class Status:
-    """What a boot loader says of its board.
+    """The status of a board, as its boot loader reports it.
 
     Attributes:
         installed: Bit s is set if slot s has a signed image.
-        slot: The one that starts.
+        slot: The slot that starts.
         trial: 0 if its image is confirmed, else 1 more than its starts so far.
         free: The slot that an update goes to.
-        floor: Lowest version that is taken.
-        versions: Of what is in the slots; 0 for none.
+        floor: Lowest version that is accepted.
+        versions: Versions in the slots; 0 for none.
         reason: Why the last image was refused.
-        signer: The begin of the public key.
+        signer: The first bytes of the public key.
     """
 
     installed: int
@@ -53,6 +53,6 @@ class Status:
 
     @classmethod
     def unpack(cls, data: bytes) -> "Status":
-        """As the board sends it."""
+        """Decodes what the board sends."""
         installed, slot, trial, free, floor, a, b, _, _, reason, signer = _STATUS.unpack(data)
         return cls(installed, slot, trial, free, floor, (a, b), reason, signer)

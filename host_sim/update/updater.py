@@ -1,4 +1,4 @@
-"""Updates one robot, as docs/update.md has it: whatever is lost on the way is said again, or gone on from."""
+"""Updates one robot, as in docs/update.md: repeats what is lost, and resumes where it stopped."""
 
 import struct
 import time

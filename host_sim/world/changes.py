@@ -109,5 +109,5 @@ def read_changes(text: str) -> list[str]:
         return [str(Change.parse(text))]
     path = Path(text.removeprefix("@"))
     if not path.exists():
-        raise UsageError(f"{text!r} is neither a change nor an existing file of changes: {_FORM}")
+        raise UsageError(f"{text!r} is neither a change nor a file of changes that exists: {_FORM}")
     return read_words(path, _FILE_MAX, lambda word: str(Change.parse(word)))

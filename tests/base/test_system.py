@@ -86,7 +86,7 @@ def test_where_robots_are_no_processes_a_bus_is_refused_in_a_line():
     )
 
     assert done.returncode == 2
-    assert done.stderr == "octet: on this system a robot starts in this process only, not on fd: use --bus none\n"
+    assert done.stderr == "octet: on this system a robot can only run in this process, not on fd: use --bus none\n"
 
 
 @pytest.mark.parametrize(("has_processes", "bus"), [(True, "fd"), (False, "none")])

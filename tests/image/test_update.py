@@ -170,7 +170,7 @@ def test_an_older_image_is_refused_before_anything_is_erased(rig):
     tester.unlock()
     before = written(board)
 
-    with pytest.raises(UpdateError, match="older than the board takes"):
+    with pytest.raises(UpdateError, match="older than the board accepts"):
         tester.install(rig.images(OLD - 1)[1], lambda _count: None)
     assert written(board) == before
     tester.lower_floor(OLD - 1)

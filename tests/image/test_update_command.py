@@ -18,7 +18,7 @@ def on_the_bus(monkeypatch):
     [
         ("blue_pill", "nowhere to put the image: give --bus BUS"),
         ("--bus virtual:x", "IMAGE is missing: give a file from --save, or a board"),
-        ("--bus virtual:x --node 1-2 --set-node 3", "--set-node gives one robot its number"),
+        ("--bus virtual:x --node 1-2 --set-node 3", "--set-node is for one robot"),
         ("nowhere.octet --bus virtual:x", "cannot read nowhere.octet"),
         ("blue_pill --key nowhere.pem --bus virtual:x", "cannot read the key nowhere.pem"),
         ("blue_pill --bus carrier:pigeon", "cannot open the bus carrier:pigeon"),

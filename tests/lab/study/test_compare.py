@@ -128,6 +128,6 @@ def test_a_study_of_robots_in_worlds_of_their_own_is_compared_as_fleets(tmp_path
     plan.write_text(f'profiles = ["fixed"]\n{few}')
 
     assert main(["study", str(plan), "--out", str(tmp_path / "out")]) == 2
-    assert f"run it with tools/octet compare {plan}" in capsys.readouterr().err
+    assert f"use tools/octet compare {plan}" in capsys.readouterr().err
     assert main(["compare", str(plan)]) == 0
     assert "a: 2 seeds of 1 environment each" in capsys.readouterr().out

@@ -38,7 +38,7 @@ def test_robots_of_a_study_share_a_world_or_have_their_own(plan):
 
 
 def test_brackets_without_end_are_refused(plan):
-    with pytest.raises(UsageError, match="too many brackets"):
+    with pytest.raises(UsageError, match="brackets are nested too deeply"):
         plan("profiles = " + "[" * 5000)
 
 

@@ -134,7 +134,7 @@ def test_the_command_prints_what_it_found_and_a_run_takes_it(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["--only", "turn_deg", "--set", "turn_deg=3"], "nothing to search"),
+        (["--only", "turn_deg", "--set", "turn_deg=3"], "nothing to tune"),
         (["--profile", "genius"], "genius"),
         (["--set", "@nowhere.txt"], "cannot read nowhere.txt: there is no such file"),
         (["--set", "turn_deg=999"], "from 1 to 180"),
