@@ -84,7 +84,7 @@ def state(**fields: object) -> State:
 @pytest.mark.parametrize(
     ("fields", "words"),
     [
-        ({"reason": 1}, "Nothing in my way: I drive on and look about for food."),
+        ({"reason": 1}, "Nothing in my way: I drive on and look around for food."),
         ({"reason": 2, "beacon": 430}, "I see food 0.43 m ahead: I drive toward it."),
         ({"reason": 4, "pattern": 4}, "Front-left blocked: I remember that turning right helped."),
         ({"reason": 4, "pattern": 4, "by_hand": [1] * 8}, "Front-left blocked: I was told to turn right."),

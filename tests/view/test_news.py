@@ -37,8 +37,8 @@ def test_what_happens_to_all_robots_is_one_piece_of_news_and_else_the_robot_is_n
     one = Edited(9, Edit("body", what="swap-motors", robot=1))
 
     assert news_of(record(*both, one, robots=2)) == [
-        (6, "The ring of sensors was mounted the other way round."),
-        (9, "Robot 2: The plugs of the motors were swapped."),
+        (6, "The sensor ring was mounted the wrong way round."),
+        (9, "Robot 2: The motor plugs were swapped."),
     ]
 
 
@@ -57,7 +57,7 @@ def test_what_could_not_happen_is_news_in_its_place():
         ("stuck-off:front", "The front sensor is dead: it never sees anything."),
         ("noise:10/1000", "Each sensor is wrong in 10 of 1000 ticks."),
         ("weak-motor:left:60%", "The left motor turns at 60% of its speed."),
-        ("odometer:left:-100%", "The left odometer counts -100% of its wheel's way."),
+        ("odometer:left:-100%", "The left odometer counts -100% of its wheel's travel."),
         ("false-beacon:90", "The beacon shows food 90 mm ahead where there is none."),
         ("slack:3deg", "The gears have 3deg more slack."),
         ("repair", "The body was repaired."),

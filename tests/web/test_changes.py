@@ -45,7 +45,7 @@ def test_the_page_of_a_run_goes_from_change_to_change_and_says_what_happened(sur
         wait_for(page, "!octet.stale")
         seen.append(page.inner_text("#news"))
 
-    assert seen[:2] == ["0:01.0 A plant was put down.", "0:02.0 The plugs of the motors were swapped."]
+    assert seen[:2] == ["0:01.0 A plant was put down.", "0:02.0 The motor plugs were swapped."]
     assert seen[2].startswith("0:03.0 grow:900@3s could not happen: a plant has a radius of 20 to 500 mm")
     wait_for(page, GREEN)
 
@@ -55,7 +55,7 @@ def test_the_live_page_shows_what_happens_when_it_does(watch, open_page):
     assert page.inner_text("#news") == ""
     full_speed(page)
 
-    wait_for_text(page, "#news", "The plugs of the motors were swapped.")
+    wait_for_text(page, "#news", "The motor plugs were swapped.")
     wait_for(page, GREEN)
 
 
@@ -64,7 +64,7 @@ def test_a_page_that_joins_late_is_told_what_happened(watch, open_page):
     full_speed(open_page(watched.url))
     page = open_page(watched.url)
 
-    wait_for_text(page, "#news", "The plugs of the motors were swapped.")
+    wait_for_text(page, "#news", "The motor plugs were swapped.")
 
 
 SAY = """async (lists) => {
