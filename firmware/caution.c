@@ -30,7 +30,7 @@ static void expect(struct caution *caution)
     caution->turned_deg = 0;
 }
 
-/* Turned toward what the next sensor has shown until then, it has that in front. */
+/* After turning toward what the next sensor showed, that is in front. */
 void caution_see(struct caution *caution, uint8_t feel, bool blind)
 {
     if (!blind)
@@ -39,7 +39,7 @@ void caution_see(struct caution *caution, uint8_t feel, bool blind)
         expect(caution);
 }
 
-/* What is done before the brain is asked: a step back, or a turn aside and back again. False: nothing. */
+/* Chooses an action that comes before the brain's: a step back, or a turn aside and back. False: none. */
 static bool acts(struct caution *caution, const struct senses *senses, struct action *action)
 {
     enum doing done = (enum doing)caution->doing;
@@ -64,7 +64,7 @@ static bool acts(struct caution *caution, const struct senses *senses, struct ac
     return true;
 }
 
-/* It is as far as it may be where another step would be farther. */
+/* It is far enough if another step would be too far. */
 static void drive_blind(struct caution *caution, int forward_mm)
 {
     int driven = caution->blind_mm + forward_mm;

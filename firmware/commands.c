@@ -16,7 +16,7 @@ static enum result start(struct robot *robot, const struct command *command, uin
     robot->action = 0;
     robot->denials = 0;
     robot->turn_denied = false;
-    if (!robot->running)   /* whoever watches one that runs is not kept waiting for its report */
+    if (!robot->running)   /* observers of a running robot need not wait for its report */
         robot->part_ms = 0;
     motion_start(&robot->motion);
     perception_start(&robot->perception);

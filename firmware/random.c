@@ -1,6 +1,6 @@
 #include "firmware/random.h"
 
-enum { TRIES_MAX = 64 };   /* a draw that fails so often in a row comes less than once in 2^64 */
+enum { TRIES_MAX = 64 };   /* the chance that so many draws in a row fail is below 2^-64 */
 
 static uint32_t rotated(uint32_t x, unsigned bits)
 {
@@ -17,7 +17,7 @@ static uint32_t mixed(uint32_t x)
 
 void random_seed(struct random *random, uint32_t seed)
 {
-    /* The mixing is one to one and the two arguments differ, so that at most one word is 0. */
+    /* The mixing is a bijection and the two arguments differ, so at most one word is 0. */
     for (unsigned i = 0; i < 2; i++) {
         seed += 0x9e3779b9u;
         random->state[i] = mixed(seed);
@@ -42,7 +42,7 @@ uint8_t random_below(struct random *random, uint8_t n)
     mask |= (uint8_t)(mask >> 1);
     mask |= (uint8_t)(mask >> 2);
     mask |= (uint8_t)(mask >> 4);
-    /* Throwing away what is too big keeps the rest equally likely, where a remainder would favour small numbers. */
+    /* Rejecting numbers that are too big keeps the rest uniform; a remainder would favour small numbers. */
     for (unsigned tries = 0; tries < TRIES_MAX; tries++) {
         drawn = (uint8_t)(random_next(random) >> 24) & mask;
         if (drawn < n)

@@ -2,9 +2,9 @@
 
 enum {
     SECOND_MS = 1000,      /* a report is due once a second of robot time, */
-    REPORT_SILENCES = 10,  /* or, where no tick comes, with every tenth silence */
+    REPORT_SILENCES = 10,  /* or, without ticks, with every tenth silence */
     FRONT = 4,             /* of feel */
-    DENIALS_MAX = 2        /* so many are held against the wheels: the next one stops the robot */
+    DENIALS_MAX = 2        /* denials tolerated: the next one stops the robot */
 };
 
 void robot_init(struct robot *robot, uint32_t seed)
@@ -24,7 +24,7 @@ static void begin_next_action(struct robot *robot, struct senses *senses)
     robot->action = (uint8_t)((robot->action + 1u) % ACTION_SPAN);
 }
 
-/* From wheels that do not obey there is nothing to learn, and driving on blindly is not safe. */
+/* Nothing can be learned with wheels that do not obey, and driving on blindly is not safe. */
 static void note_denial(struct robot *robot)
 {
     robot->turn_denied = motion_tells(&robot->motion);
@@ -34,7 +34,7 @@ static void note_denial(struct robot *robot)
         robot->running = false;
 }
 
-/* A step says nothing of wheels that do not turn well. */
+/* A step does not show how well the wheels turn. */
 static void judge(struct robot *robot, bool denied)
 {
     bool tells = motion_tells(&robot->motion) || !robot->turn_denied;
@@ -87,7 +87,7 @@ static void drive_init(struct drive *drive, const struct robot *robot, enum reas
     };
 }
 
-/* Food at no distance, or a distance to no food: neither is believed. Odometers jump where the robot was carried, or its body
+/* Food without a distance, or a distance without food, is not believed. Odometers jump if the robot was carried or its body
  * reset. */
 static bool make_credible(struct robot *robot, struct senses *senses)
 {
@@ -126,7 +126,7 @@ void robot_step(struct robot *robot, const struct senses *senses, struct drive *
     *drive = out.drive;
 }
 
-/* One tick of robot time. True: it makes a second full. */
+/* Counts a tick of robot time. True: it completes a second. */
 static bool pass_time(struct robot *robot)
 {
     robot->part_ms = (uint16_t)(robot->part_ms + robot->config.value[TICK_MS]);
@@ -137,7 +137,7 @@ static bool pass_time(struct robot *robot)
     return true;
 }
 
-/* What may be told, whether it is due or not: a report takes many ticks. */
+/* Fills in the report whether it is due or not: sending it takes many ticks. */
 static void describe(const struct robot *robot, struct output *out)
 {
     for (unsigned p = 0; p < CELL_COUNT; p++)
@@ -148,8 +148,8 @@ static void describe(const struct robot *robot, struct output *out)
     out->report.uptime_s = robot->uptime_s;
 }
 
-/* A second is over. What was learned from others is reported a tick later, as in every second: so it makes no difference which
- * robot was asked first in this tick. */
+/* Ends a second. What was learned from others is reported a tick later, so that it makes no difference which robot was
+ * asked first in this tick. */
 static bool take_votes(struct robot *robot)
 {
     bool took = robot->running && robot->sharing.whole && brain_take_votes(&robot->brain, robot->sharing.votes);

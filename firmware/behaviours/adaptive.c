@@ -1,4 +1,4 @@
-/* adaptive: as forgetful, but a cell that has proved its worth is not forgotten at once. */
+/* adaptive: as forgetful, but a cell that has proved its worth is not forgotten at the first failure. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/used_cells.h"
 

@@ -1,5 +1,5 @@
-/* distance: the article's robot, but the nearer the thing in its way, the bigger the remembered turn: TURN_DEG where it is as
- * far as the sensors reach, FARTHER_DEG more where it touches the body, and in proportion between, to the nearest degree. */
+/* distance: the article's robot, but the nearer the obstacle, the bigger the remembered turn: TURN_DEG at the sensors' maximum
+ * range, FARTHER_DEG more at the body, linear between, rounded to a degree. */
 #include "firmware/behaviours/behaviour.h"
 
 enum {

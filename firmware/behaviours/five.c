@@ -1,5 +1,5 @@
-/* five: the article's robot with a turn for each reading of all five sensors. The front three still say what is in the
- * way, and judge a trial. Boredom can strike again, as in rearmed, and forgets the turns for what was in the way. */
+/* five: the article's robot with a turn for each reading of all five sensors. The front three still decide what is in
+ * the way, and judge a trial. Boredom can strike again, as in rearmed, and forgets the turns for what was in the way. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/listing.h"
 #include "firmware/memory/feel_memory.h"
@@ -12,7 +12,7 @@ bool five_begin(struct brain *brain)
     return true;
 }
 
-/* What was in the way was the same whatever was beside it. */
+/* The obstacle ahead was the same whatever was beside it. */
 static void forget(struct brain *brain)
 {
     brain->repeat_count = 0;

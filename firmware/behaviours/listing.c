@@ -2,7 +2,7 @@
 
 #include "firmware/pattern.h"
 
-enum { FILTER_TICKS = 2 };   /* after these, what is filtered is of the same place */
+enum { FILTER_TICKS = 2 };   /* after these, all filtered readings are from the same place */
 
 static struct action turn(enum reason reason, enum side side, unsigned degrees)
 {

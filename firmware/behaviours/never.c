@@ -1,5 +1,5 @@
-/* never: it remembers nothing: each time that it is blocked, it tries. After too many trials in a row the next one is a
- * bigger turn: by trials alone a robot has eight directions, which a corner can block all. */
+/* never: it remembers nothing, and tries each time that it is blocked. After too many trials in a row the next one is a
+ * bigger turn: trials alone reach only eight directions, and a corner can block them all. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/listing.h"
 

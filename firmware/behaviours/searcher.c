@@ -1,6 +1,6 @@
-/* searcher: as adaptive, but a lesson of what is on one side is one of what is on the other, too. It has another way of
- * looking for food: it drives straight on, turns once around where it has not looked for a while, and goes straight to what
- * it sees. */
+/* searcher: as adaptive, but a lesson about one side also teaches the mirror image. It looks for food in another way: it
+ * drives straight on, turns once around where it has not looked for a while, and goes straight to the food that it
+ * sees. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/listing.h"
 #include "firmware/behaviours/used_cells.h"
@@ -9,23 +9,23 @@
 enum {
     CONFIDENCE = 1,
     PRAISE = 1,
-    LOOK_EVERY_MM = 1000,   /* way between two turns around */
-    LOOK_AGAIN_MM = 200,    /* after losing sight of food: way to the next one; twice that when it is lost again */
+    LOOK_EVERY_MM = 1000,   /* distance between two turns around */
+    LOOK_AGAIN_MM = 200,    /* after losing sight of food: distance to the next one; twice that when it is lost again */
     WHOLE_TURN_DEG = 360,
-    LEAVE_CHOICES = 60,     /* of the direction in which it goes on where it has seen no food, one degree apart; */
-    SOONER_MM = 8           /* for each of these degrees it looks so much sooner again: it never goes the same round for ever */
+    LEAVE_CHOICES = 60,     /* directions, one degree apart, in which it continues if it saw no food; */
+    SOONER_MM = 8           /* per degree it looks this much sooner again, so that it never repeats a loop for ever */
 };
 
 enum { FRONT_RIGHT = 1, FRONT = 2, FRONT_LEFT = 4 };   /* of a pattern */
 
 bool searcher_begin(struct brain *brain)
 {
-    brain->ate = true;   /* all the same: it looks around first */
+    brain->ate = true;   /* so that it looks around first */
     brain->tried_side = SIDE_NOTHING;
     return true;
 }
 
-/* Food that it has lost sight of is where the thing is that it has turned away from. */
+/* Food that it has lost sight of is behind the obstacle that it has turned away from. */
 static struct action look_all_around(struct brain *brain)
 {
     int more = random_below(&brain->random, LEAVE_CHOICES);
@@ -86,8 +86,8 @@ static struct action choose(struct brain *brain, const struct config *config, co
     return listing_next(brain, config, senses, memory_recall(&brain->memory, pattern));
 }
 
-/* The body is the same on both sides, whatever has been mixed up in it: a lesson of a thing on one side is one of a thing on
- * the other, too. */
+/* The body is symmetric, even if its wires are mixed up: a lesson about an obstacle on one side also holds, mirrored, for the
+ * other side. */
 static void generalize(struct brain *brain)
 {
     uint8_t *cell = brain->memory.cell;

@@ -12,13 +12,13 @@ enum {
     ANY_PACE = UINT16_MAX,                         /* of pace_left: never used up */
     PACE_MARGIN_TICKS = 2,                         /* at full speed, for drives that come late */
     PACED_TICKS = 8,                               /* at full speed: shorter turns are too short to tell */
-    SPEED_TICKS = 9,                               /* one more in a row told the same, and wheels make half of it */
-    STOPPED_COUNTS = 5,                            /* of both wheels in a tick: they all but stand */
-    HOLD_TICKS = 5,                                /* without a new drive, a body goes on for this long and then rests */
+    SPEED_TICKS = 9,                               /* after one more with the same command, wheels roll at least half of it */
+    STOPPED_COUNTS = 5,                            /* of both wheels in a tick: almost at rest */
+    HOLD_TICKS = 5,                                /* a body without a new drive continues for this long, then rests */
     ASTRAY_PER_S = 5,                              /* wheels may go astray as far as they both roll in 1/5 second */
-    CREDIBLE_EIGHTHS = 13,                         /* of the fastest that a wheel is told, it may be seen to roll, */
-    CREDIBLE_COUNTS = 2,                           /* and so much more, in fewer ticks than a count takes */
-    RESTART_COUNTS = 8                             /* a body that was restarted has rolled no farther when it is heard again */
+    CREDIBLE_EIGHTHS = 13,                         /* of the fastest commanded speed is credible, */
+    CREDIBLE_COUNTS = 2,                           /* and this much more, for rounding over few ticks */
+    RESTART_COUNTS = 8                             /* a restarted body has rolled no farther when it is heard again */
 };
 
 static bool is_turn(const struct motion *motion)
@@ -32,7 +32,7 @@ static uint32_t full_speed(const struct motion *motion, const struct config *con
     return is_turn(motion) ? wheels_turning_mm_s(config) : config->value[SPEED_MM_S];
 }
 
-/* What the wheels are still to be told of the current action: the counts of both together, right or forward positive. */
+/* What is still to be commanded in the current action: counts of both wheels together, right or forward positive. */
 static int32_t counts_left(const struct motion *motion)
 {
     if (motion->kind == MOTION_REST)
@@ -42,7 +42,7 @@ static int32_t counts_left(const struct motion *motion)
     return motion->way_left - owed_counts(&motion->together);
 }
 
-/* The wheel speed that covers counts in one tick, rounded, or the limit where that takes longer. */
+/* The wheel speed that covers counts in one tick, rounded, or the limit if that is too slow. */
 static int16_t speed_for(int32_t counts, const struct config *config, uint32_t limit_mm_s)
 {
     uint32_t per_mm_s = (uint32_t)WHEELS_COUNTS_PER_MM * config->value[TICK_MS];
@@ -78,7 +78,7 @@ static bool counts_anew(const struct motion *motion, const struct senses *senses
     return !did && is_near_0(senses->odometer_left) && is_near_0(senses->odometer_right);
 }
 
-/* Odometers that jump do not measure: the body was reset, or counts too much. */
+/* Odometers that jump are not credible: the body was reset, or counts too much. */
 bool motion_is_credible(const struct motion *motion, const struct config *config, const struct senses *senses,
                         unsigned ticks)
 {
@@ -115,7 +115,7 @@ bool motion_is_denied(const struct motion *motion, const struct config *config)
     return motion_gave_up(motion) || motion->pace_left == 0 || motion->astray >= astray_limit(config);
 }
 
-/* How many ticks the wheels were told to roll in since the last senses. */
+/* In how many ticks since the last senses the wheels were commanded to roll. */
 static unsigned pass_time(struct motion *motion, uint8_t tick)
 {
     unsigned ticks = (uint8_t)(tick - motion->tick);
@@ -126,8 +126,8 @@ static unsigned pass_time(struct motion *motion, uint8_t tick)
     return ticks < HOLD_TICKS ? ticks : HOLD_TICKS;
 }
 
-/* Wheels that roll apart in a step, or together in a turn, go astray, unless they still owe it. What they do right makes
- * amends for most of it, for a drive that comes late looks the same for a moment. */
+/* Wheels go astray if they turn the body in a step, or move it in a turn, unless they still owe that motion. Correct
+ * rolling offsets most of it, since a late drive looks the same for a moment. */
 static void judge_way(struct motion *motion, int32_t apart, int32_t together)
 {
     int32_t told = is_turn(motion) ? apart : together;
@@ -152,7 +152,7 @@ static void follow(struct motion *motion, int32_t left, int32_t right, unsigned 
     owed_settle(&motion->together, left + right, ticks);
 }
 
-/* What a turn takes: orders, which the wheels obey in the end however late they are, and in time a good part of the speed. */
+/* Whether a turn takes too much: commands, which late wheels also obey eventually, or speed, which they must soon reach. */
 static void judge_pace(struct motion *motion, unsigned ticks)
 {
     uint32_t told = wheels_magnitude(motion->apart.told[0]) * ticks;
@@ -164,7 +164,7 @@ static void judge_pace(struct motion *motion, unsigned ticks)
         motion->pace_left = 0;
 }
 
-/* It goes back to where it saw food, if it has gone past. */
+/* Turns back to where it saw food, if it has overshot. */
 static void find_food(struct motion *motion)
 {
     motion->kind = MOTION_TURN;
@@ -186,8 +186,8 @@ void motion_track(struct motion *motion, const struct senses *senses)
     motion->referenced = true;
 }
 
-/* Turned to within 1/8 degree with what the wheels still owe, which is little where a turn is judged by its end. Where they stop
- * before, since they do not obey an order so small, up to 1/2 degree is left for the next turn. */
+/* Turned to within 1/8 degree, counting what the wheels still owe, which is little if the end of the turn is judged. If they
+ * stop earlier, because they ignore such a small command, up to 1/2 degree is left for the next turn. */
 static bool has_turned(const struct motion *motion, const struct config *config)
 {
     uint32_t degree = wheels_turn_per_degree(config);
@@ -210,7 +210,7 @@ bool motion_ended(const struct motion *motion, const struct config *config, cons
     return motion->kind == MOTION_STEP && (counts_left(motion) <= WAY_PRECISION || pattern_of(senses->feel) != 0);
 }
 
-/* A turn that was not finished is not made up for: it would come as a surprise much later. */
+/* The rest of an unfinished turn is dropped: made up for much later, it would be a surprise. */
 static void leave_turn(struct motion *motion, const struct config *config)
 {
     int32_t owed = owed_counts(&motion->apart) * WHEELS_TURN_UNIT;
@@ -239,8 +239,8 @@ static enum motion_kind kind_of(const struct action *action)
     return action->forward_mm > 0 ? MOTION_STEP : MOTION_REST;
 }
 
-/* Ticks to allow: twice what a step needs at full speed, half as many more for a turn, and a little. What a turn may be told: 7/4
- * of its way and a little, but for turns that food may end, and those that are too short to tell. */
+/* Sets the timeout: twice what a step needs at full speed, three times for a turn, plus a margin. Sets what a turn may command:
+ * 7/4 of its arc plus a margin, except for turns that food may end and those too short to judge. */
 static void allow(struct motion *motion, const struct config *config)
 {
     uint32_t in_a_tick = wheels_counts_at(full_speed(motion, config), config);

@@ -3,8 +3,8 @@
 #include "firmware/motion/wheels.h"
 
 enum {
-    LAG_TICKS = 6,        /* wheels follow their orders with a lag of up to 120 ms, at 20 ms a tick */
-    ROUNDING = 3,         /* of odometers and orders in a tick */
+    LAG_TICKS = 6,        /* wheels follow commands with a lag of up to 120 ms, at 20 ms a tick */
+    ROUNDING = 3,         /* of odometers and commands in a tick */
     ROUNDING_SUM = 5,     /* and as it adds up */
     COUNTS_MAX = 16000    /* far beyond any wheel */
 };
@@ -24,8 +24,8 @@ void owed_tell(struct owed *owed, int32_t counts)
     owed->told[0] = (int16_t)counts;
 }
 
-/* How much more they owe than before. Told the same for so long that the order must have arrived, they owe only for the speed
- * that they gather: what is missing at a steady speed will never be rolled. */
+/* The increase of the distance owed. Once the same command must have arrived, wheels owe only for their acceleration: what is
+ * missing at a steady speed will never be rolled. */
 static int32_t more(const struct owed *owed, int32_t rolled, int32_t told)
 {
     int32_t gathered = LAG_TICKS * (rolled - owed->rolled);
@@ -38,7 +38,7 @@ static int32_t more(const struct owed *owed, int32_t rolled, int32_t told)
     return wheels_limited(gathered, magnitude(missing));
 }
 
-/* Wheels at that speed roll no farther than their lag and the orders on the way to them can make them. */
+/* Limits the distance owed to what lag and pending commands can make wheels at that speed roll. */
 static int32_t possible(const struct owed *owed, int32_t counts, int32_t rolled)
 {
     int32_t coast = LAG_TICKS * rolled + LAG_TICKS / 2 * (rolled - owed->rolled);   /* by the speed at the end of the tick */

@@ -6,7 +6,7 @@ uint32_t wheels_turn_per_degree(const struct config *config)
     return (config->value[WHEEL_TRACK_MM] * 366022u + 64u) / 128u;
 }
 
-/* Divisions here are unsigned throughout: a small processor has to bring its own, and one kind is enough. */
+/* All divisions here are unsigned: on a small processor division is a library routine, and one kind is enough. */
 uint32_t wheels_turning_mm_s(const struct config *config)
 {
     return wheels_turn_per_degree(config) / 64 * config->value[TURN_SPEED_DEG_S]

@@ -11,12 +11,12 @@ struct hal {
     struct link *link;
     struct wire wire;
     uint32_t heard_ms;   /* when senses last came, or silence was last reported */
-    uint32_t silent_ms;  /* since then, as of the last look at the clock, after each wait */
+    uint32_t silent_ms;  /* time since then, updated after each wait */
     unsigned silences;   /* in a row; stays at LAPSE_SILENCES */
-    bool outage;         /* the senses have failed to come; none have since */
+    bool outage;         /* the senses have stopped arriving */
     bool announced;      /* boot has been sent */
     struct frame boot;
-    struct frame frames[WIRE_FRAMES_MAX];   /* on their way out */
+    struct frame frames[WIRE_FRAMES_MAX];   /* to be sent */
     bool unstored;       /* storing memory was put off */
     uint8_t memory[CELL_COUNT];
 };
@@ -39,7 +39,7 @@ static void announce(struct hal *hal)
 
 int hal_open(struct hal **hal, int argc, char *const argv[])
 {
-    static struct hal body;   /* one to a program; main knows no size to make room for */
+    static struct hal body;   /* one per program: main does not know its size */
     struct port port;
     uint16_t ids[WIRE_LISTEN_COUNT + 1];
     int result = port_open(&port, argc, argv);
@@ -73,14 +73,14 @@ static int counted(struct hal *hal, int result)
     return result;
 }
 
-/* Counts a failure to store; one that was put off stays to be done. */
+/* Counts a failure to store; a postponed store remains pending. */
 static int stored(struct hal *hal, int result)
 {
     hal->unstored = hal->wire.health.unstored = result == PORT_LATER;
     return counted(hal, hal->unstored ? 0 : result);
 }
 
-/* Where the sender's clock counts, silence is not a fault, and nothing is skipped: the sender may pause. */
+/* In lockstep, silence is not a fault, and nothing is skipped: the sender may pause. */
 static void note_silence(struct hal *hal)
 {
     if (hal->silences < LAPSE_SILENCES)
@@ -112,8 +112,8 @@ static enum input_kind read_frame(struct hal *hal, const struct frame *frame, st
     return kind;
 }
 
-/* After an outage the queue holds what was true long ago: of all that waits, only the newest senses count. A command
- * among them comes first; the senses before it are out of date. */
+/* After an outage the queue holds stale senses, of which only the newest count. A command among them comes first; the
+ * senses before it are out of date. */
 static int take_newest(struct hal *hal, struct input *in)
 {
     struct frame frame;
@@ -161,7 +161,7 @@ static void serve_port(struct hal *hal, const struct frame *frame)
         wire_count(&hal->wire, FAULT_UNSENT);
 }
 
-/* Waits for one thing, whatever it is: what of it is for the robot, or INPUT_SILENCE. */
+/* Waits for one frame. Returns the robot's input in it, or INPUT_SILENCE. */
 static int receive_input(struct hal *hal, struct input *in, uint32_t wait_ms)
 {
     struct frame frame;

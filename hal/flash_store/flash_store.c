@@ -6,10 +6,10 @@
 #include "hal/flash_store/crc32.h"
 #include "hal/flash_store/flash.h"
 
-enum { TRIES_MAX = 4 };   /* worn places passed over in one go */
+enum { TRIES_MAX = 4 };   /* worn places skipped per save */
 
-/* Erased bytes and zeros in the right places, as an erase that is cut short leaves them behind a CRC that never was written,
- * have this CRC: no record has it. */
+/* An interrupted erase can leave erased bytes and zeros whose CRC is this, without any record having been written: so no record
+ * uses it. */
 #define NOT_WRITTEN UINT32_MAX
 
 struct record {
@@ -60,7 +60,7 @@ static enum content look(unsigned page, uint32_t offset, union place *out)
     return difference == 0 && out->record.crc != NOT_WRITTEN ? RECORD : RUBBISH;
 }
 
-/* Where the rest of a page begins that is blank: what comes before is written, or half written, or worn. */
+/* Where the blank rest of a page begins: everything before it is written, partly written or worn. */
 static uint32_t used_of(unsigned page, union place *scratch)
 {
     uint32_t size = size_of_place();
@@ -76,7 +76,7 @@ static bool has_record(const struct flash_store *store)
     return store->newest != FLASH_STORE_NOWHERE;
 }
 
-/* Numbers wrap; those of two records that are there at once lie close together. */
+/* Numbers wrap; those of any two stored records are close together. */
 static bool is_newer(const struct flash_store *store, uint32_t number)
 {
     return !has_record(store) || number - store->number - 1 < UINT32_MAX / 2;
@@ -101,15 +101,15 @@ static void make_record(union place *place, uint32_t number, const uint8_t memor
     place->record.crc = crc_of(&place->record);
 }
 
-/* Blank behind a mark. A page that is blank without one may owe that to an erase which lost its power: it would not hold
+/* Whether the page is blank after a mark. Without a mark it may be blank from an erase that lost power, and would not hold
  * for long what is written to it. */
 static bool is_erased(unsigned page, union place *scratch)
 {
     return used_of(page, scratch) == size_of_place() && look(page, 0, scratch) == MARK;
 }
 
-/* The old mark is overwritten first, lest it outlive an erase that loses its power. A mark that cannot be written is done
- * without: the page is in use from now on, and its records are as good a sign. */
+/* The old mark is overwritten first, so that it cannot survive an erase that loses power. If the new mark cannot be written,
+ * the page is used without it: its records serve the same purpose. */
 static int erase(unsigned page, union place *scratch)
 {
     static const uint8_t nothing[CELL_COUNT];   /* zeros */
@@ -126,7 +126,7 @@ static int erase(unsigned page, union place *scratch)
     return 0;
 }
 
-/* Goes on in the page that can be spared. 0, or as flash_store_save. */
+/* Continues in the page that can be spared. Returns 0, or as flash_store_save. */
 static int turn_page(struct flash_store *store, union place *scratch, bool may_erase)
 {
     uint8_t spare = (uint8_t)(2 * store->first + 1 - (has_record(store) ? store->kept : store->page));
@@ -177,7 +177,7 @@ int flash_store_open(struct flash_store *store, uint8_t memory[CELL_COUNT])
     return flash_store_open_at(store, 0, memory);
 }
 
-/* A later try that failed may turn out to be whole after a reset: then the newest record is not the last word. */
+/* A later attempt that failed may read as valid after a reset: then this record is not the newest. */
 static bool is_stored(const struct flash_store *store, union place *scratch, const uint8_t memory[CELL_COUNT])
 {
     return has_record(store) && look(store->kept, store->newest, scratch) == RECORD &&

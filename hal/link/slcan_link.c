@@ -157,7 +157,7 @@ static int write_by(int64_t deadline, int fd, const char *text, size_t len)
     return 0;
 }
 
-/* A line that may be cut short is ended first: else this one would be read as its tail. */
+/* Ends a line that may be cut short first, or this one would be read as its tail. */
 static int send_frame(struct link *link, const struct frame *frame)
 {
     struct slcan_link *slcan = (struct slcan_link *)link;

@@ -1,4 +1,4 @@
-/* A robot of its own: hal.h on the microcontroller's pins. */
+/* A body on pins: hal.h on the microcontroller's pins. */
 #include "hal/can_body/port.h"
 #include "hal/pins_body/button.h"
 #include "hal/pins_body/guard.h"
@@ -38,7 +38,7 @@ struct hal {
 
 int hal_open(struct hal **hal, int argc, char *const argv[])
 {
-    static struct hal body;   /* one to a program; main knows no size to make room for */
+    static struct hal body;   /* one per program: main does not know its size */
     struct port port;
     int result = port_open(&port, argc, argv);
 
@@ -55,7 +55,7 @@ int hal_open(struct hal **hal, int argc, char *const argv[])
     return 0;
 }
 
-/* What the controllers still wanted to make up for is forgotten. */
+/* Resets the controllers, position errors included. */
 static void rest(struct hal *hal)
 {
     for (unsigned side = 0; side < PINS_SIDES; side++) {
@@ -130,7 +130,7 @@ static void fill_senses(struct hal *hal, struct senses *senses)
     telemetry_senses(senses);
 }
 
-/* True once a tick, when all is known that there is to sense. */
+/* True once per tick, when all senses are known. */
 static bool pass_beat(struct hal *hal)
 {
     pins_wait();
@@ -169,7 +169,7 @@ static bool is_told(struct hal *hal, struct command *command)
     return true;
 }
 
-/* Orders to a robot whose wheels rest come before its next tick: that begins with them, so that none is in between. */
+/* Commands to a robot at rest come before its next tick, which begins with them, so that no tick is in between. */
 static enum input_kind take_order(struct hal *hal, struct input *in)
 {
     enum input_kind kind = telemetry_receive(in);
@@ -199,7 +199,7 @@ int hal_receive(struct hal *hal, struct input *in)
     return INPUT_SENSES;
 }
 
-/* An erase stops the machine for up to 40 ms: only where the wheels rest. */
+/* An erase stalls the machine for up to 40 ms: only while the wheels rest. */
 static void store_later(struct hal *hal)
 {
     if (hal->told_mm_s[0] != 0 || hal->told_mm_s[1] != 0)

@@ -5,7 +5,7 @@
 #include "octet.h"
 
 enum {
-    STRANGERS_MIN = 2,   /* within a second make a twin: of noise, one frame in some thousands has a right CRC */
+    STRANGERS_MIN = 2,   /* within a second are a twin: one noisy frame in some thousands has a valid CRC */
     MEMORY_FAMILY = (int)OCTET_MEMORY_FRAME_ID - 1,
     HALF = CELL_COUNT / 2
 };
@@ -95,8 +95,8 @@ static void fill_senses(const struct wire *wire, const struct octet_senses_t *go
         senses->range_mm[i] = have_ranges(wire, got->tick) ? wire->range_mm[i] : RANGE_NONE;
 }
 
-/* Two that differ for one tick are not both the owner's: what the robot holds must not agree with what its owner told.
- * On a noisy line one in 256 damaged frames has a right CRC, but hardly the same one twice. */
+/* Two different SENSES for one tick cannot both be the owner's, so held must no longer match what the owner computes. On a
+ * noisy line one in 256 damaged frames has a valid CRC, but hardly the same one twice. */
 static void note_other(struct wire *wire, const struct frame *frame, uint8_t tick)
 {
     uint8_t crc = frame->data[0];
@@ -221,7 +221,7 @@ static enum input_kind read_command(struct wire *wire, const struct frame *frame
     return INPUT_COMMAND;
 }
 
-/* Two robots have the same number: the wheels rest until the one that is left is started. */
+/* Two robots have the same number: the wheels rest until one of them is gone and the other is started. */
 static enum input_kind meet_twin(struct wire *wire, const struct frame *frame, uint8_t len, struct command *command)
 {
     if (!e2e_is_whole(frame, len))
@@ -235,7 +235,7 @@ static enum input_kind meet_twin(struct wire *wire, const struct frame *frame, u
     return INPUT_COMMAND;
 }
 
-/* Its first byte tells what a memory is: where each pattern has a cell, that of pattern 0 is empty. */
+/* The first byte shows the kind of memory: with a cell per pattern, that of pattern 0 is empty. */
 static bool is_news_of_peer(struct wire *wire, const struct frame *frame)
 {
     uint32_t node = 1u << ((frame->id & LINK_FAMILY_BITS) - 1);

@@ -99,7 +99,7 @@ static void write_health(struct wire *wire, const uint8_t memory[CELL_COUNT], st
     e2e_protect(frame);
 }
 
-/* One value with each report, round and round. */
+/* One value with each report, in turn. */
 static void write_crash(struct wire *wire, struct frames *frames)
 {
     struct frame *frame = frames_add(frames, wire, OCTET_CRASH_FRAME_ID, OCTET_CRASH_LENGTH);
@@ -166,8 +166,8 @@ void wire_report_start(struct wire *wire)
     wire->told_lower = wire->told_upper = 0;
 }
 
-/* In silence, a sign of life only: the rest would differ with how long it lasts. A tick that tells a new memory has enough
-   to do: the report waits. */
+/* In silence, only a sign of life: all else would depend on how long it lasts. In a tick that sends a new memory, the
+   report waits. */
 void wire_report(struct wire *wire, const struct output *out, struct frames *frames)
 {
     if (out->has_report && out->silent) {

@@ -9,7 +9,7 @@
 #include "hal/stm32/line.h"
 #include "hal/stm32/machine.h"
 
-enum { RECOVERY_MS = 250 };   /* from bus-off to the next try: four times what a full bus needs */
+enum { RECOVERY_MS = 250 };   /* between attempts to recover from bus-off: four times what a full bus needs */
 
 struct link {
     uint32_t off_ms;   /* when the last try to recover from bus-off began */
@@ -46,7 +46,7 @@ int link_open(struct link **link, const char *name, const uint16_t ids[], size_t
     return 0;
 }
 
-/* What waits to be sent would be out of date by the time it could be. */
+/* Waiting frames would be out of date by the time they are sent. */
 static void recover(struct link *link)
 {
     uint32_t now = machine_ms();

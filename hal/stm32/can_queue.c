@@ -61,7 +61,7 @@ static bool drain(struct can_queue *queue, unsigned left)
     uint32_t start = machine_ms();
 
     while (can_queue_pump(queue) > left) {
-        uint32_t now = machine_ms();   /* behind the look, whose time it is compared with */
+        uint32_t now = machine_ms();   /* after the check, with whose time it is compared */
 
         if (now - queue->moved_ms > queue->stuck_ms || now - start > queue->drain_ms)
             return false;
@@ -96,7 +96,7 @@ static void make_room(struct can_queue *queue)
             last = n;
     can_abort(1u << last);
     note_dropped(queue, 1);
-    queue->waiting--;   /* what is given up has not moved */
+    queue->waiting--;   /* a dropped frame was not sent */
 }
 
 static bool put_first(struct can_queue *queue, const struct frame *frame)

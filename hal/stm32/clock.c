@@ -14,7 +14,7 @@ enum {
 
 static const struct clock_table *const chip = &CLOCK_TABLE;
 
-/* False: these bits of the register have not become what is wanted within that time. */
+/* False: these bits of the register did not reach the wanted value in time. */
 static bool comes_up(volatile const uint32_t *reg, uint32_t mask, uint32_t wanted, uint32_t limit_ms)
 {
     uint32_t start = machine_ms();

@@ -93,7 +93,7 @@ static bool send_byte(struct link *link, char byte, uint32_t start)
     return true;
 }
 
-/* A line cut short is ended first: else this one would be read as its tail. */
+/* Ends a line that was cut short first, or this one would be read as its tail. */
 int link_send(struct link *link, const struct frame *frame)
 {
     char text[1 + SLCAN_TEXT_MAX];

@@ -18,7 +18,7 @@ from host_sim.protocol.codec import Frame
 from host_sim.transport.slcan_link import encode
 
 _BOOT_S = 0.6
-"""Enough to erase a page of flash."""
+"""Enough time to erase a page of flash."""
 
 
 @dataclass(frozen=True)

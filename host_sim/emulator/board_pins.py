@@ -1,4 +1,4 @@
-"""The pins of a board: its signals, checked against what the chip's pins can be, for C, for people and for emulation.
+"""The pins of a board, checked against the functions of the chip's pins: for C, for people and for emulation.
 
 A board's file in hal/stm32/boards names a pin for each signal; `pins.toml` in its chip's folder, what a pin can be.
 """
@@ -53,7 +53,7 @@ class ChipPins:
         self.channels: dict[str, int] = table.get("channels", {})
 
     def check(self, signals: dict[str, str]) -> None:
-        """Each signal has a pin of its own, which the chip has.
+        """Checks that each signal has a pin of its own that the chip has.
 
         Raises:
             UsageError: It has not.
@@ -95,7 +95,7 @@ class ChipPins:
         return None
 
     def function_of(self, use: str, pin: str) -> int | None:
-        """The number of the function with which a pin is, for example, `CAN rx`; None if it cannot be.
+        """The number of the function that makes a pin, for example, `CAN rx`; None if there is none.
 
         Where functions have no numbers, it is 0.
         """
@@ -124,7 +124,7 @@ class Pins:
         chip: What its chip's pins can be.
         remap: The fields of AFIO_MAPR that go with them.
         led_high: Whether the LED shines while its pin is high.
-        headers: What is printed on the pins of the board's two headers, top down; empty if nobody has told.
+        headers: The labels of the pins of the board's two headers, top down; empty if unknown.
         ends: By signal, the part of a robot of its own that the wire goes to, and the terminal there.
     """
 

@@ -47,7 +47,7 @@ class CanController(Peripheral):
 
     Attributes:
         model: The C model of its kind.
-        node: What that has in common with all kinds, `struct can_node`.
+        node: Its part common to all kinds, `struct can_node`.
         wire: Its bus, `struct can_wire`.
     """
 
@@ -90,7 +90,7 @@ class CanController(Peripheral):
 
     @abstractmethod
     def open(self) -> Any:
-        """Makes the model of this kind, on the wire."""
+        """Creates the model of this kind on the wire."""
 
     @abstractmethod
     def restart(self) -> None:
@@ -118,7 +118,7 @@ class CanController(Peripheral):
             space.can_writable[word] = offset != self.control
 
     def put(self, frame: CanFrame) -> None:
-        """The rest of the world wants to send a frame; where too many are waiting already, it is lost."""
+        """Queues a frame from the rest of the world; if too many are waiting, it is lost."""
         flags = (_EXTENDED if frame.extended else 0) | (_REMOTE if frame.remote else 0)
         self._frame.id, self._frame.len = frame.id | flags, len(frame.data)
         self._data[:] = frame.data.ljust(8, b"\0")
@@ -178,7 +178,7 @@ class BxCan(CanController):
         heard: Callable[[CanFrame], None],
         banks: int = 14,
     ) -> None:
-        """Asleep; with so many filter banks."""
+        """Begins asleep, with this number of filter banks."""
         self._banks = banks
         names = _NAMED | _FILTERS
         boxes = ((_MAILBOX, ("TI", "TDT", "TDL", "TDH"), 3), (_OUTPUT, ("RI", "RDT", "RDL", "RDH"), 2))

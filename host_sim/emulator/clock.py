@@ -12,7 +12,7 @@ _NS = SECOND // 10**9
 _HOUR = 3600 * SECOND
 
 NEVER = (2**64 - 1) * _NS
-"""A moment that does not come."""
+"""A moment that never comes."""
 
 
 class Alarm:
@@ -28,7 +28,7 @@ class Alarm:
 
 
 class Clock:
-    """Time, counted in cycles of the core, one for each instruction. Events happen as time passes them.
+    """Time, counted in cycles of the core, one per instruction, with timed events.
 
     Attributes:
         model: The C model, `struct board_clock`.
@@ -77,7 +77,7 @@ class Clock:
         """Adds an event.
 
         Args:
-            due: Does what is due by now, and returns the moment of its next call.
+            due: Does what is due, and returns the moment of its next call.
 
         Returns:
             The alarm, to be set when that moment changes. Until then, `due` is called as soon as any event is due.
@@ -114,7 +114,7 @@ class Clock:
         self._library.clock_expect(self.model, self.model.now)
 
     def settle(self) -> None:
-        """Makes all events happen that are due."""
+        """Runs all events that are due."""
         self._library.clock_settle(self.model)
         self.raise_failure()
 
@@ -128,19 +128,19 @@ class Clock:
         self.set_alarm(number, self._timed[number]())
 
     def execute(self, cycles: int) -> None:
-        """Lets time pass: that of a number of cycles."""
+        """Advances time by a number of cycles."""
         self._library.clock_execute(self.model, cycles)
         self.raise_failure()
 
     def skip_to(self, moment: int) -> None:
-        """Lets time pass in which the core does nothing, and stops at each event on the way."""
+        """Advances time while the core is idle, and stops at each event on the way."""
         while (now := self.now) < moment:
             ns, fs = divmod(min(moment, now + _HOUR), _NS)
             self._library.clock_skip_to(self.model, (ns, fs))
             self.raise_failure()
 
     def skip_to_event(self) -> None:
-        """Lets time pass until something happens, an hour at most."""
+        """Advances time to the next event, an hour at most."""
         self._library.clock_execute(self.model, 0)
         self._library.clock_skip_to_event(self.model, _HOUR // _NS)
         self.raise_failure()

@@ -71,11 +71,11 @@ _ELF_32_BITS, _ELF_ARM, _ELF_LOADED = 1, 40, 1
 
 @dataclass(frozen=True)
 class Fault:
-    """What the image did that a core cannot do.
+    """A fault exception of the core.
 
     Attributes:
         cause: Bits of the register CFSR.
-        address: The address that could not be reached; None where it was the instruction itself.
+        address: The address that could not be accessed; None if it was the instruction itself.
         pc: Address of the instruction.
     """
 
@@ -86,7 +86,7 @@ class Fault:
 
 @cache
 def unicorn_calls() -> Any:
-    """Those calls of Unicorn that take functions in C, and the one made most, as its header declares them."""
+    """The calls of Unicorn that take C functions, and the most frequent one, as its header declares them."""
     return c_interface(
         "int uc_emu_start(void *uc, uint64_t begin, uint64_t until, uint64_t timeout, size_t count);"
         "int uc_emu_stop(void *uc);"
@@ -113,7 +113,7 @@ class Core:
     Attributes:
         on_fault: Called when the image faults; then its hard fault handler runs.
         vectors: Address of the vector table in force.
-        wakes: Whether something ends the sleep that it began with WFI.
+        wakes: Whether something ends its sleep after WFI.
         on_nmi: Called when the non-maskable interrupt is taken, and when its handler returns.
     """
 
@@ -173,20 +173,20 @@ class Core:
         _check(self._library.uc_mmio_map(self._engine, window.base, window.size, read, made, write, made))
 
     def remove(self, base: int, size: int) -> None:
-        """Takes away memory or registers that were added there, all of them."""
+        """Removes all memory or registers that were added there."""
         self._uc.mem_unmap(base, size)
         self._uc.ctl_flush_tb()
 
     def clear_ram(self, base: int, size: int) -> None:
-        """As after a loss of power."""
+        """Clears a RAM, as after a loss of power."""
         self._uc.mem_write(base, bytes(size))
 
     def write(self, address: int, data: bytes) -> None:
-        """Something else than the core writes to a memory."""
+        """Writes to a memory from outside the core."""
         self._uc.mem_write(address, data)
 
     def reset(self) -> None:
-        """Begins where the vector table says."""
+        """Starts at the reset vector."""
         self._asleep = False
         self._in_fault = self._nmi = False
         self._interrupted = None
@@ -196,13 +196,13 @@ class Core:
         self._pc = self._word(self.vectors + 4)
 
     def derail(self, address: int, stack: int | None = None) -> None:
-        """Goes on somewhere else, and with another stack if one is given, as if they had been hit."""
+        """Makes the core continue at another address, with another stack if one is given, as after a bit error."""
         self._pc = address
         if stack is not None:
             self._uc.reg_write(UC_ARM_REG_SP, stack)
 
     def interrupt(self) -> None:
-        """Asks for the non-maskable interrupt: it is taken at the end of the block of instructions."""
+        """Requests the non-maskable interrupt, which is taken at the end of the block of instructions."""
         self._nmi = True
         self.stop()
 
@@ -214,7 +214,7 @@ class Core:
         """Executes until `stop`.
 
         Raises:
-            BoardError: The image is lost, or one of the models complains.
+            BoardError: The core locked up, or a model refused an access.
             PowerCut: As the flash's.
         """
         self._blocks.stopping = False
@@ -241,7 +241,7 @@ class Core:
             self._clock.skip_to_event()
 
     def _hook_blocks(self) -> Any:
-        """Has the models count what is executed. A call of Python for each block would take most of the time."""
+        """Lets the models count instructions: calling Python for each block would take most of the time."""
         ffi, library = self._ffi, self._library
         blocks: Any = ffi.new("struct core_blocks *")
         blocks.clock = self._clock.model
@@ -276,7 +276,7 @@ class Core:
         self.on_nmi(False)
 
     def _enter_fault(self, error: UcError) -> None:
-        """As the hardware does: the registers on the stack, and on in the handler."""
+        """Enters the fault handler as the hardware does, with the registers on the stack."""
         address, self._unreachable = self._unreachable, None
         if self._interrupted is not None and self._pc | _THUMB == _RETURN_TO_THREAD:
             self._return_from_nmi(self._interrupted)
@@ -306,7 +306,7 @@ class Core:
 
 
 def load_segments(path: Path) -> list[tuple[int, bytes]]:
-    """What an image puts where: (address, bytes), as a probe writes it.
+    """The segments of an image, (address, bytes), as a probe writes them.
 
     Args:
         path: The `.elf`.

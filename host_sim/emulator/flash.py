@@ -12,10 +12,10 @@ BASE = 0x08000000
 ERASED = b"\xff"
 _KEYS = (0x45670123, 0xCDEF89AB)
 OUTLIVES = 16
-"""Bytes at the begin of a page that an erase cut short leaves as they were; the others read blank."""
+"""Bytes at the start of a page that an interrupted erase leaves unchanged; the others read blank."""
 _WAIT_STATES = 7
 _UNFINISHED = 0x0F
-"""Bits of a byte that are not written yet when the power goes in the middle."""
+"""Bits of a byte that are not yet written when the power fails in the middle."""
 
 PG, _ERASE = 1 << 0, 1 << 1
 
@@ -25,8 +25,8 @@ class FlashFaults:
     """How the flash can misbehave. Writes and erasures are counted together, from 1.
 
     Attributes:
-        failing: Numbers of those that fail: an error flag, and nothing is changed.
-        cut_at: Number of that in whose middle the power goes.
+        failing: Numbers of the operations that fail: they set an error flag and change nothing.
+        cut_at: Number of the operation during which the power fails.
     """
 
     failing: frozenset[int] = frozenset()
@@ -35,16 +35,16 @@ class FlashFaults:
 
 @dataclass(frozen=True)
 class FlashKind:
-    """What one chip's flash is like.
+    """The properties of one chip's flash.
 
     Attributes:
         pages: Size of each page or sector in bytes, from the lowest.
-        hz_per_wait_state: Each wait state lets the core run faster by so much.
+        hz_per_wait_state: Core speed that each wait state adds.
         write_span: Time to write one unit, fs.
         erase_span: Time to erase a page of a size, fs.
         start: Bit STRT of CR.
         lock: Bit LOCK of CR.
-        failure: Flag of SR for what went wrong inside.
+        failure: Flag of SR for an internal error.
         registers: Offsets of KEYR, SR and CR.
     """
 
@@ -70,11 +70,11 @@ class Flash(Peripheral):
         memory: All of its bytes.
         operations: Writes and erasures so far.
         erasures: These alone.
-        cuts: Numbers of the operations in whose middle the power goes.
-        erasure_cuts: Numbers of the erasures in whose middle it goes.
+        cuts: Numbers of the operations during which the power fails.
+        erasure_cuts: Numbers of the erasures during which it fails.
         code_end: Offset in the memory up to which the image lies; it must not change that.
         on_wait_states: Called when they have changed.
-        on_unreadable: Called when the core has read what no error correction fits.
+        on_unreadable: Called when the core has read an uncorrectable error.
     """
 
     kind: FlashKind
@@ -102,7 +102,7 @@ class Flash(Peripheral):
         super().__init__("FLASH", registers, clocked=True)
 
     def fill_last_page(self, size: int) -> None:
-        """As after long use: what was written last to the last page in use stands in all of its blank places, too.
+        """Simulates long use: fills the blank places of the last page in use with what was written last.
 
         Args:
             size: Size of a place, bytes.
@@ -120,7 +120,7 @@ class Flash(Peripheral):
         """Number of the page that the registers name."""
 
     def changed(self, offset: int, size: int, *, cut: bool) -> None:
-        """Bytes of the memory have been written or erased, or the power has gone in the middle of that."""
+        """Called when bytes were written or erased, or when the power failed in the middle."""
 
     def reset(self) -> None:
         """As in `Peripheral`; the memory stays."""
@@ -128,7 +128,7 @@ class Flash(Peripheral):
         self._keys_taken = 0
 
     def core_hz_max(self) -> int:
-        """The fastest clock that it can follow as it is set up."""
+        """The fastest core clock that its present wait states allow, Hz."""
         return ((self._acr.value & _WAIT_STATES) + 1) * self.kind.hz_per_wait_state
 
     def read(self, offset: int, size: int) -> int:

@@ -72,7 +72,7 @@ class Hardware:
         space: All registers by address.
         faults: What the image did that the core cannot do.
         interrupts: What wakes the core.
-        robot: What is wired to the pins of a robot of its own; None where the board has none.
+        robot: The motors, sensors and so on wired to its pins; None if the board has none.
     """
 
     def __init__(
@@ -129,7 +129,7 @@ class Hardware:
     def flash_image(self, segments: list[tuple[int, bytes]], slots: tuple[int, int] = (0, 0)) -> None:
         """Writes an image, as a probe does, and resets the core.
 
-        The image's pages become memory that cannot be written; behind all others is the flash's model.
+        The image's pages become read-only memory; all others are handled by the flash's model.
 
         Args:
             segments: (address, bytes).
@@ -261,7 +261,7 @@ class Hardware:
             self._line.take(byte)
 
     def feed_line(self, text: bytes) -> None:
-        """Text comes over the serial line."""
+        """Feeds text from the serial line."""
         if self.wiring.meets("UART_RX"):
             self.usart.feed(text)
 

@@ -26,12 +26,12 @@ class Interrupts(Peripheral):
         self._enabled = self._pending = 0
 
     def pend(self, number: int) -> None:
-        """Something asks for an interrupt."""
+        """Makes an interrupt pending."""
         self._pending |= 1 << number
 
     @property
     def wakes(self) -> bool:
-        """Whether one is pending that is enabled."""
+        """Whether an enabled one is pending."""
         return bool(self._enabled & self._pending)
 
     def _register(self, name: str, shift: int, enabled: int, pending: int) -> Register:

@@ -1,4 +1,4 @@
-"""A robot of its own on an emulated board, in the simulated arena: it senses and moves through its pins."""
+"""A robot with a body on pins, on an emulated board in the simulated arena: it senses and moves through its pins."""
 
 from collections import deque
 from pathlib import Path
@@ -113,7 +113,7 @@ class PinsBoard(EmulatedBoard):
             super()._receive(frame)
 
     def _take_pair(self, sensed: Frame, drive: Frame) -> None:
-        """While it rests and nobody waits, each tick is like the other: the first after a command is told."""
+        """While it rests and nobody waits, all ticks are alike: only the first one after a command is reported."""
         decoded = self._protocol.decode_drive(drive)
         if self._protocol.decode(sensed) is None or decoded is None:
             return
@@ -139,5 +139,5 @@ def start_robot(name: str, faults: Faults | None = None) -> PinsBoard:
     """
     boards = [chip.name for chip in CHIPS.values() if chip.robot]
     if name not in boards:
-        raise UsageError(f"no robot of its own runs on {name}: use --board {' or '.join(boards)}")
+        raise UsageError(f"there is no image with a body on pins for {name}: use --board {' or '.join(boards)}")
     return PinsBoard(CHIPS[name], image_path(name, PINS), faults)

@@ -52,11 +52,11 @@ class Port(KeptPeripheral):
 
     @abstractmethod
     def serves(self, pin: int, function: int, *, out: bool) -> bool:
-        """Whether a pin is joined to a peripheral: to the function of that number, if the chip numbers them."""
+        """Whether a pin is connected to a peripheral: to the function of that number, if the chip numbers them."""
 
     @abstractmethod
     def measures(self, pin: int) -> bool:
-        """Whether a pin is joined to the ADC."""
+        """Whether a pin is connected to the ADC."""
 
     def reset(self) -> None:
         """As in `Peripheral`."""
@@ -85,7 +85,7 @@ class Port(KeptPeripheral):
         self._write_odr(self.output.value & ~pins)
 
     def settle(self) -> None:
-        """What follows from modes and levels: an open input reads its pull, or low."""
+        """Updates the inputs from modes and levels: an open input reads its pull, or low."""
         outputs, self._plain = self.outputs()
         outside = self._levels & self._driven | self.pulled_up() & ~self._driven
         self.block.outputs = outputs

@@ -1,4 +1,4 @@
-"""What is wired to the pins of a robot of its own: motors, encoders, sensors, bumpers, a button and a battery."""
+"""What is wired to a body's pins: motors, encoders, sensors, bumpers, a button and a battery."""
 
 from typing import Any
 
@@ -31,12 +31,12 @@ class RobotOnPins:
         library: which this is.
         kit: The body; None while there is none: nothing turns.
         light: What each proximity sensor receives of its own LEDs' light while they shine, 0..4095.
-        ambient: What it receives without them.
+        ambient: What it receives with the LEDs off.
         battery_v: The battery's voltage where there is no body with one.
-        counts_by: What an encoder makes of each of its counts: -1 where its wires are swapped.
+        counts_by: Sign of each encoder's counts: -1 if its wires are swapped.
         stalled: Whether something holds a motor.
-        swapped: Whether each motor is plugged where the other one belongs.
-        converts: Whether samples come; without, they stay as they are.
+        swapped: Whether the plugs of the two motors are exchanged.
+        converts: Whether the ADC updates the samples.
     """
 
     def __init__(
@@ -84,22 +84,22 @@ class RobotOnPins:
             self.receive_bursts(_STRONG + _WEAK * (senses.beacon_mm < _NEAR_MM))
 
     def set_bumped(self, bumped: bool) -> None:
-        """Something presses the bumpers, or nothing."""
+        """Presses or releases the bumpers."""
         for side in SIDES:
             self._set(f"BUMPER_{side}", high=not bumped)
 
     def set_button(self, pressed: bool) -> None:
-        """Somebody presses the button."""
+        """Presses or releases the button."""
         self._set("BUTTON", high=not pressed)
 
     def set_bridge_fault(self, failed: bool) -> None:
-        """The bridge reports a fault."""
+        """Sets or clears the bridge's fault signal."""
         self._set("BRIDGE_FAULT", high=not failed)
         if self.wiring.meets("BRIDGE_FAULT"):
             self.motors.break_at(low=failed)
 
     def receive_bursts(self, count: int) -> None:
-        """So many bursts of a beacon's light arrive."""
+        """Receives bursts of a beacon's light."""
         timer = self.timers["TIM2"]
         if timer.counts_input_1() and self.wiring.meets("BEACON"):
             timer.count(count)
@@ -132,7 +132,7 @@ class RobotOnPins:
             self._fill()
 
     def _count(self, side: int) -> None:
-        """An encoder of which one wire is elsewhere counts nothing."""
+        """Updates an encoder's count; with one wire off, it counts nothing."""
         count = self.library.kit_count(self.kit, side)
         more, self._counts[side] = count - self._counts[side], count
         timer, name = self.timers[f"TIM{3 + side}"], f"{SIDES[side]}_ENCODER_"
@@ -141,7 +141,7 @@ class RobotOnPins:
 
     @property
     def volts(self) -> float:
-        """Of the battery, under the load of both motors."""
+        """Voltage of the battery under the load of both motors, V."""
         return self.battery_v if self.kit is None else self.library.kit_supply_mv(self.kit) / 1000
 
     def figures(self) -> dict[str, Any]:

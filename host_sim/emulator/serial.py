@@ -61,7 +61,7 @@ class Usart(Peripheral):
         self._alarm.set(self._next())
 
     def feed(self, text: bytes) -> None:
-        """The far end of the line sends that, as fast as it goes."""
+        """Receives text from the far end of the line, at the line's full speed."""
         if not self._coming:
             self._came_at = max(self._came_at, self._clock.now) + _BYTE_SPAN
         self._coming.extend(text)
@@ -150,7 +150,7 @@ class UsartG4(Usart):
 
 
 class SlcanLine:
-    """Puts together what the board sends byte by byte."""
+    """Assembles the lines that the board sends byte by byte."""
 
     def __init__(self, heard: Callable[[CanFrame], None]) -> None:
         """At the beginning of a line.

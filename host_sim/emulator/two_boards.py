@@ -11,15 +11,15 @@ from host_sim.protocol.generated import Reason
 from host_sim.world.arena import Arena
 
 _SLICE_S = 0.0005
-"""A frame is at the other board so much later at most: twice what it takes on the wire."""
+"""Maximum delay of a frame to the other board: twice its time on the wire."""
 
 
 class TwoBoards:
     """The boards, from power-up.
 
     Attributes:
-        brain: It has the image of a robot on a CAN bus.
-        body: It has that of a body.
+        brain: The board with the image of a robot on a CAN bus.
+        body: The board with the image of a body.
         robot: What is wired to the body's pins.
         heard: All frames on the bus, each with the time, s.
         cut: Whether the wire between them is.
@@ -42,7 +42,7 @@ class TwoBoards:
         self._now_s, self._tick, self._eats = 0.0, 0, False
 
     def pass_time(self, span_s: float) -> None:
-        """Lets so much time pass on both."""
+        """Lets time pass on both."""
         for _ in range(round(span_s / _SLICE_S)):
             self._now_s += _SLICE_S
             for sender, other in ((self.body, self.brain), (self.brain, self.body)):
@@ -65,7 +65,7 @@ class TwoBoards:
             self._tick += 1
 
     def press(self, span_s: float = 0.2) -> None:
-        """Somebody presses the body's button, and lets it go."""
+        """Presses and releases the body's button."""
         for pressed in (True, False):
             self.robot.set_button(pressed)
             self.pass_time(span_s)

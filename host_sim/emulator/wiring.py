@@ -1,4 +1,4 @@
-"""Whether the signals of a board meet, at the pins that they are wired to, what the image uses there."""
+"""Checks that the pins to which a board's signals are wired are those that the image uses for them."""
 
 from collections.abc import Sequence
 
@@ -35,7 +35,7 @@ class Wiring:
         return self._ports[port], number
 
     def rewire(self, signal: str, pin: str = "") -> None:
-        """Takes a wire to another pin, such as PB4, or pulls it off."""
+        """Moves a wire to another pin, such as PB4, or removes it."""
         self._pins[signal] = pin
         self._known.clear()
 

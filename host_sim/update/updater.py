@@ -76,7 +76,7 @@ class Updater:
         self._client.logger.setLevel("CRITICAL")
 
     def enter(self) -> None:
-        """Has the boot loader run, in a programming session.
+        """Starts the boot loader in a programming session.
 
         Raises:
             UpdateError: No board answers, or two do, or the robot is being driven.
@@ -98,13 +98,13 @@ class Updater:
                 ) from None
             if count == 1:
                 return
-        raise UpdateError(f"node {self.node} does not answer: it is not there, or has no boot loader") from None
+        raise UpdateError(f"node {self.node} does not answer: it is off the bus, or has no boot loader") from None
 
     def unlock(self, again: int = _ROUNDS) -> None:
-        """Proves the key.
+        """Authenticates with the key.
 
         Raises:
-            UpdateError: It is not the board's.
+            UpdateError: It is not the board's key.
         """
         try:
             self._persist(lambda: self._client.unlock_security_access(1))
@@ -128,7 +128,7 @@ class Updater:
         return Status.unpack(self._read(_STATUS_ID))
 
     def lower_floor(self, version: int) -> None:
-        """Lets the board take versions from that one on. It must be unlocked."""
+        """Lets the board accept versions from that one on. It must be unlocked."""
         self._persist(lambda: self._client.start_routine(_FLOOR, struct.pack(">I", version)))
 
     def set_node(self, node: int) -> None:
@@ -140,11 +140,11 @@ class Updater:
         self._write(_BITRATE, struct.pack(">I", bitrate))
 
     def install(self, image: SlotImage, progress: Callable[[int], None]) -> None:
-        """Writes an image to the free slot, and has it chosen. The session must be entered.
+        """Writes an image to the free slot and selects it. Call `enter` first.
 
         Args:
             image: For that slot.
-            progress: Told how many bytes are there.
+            progress: Called with the number of bytes written.
 
         Raises:
             UpdateError: The board refuses it.
@@ -168,7 +168,7 @@ class Updater:
             self._persist(lambda: self._client.ecu_reset(1), tries=_FEW)
 
     def running(self) -> tuple[int, bool]:
-        """Version of the image that runs, and whether it is on trial; waits until one does.
+        """Version of the running image, and whether it is on trial; waits until one runs.
 
         Raises:
             UpdateError: None does.
@@ -192,7 +192,7 @@ class Updater:
             time.sleep(_WAIT_S)
             runs, trial = self.running()
         if runs != version:
-            raise UpdateError(f"node {self.node} went back: version {runs} runs, and not {version}")
+            raise UpdateError(f"node {self.node} rolled back: version {runs} runs, and not {version}")
         if trial:
             raise UpdateError(f"node {self.node}: version {version} runs, but was not confirmed yet")
         return runs
@@ -212,7 +212,7 @@ class Updater:
         self._check(image)
 
     def _check(self, image: SlotImage) -> None:
-        """What was said last may have been done, although its answer was lost."""
+        """Checks the image. The last request may have been carried out although its answer was lost."""
         try:
             self._persist(lambda: self._client.start_routine(_CHECK), tries=1)
         except (TimeoutException, NegativeResponseException):
@@ -222,14 +222,14 @@ class Updater:
                 raise
 
     def _written(self, image: SlotImage) -> int:
-        """From where on an interrupted update goes on."""
+        """The offset at which an interrupted update resumes."""
         count, crc = struct.unpack(">II", self._read(_WRITTEN))
         page = LAYOUTS[image.board].page
         count = min(count, image.size // page * page)
         return count if count and zlib.crc32(image.data[_CRC_FROM:count]) == crc else 0
 
     def _may_go_on(self, code: int | None) -> bool:
-        """Whether another round may help: the session ended, or less is written than was to be kept."""
+        """Whether another round may help: the session ended, or less is written than expected."""
         return code in (_NO_SESSION, _LOCKED) or (code == _OUT_OF_RANGE and not self.status().reason)
 
     def _explain(self, error: NegativeResponseException) -> None:
@@ -257,7 +257,7 @@ class Updater:
         return self._persist(ask, tries)
 
     def _persist(self, ask: Callable[[], _T], tries: int = _TRIES, wait_s: float = _WAIT_S) -> _T:
-        """Asks again where no answer comes, and waits longer after a few times."""
+        """Repeats a request without an answer, with longer pauses after a few times."""
         for number in range(tries):
             self._client.config["p2_timeout"] = min(wait_s * 2 ** (number // _FEW), _WAIT_S_MAX)
             if number == tries - 1:

@@ -120,7 +120,7 @@ class LearningHistory:
         return self._add_lessons(self.ticks - 1)
 
     def relearn(self, tick: int, memory: Sequence[int]) -> list[Cell]:
-        """Adds a lesson for each pattern whose turn changed: it was told, by a person or by another robot.
+        """Adds a lesson for each pattern whose turn was changed from outside, by a person or another robot.
 
         Args:
             tick: Number of the next tick.
@@ -130,7 +130,7 @@ class LearningHistory:
         return self._add_lessons(tick)
 
     def restart(self, tick: int, memory: Sequence[int]) -> None:
-        """Begins anew, as the robot has been started again; earlier lessons stay in the list.
+        """Starts over, as the robot was started again; earlier lessons stay in the list.
 
         Args:
             tick: Number of the next tick. Lessons of this tick are dropped: no tick of either run was after them.
@@ -141,7 +141,7 @@ class LearningHistory:
         self._library.history_restart(self._in_c, sides_of(tuple(memory)))
 
     def forget_lessons(self, first: int) -> None:
-        """Drops the lessons before a tick but the last one of each cell."""
+        """Drops the lessons before a tick except the last one of each cell."""
         last = {lesson["cell"]: lesson for lesson in self.lessons if lesson["tick"] < first}
         kept = [lesson for lesson in self.lessons if lesson["tick"] >= first or lesson is last[lesson["cell"]]]
         self.forgotten += len(self.lessons) - len(kept)

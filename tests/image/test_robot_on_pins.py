@@ -186,7 +186,7 @@ def test_a_page_is_told_what_is_on_its_pins():
 
 
 def test_other_boards_and_robots_are_refused():
-    why = "no robot of its own runs on feather_stm32f405: use --board blue_pill or nucleo_g431rb"
+    why = "there is no image with a body on pins for feather_stm32f405: use --board blue_pill or nucleo_g431rb"
     with pytest.raises(UsageError, match=why):
         start_robot("feather_stm32f405")
     with pytest.raises(UsageError, match="use --robot emulated --board blue_pill"):

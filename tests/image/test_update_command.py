@@ -49,7 +49,7 @@ def test_a_robot_that_is_not_there_keeps_no_other_from_its_update(on_the_bus, ca
 
     assert main(["update", "blue_pill", "--bus", "any:bus", "--node", "1-2", "--version", str(NEW)]) == 2
     said = capfd.readouterr()
-    assert "octet: node 2 does not answer: it is not there, or has no boot loader\n" in said.err
+    assert "octet: node 2 does not answer: it is off the bus, or has no boot loader\n" in said.err
     assert f"node 1: version {NEW} runs" in said.out
 
 

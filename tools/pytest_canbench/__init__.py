@@ -1,1 +1,1 @@
-"""pytest-canbench: tests of a device on a CAN bus, with faults made on purpose. docs/bench.md tells how."""
+"""pytest-canbench: tests of a device on a CAN bus, with injected faults. docs/bench.md explains it."""

@@ -20,11 +20,11 @@ _FAULTS = 20
 
 
 class BenchError(AssertionError):
-    """The device cannot go on, or never said what the test asks for."""
+    """The device cannot continue, or never sent what the test asks for."""
 
 
 class Heard(NamedTuple):
-    """What the device has said.
+    """A message from the device.
 
     Attributes:
         at_ms: When.
@@ -68,8 +68,8 @@ class Setup:
         open_device: Powers up a device.
         rules: The faults.
         seed: For all that is random in them.
-        node: The device's name in the DBC file: all that others send with a cycle time is sent; empty to send only
-            what the test names.
+        node: The device's name in the DBC file: the bench sends all cyclic messages of other nodes. Empty: it
+            sends only what the test names.
     """
 
     messages: Messages
@@ -92,14 +92,14 @@ class Bench:
         """Powers the device up.
 
         Raises:
-            UsageError: There is something in the setup that is not there.
+            UsageError: The setup names something that does not exist.
         """
         self.setup = setup
         self._device: Device | None = None
         self.restart([Rule.parse(text) for text in setup.rules])
 
     def restart(self, rules: Sequence[Rule]) -> None:
-        """Begins anew, with a device that was just powered up, at 0 ms, with these faults."""
+        """Restarts at 0 ms with these faults and a device that was just powered up."""
         self.close()
         schedule = Schedule(rules, self.setup.seed, self.setup.messages.forger)
         self._time = _Time()
@@ -141,7 +141,7 @@ class Bench:
         self._cyclic[name] = {**self._cyclic.get(name, {}), **signals}
 
     def silence(self, name: str) -> None:
-        """Sends a message no longer."""
+        """Stops sending a message."""
         self._cyclic.pop(name, None)
 
     def run(self, ms: int) -> None:
@@ -149,7 +149,7 @@ class Bench:
 
         Raises:
             BenchError: The device has ended.
-            UsageError: Time does not pass backward.
+            UsageError: ms is negative.
         """
         __tracebackhide__ = True
         if ms < 0:
@@ -162,10 +162,10 @@ class Bench:
             self._time.now_ms += 1
 
     def run_until(self, signal: str, wanted: Callable[[float], object], ms: int) -> None:
-        """Lets time pass until the value of a signal that the device has sent last is as wanted.
+        """Lets time pass until the last value of a signal from the device satisfies a condition.
 
         Raises:
-            BenchError: It was not within so many ms, or the device has ended.
+            BenchError: It did not within `ms`, or the device has ended.
         """
         __tracebackhide__ = True
         for _ in range(ms):
@@ -175,7 +175,7 @@ class Bench:
         raise BenchError(f"within {ms} ms {signal} was not as wanted; it was {self[signal]:g} in the end")
 
     def __getitem__(self, signal: str) -> float:
-        """The value that the device has sent last, as `can_bench["STATUS.speed"]`.
+        """The last value from the device, as `can_bench["STATUS.speed"]`.
 
         Raises:
             BenchError: It has sent none yet.

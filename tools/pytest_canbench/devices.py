@@ -25,13 +25,13 @@ int tick(uint32_t now_ms, struct frame frames[16]);
 """What a library has: `tick` is called every ms, from 0 on, and returns the number of frames that it sends."""
 
 START_S = 5.0
-"""A program that has said nothing by then says something only when it is asked."""
+"""How long to wait for a program's first frame; without one, its time begins anyway."""
 
 _FRAMES_MAX, _SLICE_S, _LATE_S = 16, 0.1, 0.005
 
 
 class Device(Protocol):
-    """A link to a device, in whose time `tick` is a ms."""
+    """A link to a device; each `tick` is 1 ms of its time."""
 
     def send(self, frame: Frame) -> None:
         """The device hears a frame."""
@@ -40,7 +40,7 @@ class Device(Protocol):
         """The next frame that the device has sent, if there is one."""
 
     def tick(self, now_ms: int) -> None:
-        """It is now so many ms."""
+        """Advances the device's time to `now_ms`."""
 
     def close(self) -> None:
         """Ends it."""
@@ -118,8 +118,8 @@ def _build(source: Path, library: Path) -> None:
 class ProcessDevice:
     """A program on a socket pair, or on a bus such as vcan; a ms of its time is one of the wall clock.
 
-    Its time begins with its first frame, or after `START_S`. If this machine is late, time stands still meanwhile:
-    the program is not sent at once what it should have heard one by one.
+    Its time begins with its first frame, or after `START_S`. If this machine is late, time stands still meanwhile,
+    so that the program does not get a burst of frames.
     """
 
     def __init__(self, command: str, folder: Path, bus: str) -> None:
@@ -155,7 +155,7 @@ class ProcessDevice:
         self._begun_s = time.monotonic()
 
     def _await_first_frame(self) -> None:
-        """Its time begins with what it says first, since a busy machine may take long to start a program."""
+        """Waits for its first frame, where its time begins: a busy machine may take long to start a program."""
         for _ in range(round(START_S / _SLICE_S)):
             frame = self._link.receive(_SLICE_S)
             self._process.status()
@@ -224,7 +224,7 @@ class ImageDevice:
         return bool(self.board.hardware.can.node.bus_off)
 
     def short_bus(self, is_shorted: bool) -> None:
-        """Destroys all that the controller sends, until told otherwise: it goes bus-off."""
+        """Destroys all frames that the controller sends while shorted: it goes bus-off."""
         self.board.hardware.can.wire.shorted = is_shorted
 
     def send(self, frame: Frame) -> None:

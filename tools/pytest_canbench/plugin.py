@@ -16,10 +16,10 @@ from .messages import Messages
 _OPTIONS = {
     "dbc": ("FILE.dbc", "", "the bus, as a DBC file"),
     "device": ("DEVICE", "", "the device: a library (.so), a C file, image:CHIP:FILE.elf, or a command"),
-    "node": ("NODE", "", "the device's name in the DBC file: all that others send with a cycle time is sent"),
+    "node": ("NODE", "", "the device's name in the DBC file; the bench sends the others' cyclic messages"),
     "crc": ("PROFILE", "none", "how messages are protected: e2e1, e2e2, e2e5, j1850 or none"),
-    "bus": ("BUS", "fd", "for a command, where it is: fd (a socket pair), or such as socketcan:vcan0"),
-    "seed": ("N", "1", "for all that is random in the faults"),
+    "bus": ("BUS", "fd", "for a command, its bus: fd (a socket pair), or such as socketcan:vcan0"),
+    "seed": ("N", "1", "seed of the faults"),
 }
 
 
@@ -29,12 +29,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     for name, (metavar, default, text) in _OPTIONS.items():
         group.addoption(f"--can-{name}", metavar=metavar, help=f"{text} (default: {default or 'none'})")
         parser.addini(f"can_{name}", f"as --can-{name}", default=default)
-    group.addoption("--can-shrink", action="store_true", help="find the fewest faults with which a test fails so")
+    group.addoption("--can-shrink", action="store_true", help="find the fewest faults that fail a test in the same way")
 
 
 def pytest_configure(config: pytest.Config) -> None:
     """Adds the marker."""
-    config.addinivalue_line("markers", "can_faults(*rules): what happens to frames, such as drop@20-/to")
+    config.addinivalue_line("markers", "can_faults(*rules): faults of frames, such as drop@20-/to")
 
 
 def _told(config: pytest.Config, name: str) -> tuple[str, Path]:

@@ -28,7 +28,7 @@ void crash_keep(uint32_t cause, const uint32_t *frame, const uint32_t *lowest, c
     registers[CRASH_HFSR] = SCB.hfsr;
     registers[CRASH_MMFAR] = SCB.mmfar;
     registers[CRASH_BFAR] = SCB.bfar;
-    if (frame >= lowest && frame <= end - CRASH_FRAME_WORDS)   /* a frame that ran wild is not added to: that can wrap */
+    if (frame >= lowest && frame <= end - CRASH_FRAME_WORDS)   /* no addition to a wild pointer: it could wrap */
         for (unsigned i = 0; i < CRASH_FRAME_WORDS; i++)
             registers[pushed[i]] = frame[i];
     note.mark = FRESH;

@@ -49,10 +49,10 @@ void startup_reset(void)
     memset(bss_start, 0, (size_t)((char *)bss_end - (char *)bss_start));
     systick_start(mcu_start());
     (void)main(0, NULL);
-    leave_by_reset();   /* main ends where its body cannot be had: once more, from the beginning */
+    leave_by_reset();   /* main ends if its body cannot be opened: start over */
 }
 
-/* The stack may be what is broken: begins a new one, in the half where the frame that the core has pushed is not. */
+/* The stack may be broken: begins a new one, in the half that does not hold the core's exception frame. */
 __attribute__((naked)) void startup_crash(void)
 {
     __asm__ volatile("mrs r0, msp\n\t"
