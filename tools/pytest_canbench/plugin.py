@@ -29,7 +29,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     for name, (metavar, default, text) in _OPTIONS.items():
         group.addoption(f"--can-{name}", metavar=metavar, help=f"{text} (default: {default or 'none'})")
         parser.addini(f"can_{name}", f"as --can-{name}", default=default)
-    group.addoption("--can-shrink", action="store_true", help="find the fewest faults that fail a test in the same way")
+    group.addoption("--can-shrink", action="store_true", help="find the fewest faults with the same failure")
 
 
 def pytest_configure(config: pytest.Config) -> None:
