@@ -41,9 +41,7 @@ def add(commands: "Subparsers") -> None:
     parser.add_argument(
         "--html", type=file_path, metavar="FILE", help="instead, write the run to FILE as a page to play in a browser"
     )
-    parser.add_argument(
-        "--protocol", action="store_true", help="check only that the robot keeps to the protocol"
-    )
+    parser.add_argument("--protocol", action="store_true", help="check only that the robot keeps to the protocol")
     parser.add_argument(
         "--what-if",
         action="store_true",

@@ -6,6 +6,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from host_sim.backends.images import BOARDS
+from host_sim.base.errors import UsageError
 from host_sim.cli.parsing import add_command, number
 from host_sim.cli.run_options import add_option
 
@@ -49,7 +51,8 @@ def add(commands: "Subparsers") -> None:
         "Several robots are updated at once. Run the same command again to resume an interrupted update.\n"
         "Exit code 2 if a robot did not take the update; it keeps its old firmware.",
         epilog=_EXAMPLES,
-        stages=lambda _: ["images"],
+        check=_check,
+        stages=lambda arguments: ["images" if arguments.image in BOARDS else "update"],
     )
     add_ = parser.add_argument
     add_(
@@ -91,7 +94,7 @@ def add(commands: "Subparsers") -> None:
         description="Makes an Ed25519 key, writes it to a file that only you can read, and prints the public key,\n"
         "which is built into the boot loader.",
         epilog=_KEY_EXAMPLES,
-        stages=lambda _: ["images"],
+        stages=lambda _: ["update"],
     )
     keygen.add_argument("key", type=Path, metavar="PEM", help="file to write; it must not exist yet")
 
@@ -116,10 +119,7 @@ def _keygen(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _update(arguments: argparse.Namespace) -> int:
-    from host_sim.base.errors import UsageError
-    from host_sim.update.keys import development_key, load_key
-
+def _check(arguments: argparse.Namespace) -> None:
     changes = arguments.set_node is not None or arguments.set_bitrate is not None
     if arguments.bus is None and arguments.save is None:
         raise UsageError("nowhere to put the image: give --bus BUS or --save FILE")
@@ -127,6 +127,11 @@ def _update(arguments: argparse.Namespace) -> int:
         raise UsageError("IMAGE is missing: give a file from --save, or a board such as blue_pill")
     if arguments.set_node is not None and len(arguments.node) > 1:
         raise UsageError("--set-node is for one robot: give its current number with --node")
+
+
+def _update(arguments: argparse.Namespace) -> int:
+    from host_sim.update.keys import development_key, load_key
+
     key = load_key(arguments.key) if arguments.key else development_key()
     images = _images(arguments, key) if arguments.image is not None else None
     if arguments.key is None:
@@ -146,8 +151,6 @@ def _images(arguments: argparse.Namespace, key: "Ed25519PrivateKey") -> "dict[in
 
 
 def _save(path: Path, images: "dict[int, SlotImage]") -> None:
-    from host_sim.base.errors import UsageError
-
     try:
         path.write_bytes(b"".join(image.data for image in images.values()))
     except OSError as error:

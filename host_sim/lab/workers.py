@@ -63,9 +63,7 @@ def cluster(address: str) -> Workers:
 
     def check() -> None:
         if client.status in ("closing", "closed"):
-            raise OctetError(
-                f"the cluster at {address} is gone; run the same command again to resume"
-            )
+            raise OctetError(f"the cluster at {address} is gone; run the same command again to resume")
 
     return Workers(open=lambda: _Cluster(client), chunk=lambda _: _CLUSTER_CHUNK, check=check)
 

@@ -76,7 +76,7 @@ def test_an_old_log_is_not_written_over(capsys):
     before = OLD.read_bytes()
 
     assert main(["convert", str(OLD), str(OLD)]) == 2
-    assert "is what convert reads" in capsys.readouterr().err
+    assert "is the input of convert: choose another file" in capsys.readouterr().err
     assert before == OLD.read_bytes()
 
 

@@ -40,6 +40,10 @@ STAGES = {
     "study studies/learned.toml": "study",
     "study studies/learned.toml --dask tcp://host:8786": "study cluster",
     "dask scheduler": "cluster",
+    "keygen my.pem": "update",
+    "update robot.octet --bus socketcan:can0": "update",
+    "update --bus socketcan:can0 --set-node 7": "update",
+    "update blue_pill --save robot.octet": "images",
 }
 """What `tools/octet` sets up, by the words after it."""
 
@@ -62,6 +66,9 @@ WRONG = (
     "dask",
     "dask manager",
     "export run.log --mf4 run.log",
+    "update blue_pill",
+    "update --bus socketcan:can0",
+    "update --bus socketcan:can0 --node 1-2 --set-node 3",
     "dance",
 )
 

@@ -52,9 +52,7 @@ def add(commands: "Subparsers") -> None:
     add_option(parser, "bitrate")
     add_("--show", action="store_true", help="only show the stored values")
     add_("--set", action="append", default=[], metavar="NAME=VALUE", help="store a value instead of measuring it")
-    add_(
-        "--body", default="kit", metavar="BODY", help="emulated: its body, kit or a file (default: kit)"
-    )
+    add_("--body", default="kit", metavar="BODY", help="emulated: its body, kit or a file (default: kit)")
     add_("--seed", type=number(0, 2**32 - 1), default=1, help="emulated: seed of its body (default: 1)")
     add_("--yes", action="store_true", help="do not ask before each step: the robot is in place already")
 

@@ -40,9 +40,7 @@ class Calibration:
         try:
             answer = self.client.dialogue.command("get", wanted=BODY_PARAMETERS[name].number)
         except RefusedError as error:
-            raise UsageError(
-                f"node {self.client.node} has no body that can be calibrated: {error}"
-            ) from None
+            raise UsageError(f"node {self.client.node} has no body that can be calibrated: {error}") from None
         return int(answer.signals["value"])
 
     def set(self, name: str, value: int) -> None:
