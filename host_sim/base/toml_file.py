@@ -12,9 +12,6 @@ from typing import Any
 from host_sim.base.errors import UsageError
 from host_sim.base.regular_file import read_text
 
-# Its name depends on the version of Python, and mypy knows only one of them.
-toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
-
 _SIZE_MAX = 1_000_000
 _WHERE = re.compile(r" ?\(at (?:line (\d+), column \d+|end of document)\)")
 _HEADER = re.compile(r"\s*\[\[?\s*([^\[\]]+?)\s*\]\]?\s*(?:#.*)?$")
@@ -48,19 +45,30 @@ def read_toml(path: Path, what: str) -> TomlFile:
     """
     try:
         text = read_text(path, _SIZE_MAX)
-        return TomlFile(path, text, toml.loads(text))
+        return TomlFile(path, text, parse_toml(text))
     except FileNotFoundError:
         raise UsageError(f"there is no file {path}") from None
     except UnicodeDecodeError:
         raise UsageError(f"{path} is not {what}: it is not text") from None
     except RecursionError:
         raise UsageError(f"{path}: brackets are nested too deeply") from None
-    except toml.TOMLDecodeError as error:
+    except ValueError as error:
         where = _WHERE.search(str(error))
-        line = where[1] if where and where[1] else max(1, len(text.splitlines()))
+        if where is None:  # Python's own: it reads no whole number of thousands of digits
+            raise UsageError(f"{path}: a number has too many digits") from None
+        line = where[1] or max(1, len(text.splitlines()))
         raise UsageError(f"{path}:{line}: this is not TOML: {_WHERE.sub('', str(error))}") from None
-    except ValueError:  # of Python, which reads no whole number of thousands of digits
-        raise UsageError(f"{path}: a number has too many digits") from None
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """Parses TOML. Before Python 3.11 the parser is a package of .venv, which help texts do without.
+
+    Raises:
+        ValueError: The text is not TOML.
+    """
+    parser = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+    parsed: dict[str, Any] = parser.loads(text)
+    return parsed
 
 
 def line_of(text: str, key: str, *, table: str = "", index: int = 0, entry: int = -1) -> int:

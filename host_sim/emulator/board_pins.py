@@ -10,7 +10,7 @@ from typing import Any
 
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import ROOT
-from host_sim.base.toml_file import toml
+from host_sim.base.toml_file import parse_toml
 
 STM32 = Path("hal", "stm32")
 """Where boards and chips are, from the root."""
@@ -43,7 +43,7 @@ class ChipPins:
 
     def __init__(self, name: str, root: Path = ROOT) -> None:
         """Reads the table of a chip."""
-        table: dict[str, Any] = toml.loads((root / STM32 / name / "pins.toml").read_text())
+        table = parse_toml((root / STM32 / name / "pins.toml").read_text())
         self.name = name
         self._all = {f"P{port}{n}" for port, count in table["ports"].items() for n in range(count)}
         self._all |= set(table.get("more", ()))
@@ -168,7 +168,7 @@ class Pins:
 
 
 def _ends(root: Path) -> dict[str, tuple[str, str]]:
-    parts = toml.loads((root / "hal" / "pins_body" / "wiring.toml").read_text())
+    parts = parse_toml((root / "hal" / "pins_body" / "wiring.toml").read_text())
     return {signal: (part, end) for part, ends in parts.items() for signal, end in ends.items()}
 
 

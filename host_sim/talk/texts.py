@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from host_sim.base.toml_file import toml
+from host_sim.base.toml_file import parse_toml
 from host_sim.protocol.generated import Side
 from host_sim.view.languages import languages
 from host_sim.view.phrases import ENGLISH, Words
@@ -73,7 +73,7 @@ def read_texts(path: Path) -> Texts:
     Raises:
         OSError, ValueError, KeyError: It is not such a file; those of the project are.
     """
-    read: dict[str, Any] = toml.loads(path.read_text(encoding="utf-8"))
+    read = parse_toml(path.read_text(encoding="utf-8"))
     own: dict[str, Any] = languages()[read["language"]]["robot"]
     words = replace(ENGLISH, **{**own, "sentences": {**ENGLISH.sentences, **own.get("sentences", {})}})
     return Texts(words, read["facts"], read["spoken"], read["joined"])

@@ -124,7 +124,7 @@ def test_a_robot_that_is_not_heard_is_told(recorded):
 @pytest.mark.parametrize(
     ("words", "why"),
     [
-        (["watch", "--robot", "observe"], "--robot observe needs --bus INTERFACE:CHANNEL"),
+        (["watch", "--robot", "observe"], "--robot observe needs the bus of the robot, --bus INTERFACE:CHANNEL"),
         (["run", "--robot", "observe", "--bus", "virtual:x"], "tools/octet watch --bus BUS --robot observe"),
         (["watch", "--robot", "observe", "--bus", "virtual:x", "--robots", "2"], "one robot"),
     ],

@@ -11,7 +11,7 @@ import cantools
 from cantools.database.can import Database, Message
 from cantools.database.can.signal import Signal
 
-from host_sim.base.toml_file import toml
+from host_sim.base.toml_file import parse_toml
 from tools.robot_words.description import Description, DescriptionError, Member, Parameter
 
 _BYTE_MAX = 255
@@ -28,7 +28,7 @@ def read(dbc: Path, words: Path) -> Description:
         DescriptionError: They do not fit together.
     """
     try:
-        return _describe(_load(dbc), toml.loads(words.read_text(encoding="utf-8")))
+        return _describe(_load(dbc), parse_toml(words.read_text(encoding="utf-8")))
     except DescriptionError:
         raise
     except (OSError, LookupError, TypeError, AttributeError, ValueError) as error:

@@ -12,7 +12,7 @@ from itertools import product
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
-from host_sim.base.toml_file import toml
+from host_sim.base.toml_file import parse_toml
 from tools.verify.command import VerifyError
 
 
@@ -58,9 +58,9 @@ def read(path: Path) -> list[Permit]:
         TableError: It cannot be read, or an exception lacks a part.
     """
     try:
-        rows = toml.loads(path.read_text())["exception"]
+        rows = parse_toml(path.read_text())["exception"]
         parts = [(_several(row["in"]), _several(row["what"]), row["why"].strip()) for row in rows]
-    except (OSError, toml.TOMLDecodeError, KeyError, TypeError, AttributeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise TableError(f"cannot read {path}: {error!r}") from error
     for files, texts, why in parts:
         if not (files and texts and why):
