@@ -65,8 +65,13 @@ def parse_toml(text: str) -> dict[str, Any]:
 
     Raises:
         ValueError: The text is not TOML.
+        UsageError: This Python has no parser.
     """
-    parser = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+    try:
+        parser = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+    except ModuleNotFoundError:
+        python = "this python3 cannot read TOML"
+        raise UsageError(f"{python}: use 3.11 or newer, or call .venv/bin/python with the same words") from None
     parsed: dict[str, Any] = parser.loads(text)
     return parsed
 

@@ -6,6 +6,7 @@ import json
 import os
 import random
 import stat
+import sys
 import tracemalloc
 import xml.etree.ElementTree as ET
 import zlib
@@ -18,6 +19,7 @@ from host_sim.base.compressed_file import CompressedFile
 from host_sim.base.errors import OctetError, UsageError
 from host_sim.base.regular_file import read_bytes
 from host_sim.base.result_files import Case, write_results
+from host_sim.base.toml_file import parse_toml
 
 
 def test_a_file_is_written_and_leaves_nothing_else(tmp_path):
@@ -240,3 +242,11 @@ def test_on_a_full_disk_it_fails_and_is_closed_all_the_same():
         file.close()
 
     assert file.closed
+
+
+def test_a_python_that_cannot_read_toml_says_so(monkeypatch):
+    for name in ("tomllib", "tomli"):
+        monkeypatch.setitem(sys.modules, name, None)
+
+    with pytest.raises(UsageError, match=r"cannot read TOML: use 3\.11 or newer"):
+        parse_toml("a = 1")

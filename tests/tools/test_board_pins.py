@@ -2,6 +2,7 @@
 
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -76,6 +77,9 @@ def test_a_board_that_is_refused_is_not_built(root: Path, tmp_path: Path) -> Non
     change(root, "(OCTET_BUTTON PA8)", "(OCTET_BUTTON PB10)")
     header = tmp_path / "board_pins.h"
     done = subprocess.run(
-        [ROOT / "tools/pins", "blue_pill", "--root", root, "--c", header], capture_output=True, text=True, check=False
+        [sys.executable, ROOT / "tools/pins", "blue_pill", "--root", root, "--c", header],
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert (done.returncode, done.stderr.count("\n"), header.exists()) == (2, 1, False)

@@ -110,8 +110,10 @@ def call(folder: Path, words: str, **environment: str) -> subprocess.CompletedPr
 
 
 @pytest.mark.parametrize("words", HELP)
-def test_help_needs_no_set_up(words: str, sources: Path) -> None:
-    done = call(sources, words)
+def test_help_needs_no_set_up(words: str, sources: Path, tmp_path: Path) -> None:
+    """Nor what is a package before Python 3.11."""
+    (tmp_path / "tomllib.py").write_text('raise ModuleNotFoundError("tomllib")\n')
+    done = call(sources, words, PYTHONPATH=str(tmp_path))
     assert (done.returncode, done.stderr) == (0, "")
     assert "sets up" not in done.stdout
     assert words.split(maxsplit=1)[0] in done.stdout
