@@ -50,4 +50,4 @@ def at_most(seconds: float) -> Iterator[None]:
 
 
 def _give_up(_number: int, _frame: FrameType | None) -> NoReturn:
-    raise RobotError("a robot hangs, and was ended without an answer")
+    raise RobotError("a robot hung and was stopped without an answer")

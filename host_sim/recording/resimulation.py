@@ -50,7 +50,7 @@ class Resimulation:
     @property
     def title(self) -> str:
         """The run's title."""
-        return self.record.title if self.record else "a robot on its way"
+        return self.record.title if self.record else "a robot under way"
 
 
 def resimulate(log: Path, node: int = 1, *, ignore_world: bool = False) -> Resimulation:

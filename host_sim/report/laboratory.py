@@ -48,11 +48,11 @@ def laboratory(
     if record.program is not None:
         return {"why": "What if? runs the firmware's own brain, and the brain of this run was a program."}
     if record.world.crates is not None:
-        return {"why": "What if? has no pymunk, which pushed the crates of this run."}
+        return {"why": "What if? cannot repeat this run: pymunk moved its crates."}
     if nodes != list(range(1, len(nodes) + 1)) or len(nodes) > ROBOTS_MAX:
-        return {"why": f"What if? knows robots of nodes 1 to {ROBOTS_MAX} only."}
+        return {"why": f"What if? supports only robots of nodes 1 to {ROBOTS_MAX}."}
     if trajectory.first_tick:
-        return {"why": "What if? is for shorter runs: this page has the last part of one only."}
+        return {"why": "What if? is for shorter runs: this page has only the last part of a longer one."}
     robot_of = {Protocol(robot + 1).id_of("COMMAND"): robot for robot in range(len(nodes))}
     told = [(tick, robot_of[frame.id], frame.data.hex()) for tick, frame in commands if frame.id in robot_of]
     return {"page": packed(octet_page()), "run": {"commands": told, "ticks": trajectory.ticks, "world": _world(log)}}

@@ -88,7 +88,7 @@ def test_what_must_be_built_for_it_is_named(run_of, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(
     ("words", "why"),
-    [(("--robots", "5"), "What if? knows robots of nodes 1 to 4 only."), (("--node", "2"), "What if? knows robots")],
+    [(("--robots", "5"), "What if? supports only robots of nodes 1 to 4."), (("--node", "2"), "What if? supports")],
 )
 def test_a_run_that_it_cannot_repeat_says_so(run_of, tmp_path, words, why):
     log, page = run_of(*words), tmp_path / "page.html"

@@ -32,7 +32,7 @@ def test_pushes_are_no_news_and_their_page_says_why_it_cannot_ask_what_if(run):
     done = run(*BRIEF, "--bus", "none")
     page = (done.out / "replay.html").read_text()
 
-    assert "What if? has no pymunk, which pushed the crates of this run." in page
+    assert "What if? cannot repeat this run: pymunk moved its crates." in page
     assert not any("push" in sentence for _, sentence in resimulate(done.out / "run.log").trajectory.news)
     assert json.loads((done.out / "summary.json").read_text())["world"] == "crates"
 

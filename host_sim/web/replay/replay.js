@@ -93,7 +93,7 @@ class Player extends PlayingPage {
     this.go(tick);
   }
 
-  /** Compares the memory of now with that of other times; once more ends that. */
+  /** Begins to compare the present memory with that of other times; called again, ends it. */
   pin() {
     this.pinned = this.pinned === undefined ? this.tick : undefined;
     this.showPin();
@@ -171,7 +171,7 @@ class Player extends PlayingPage {
 
 async function start() {
   const text = byId("run").textContent;
-  if (!text) throw new Error("This page has no run in it: tools/octet replay RUN.LOG --html makes one that has.");
+  if (!text) throw new Error("This page contains no run: tools/octet replay RUN.LOG --html writes one that does.");
   const run = JSON.parse(text);
   Object.assign(window, { octet: new Player(await RunData.from(run)) });
 }

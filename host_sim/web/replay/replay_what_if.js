@@ -17,7 +17,7 @@ import { partingOf } from "../panel/divergence.js";
  */
 
 const NONE = {
-  why: "This page has no firmware in it. This command writes one that has: tools/octet replay out/run.log --html out/replay.html --what-if",
+  why: "This page contains no firmware. This command writes one that does: tools/octet replay out/run.log --html out/replay.html --what-if",
 };
 const PLACE = '<script type="application/json" id="begin"></script>';
 
@@ -102,7 +102,7 @@ function verdict(recorded, repeated) {
   const parting = partingOf(recorded, repeated);
   if (!parting) return "A is the recorded run, tick for tick; B is yours to change.";
   const seconds = ((parting.tick * recorded.measures.tick_ms) / 1000).toFixed(1);
-  return `A is not the recorded run: it differs from ${seconds} s on, for something from outside played a part in that.`;
+  return `A is not the recorded run: it differs from ${seconds} s on, because something outside influenced that run.`;
 }
 
 /**

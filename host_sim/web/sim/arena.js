@@ -1,5 +1,5 @@
 // @ts-check
-/* The arena of a run, in C: what stands in it, where the robots' bodies are, and what is wrong with them. */
+/* The arena of a run, in C: what stands in it, where the robots' bodies are, and their faults. */
 
 import { EDITS, KIT_SETTINGS } from "../generated.js";
 
@@ -57,7 +57,7 @@ export class Arena {
   describe(traits) {
     for (const [name, [value, tolerance]] of Object.entries(traits)) {
       this.native.handOver([], name);
-      if (!this.native.c.page_set_trait(value, tolerance)) throw new Error(`this page knows no body with ${name} ${value}`);
+      if (!this.native.c.page_set_trait(value, tolerance)) throw new Error(`this page does not support a body with ${name} ${value}`);
     }
   }
 

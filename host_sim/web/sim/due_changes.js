@@ -5,7 +5,7 @@ import { EditError } from "./arena.js";
 
 /** @typedef {import("../types.js").Change & {tick: number}} TimedChange */
 
-/** `refusals` has those that could not be made: by their place among the changes, why not. */
+/** `refusals` has the reason for each change that could not be made, by its index among the changes. */
 export class DueChanges {
   /** @param {TimedChange[]} changes - In the order of their ticks. */
   constructor(changes) {

@@ -1,5 +1,5 @@
 // @ts-check
-/* The experiment that a recorded log is of: what its commands say, and what its world file has. */
+/* Recovers the experiment of a recorded log from its commands and its world file. */
 
 import { Arena, EditError, IDEAL, KIT } from "./arena.js";
 import { CELL_COUNT, EDITS, FRAMES, OPCODE, PARAMETERS, PROFILES } from "../generated.js";
@@ -27,7 +27,7 @@ import { Simulation } from "./simulation.js";
 
 const LIMIT_TICKS = 30_000;
 const ENVIRONMENTS_MAX = 10_000;
-/** Of the fields of an edit: a text, and those that may be left out. */
+/** Fields of an edit: the one that is a text, and the optional ones. */
 const OTHERS = ["what", "robot", "seed"];
 const HALF = CELL_COUNT / 2;
 const NO_WORLD = "that is not a world file: open a run.world.json";
@@ -99,7 +99,7 @@ export function worldIn(module, worlds, text) {
  */
 function placeIn(module, worlds, world) {
   if (world === undefined || (typeof world === "string" && Object.hasOwn(worlds, world))) return world;
-  if (typeof world !== "object" || world === null) throw new Error(`this page knows no world ${JSON.stringify(world)}`);
+  if (typeof world !== "object" || world === null) throw new Error(`this page has no world ${JSON.stringify(world)}`);
   const { name, ...content } = /** @type {Record<string, unknown>} */ (world);
   return { name: `${name}`, ...checkedWorld(module, worlds.random, content) };
 }
@@ -186,7 +186,7 @@ function experimentIn(module, frames, world) {
     else if (command.opcode === OPCODE.START && robot === 0) seed = command.value;
     if (ticks === 0) robots[robot] = setUp(robots[robot], command);
   }
-  if (!robots.length || !ticks) throw new Error("this log has no robot of nodes 1 to 4 that was started");
+  if (!robots.length || !ticks) throw new Error("this log starts no robot of nodes 1 to 4");
   const [environments, limit_ticks] = world ? [world.of, world.limit_ticks] : [ENVIRONMENTS_MAX, LIMIT_TICKS];
   const during = changes.filter((change) => change.tick < ticks);
   const all = [...during, ...(world?.edits ?? [])].sort((a, b) => a.tick - b.tick);

@@ -1,5 +1,5 @@
 // @ts-check
-/* Feeds a recorded log to the firmware, and compares what it answers with what was recorded. */
+/* Feeds a recorded log to the firmware and compares its answers with the recorded ones. */
 
 import { FRAMES, NODE_MAX } from "../generated.js";
 import { NativeRun, ROBOTS_MAX } from "./native_run.js";
@@ -60,7 +60,7 @@ function frameOf(line, number) {
   const base = Object.values(FRAMES).find((first) => numeric >= first && numeric < first + NODE_MAX);
   if (base === undefined) return undefined;
   const robot = numeric - base;
-  if (robot >= ROBOTS_MAX) throw new Error(`line ${number} is of node ${robot + 1}: a page has up to ${ROBOTS_MAX}`);
+  if (robot >= ROBOTS_MAX) throw new Error(`line ${number} is from node ${robot + 1}: a page supports up to ${ROBOTS_MAX}`);
   return { robot, base, words: `${id}#${hex}`, data: bytesOf(hex) };
 }
 

@@ -1,5 +1,5 @@
 // @ts-check
-/* Programs for robots in page.wasm, and what they are doing: native/page_program.c. */
+/* Programs for robots in page.wasm, and their state: see native/page_program.c. */
 
 /**
  * @typedef {import("./native_run.js").NativeRun} NativeRun
@@ -40,7 +40,7 @@ export function loadProgram(native, robot, text) {
   const bytes = new TextEncoder().encode(text);
   if (bytes.length >= TEXT_MAX) throw new Error(`a program has up to ${TEXT_MAX - 1} bytes, not ${bytes.length}`);
   native.bytesAt(native.c.page_program_text(), bytes.length).set(bytes);
-  if (!native.c.page_program(robot, bytes.length)) throw new Error("there is no memory left for another program");
+  if (!native.c.page_program(robot, bytes.length)) throw new Error("not enough memory for another program");
 }
 
 /**

@@ -30,7 +30,7 @@ export class NativeRun {
    */
   constructor(module, robots) {
     this.c = /** @type {Exports} */ (/** @type {unknown} */ (new WebAssembly.Instance(module).exports));
-    if (!this.c.page_open(robots)) throw new Error("there is no memory left for another run");
+    if (!this.c.page_open(robots)) throw new Error("not enough memory for another run");
   }
 
   /**

@@ -1,5 +1,5 @@
 // @ts-check
-/* What the page's worker does: it simulates experiments, and hands over what it has recorded after each environment. */
+/* The page's worker: simulates experiments and sends its recording after each environment. */
 
 import { openLog, recordedExperiment } from "./log_opening.js";
 import { programState } from "./native_program.js";

@@ -1,5 +1,5 @@
 // @ts-check
-/* What is said to a run's robots: the commands of tools/run, in its order. */
+/* The commands sent to a run's robots, in the order of tools/run. */
 
 import { ANSWER_WANTS_RANGES, CELL_COUNT, OPCODE, PARAMETERS, PROFILES } from "../generated.js";
 
@@ -12,7 +12,7 @@ const HALF = CELL_COUNT / 2;
 const UPPER_HALF = 1 << HALF;
 const ALL_CELLS = Array.from({ length: CELL_COUNT }, (_, cell) => cell);
 
-/** `wantsRanges` tells of each robot whether its behaviour asks for distances. */
+/** `wantsRanges` tells for each robot whether its behaviour asks for distances. */
 export class RobotCommands {
   /**
    * @param {import("./native_run.js").NativeRun} native
@@ -88,7 +88,7 @@ export class RobotCommands {
   writeMemory(robot, memory) {
     const { native } = this;
     native.bytes.set(memory);
-    if (!native.c.page_translate(robot)) throw new Error("these eight bytes are not a memory of a robot");
+    if (!native.c.page_translate(robot)) throw new Error("these eight bytes are not a robot's memory");
     this.write(robot, [...native.bytes], ALL_CELLS);
   }
 

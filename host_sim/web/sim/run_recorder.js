@@ -27,7 +27,7 @@ const NAMES = ["x", "y", "heading", ...Object.keys(COLUMNS)];
 const EAT = ROW.indexOf("eat");
 const FIRST_ROOM = 1 << 13;
 
-/** Is called with each block of each robot. */
+/** Called with each block of each robot. */
 export class RunRecorder {
   /**
    * @param {Measures} measures
@@ -123,13 +123,13 @@ class Track {
     note(this.memory, this.ticks - 1, this.native.sides(this.robot));
   }
 
-  /** The robot was told something before the next tick. */
+  /** Notes that the robot was given a command before the next tick. */
   relearn() {
     this.history.relearn(this.ticks);
     note(this.memory, this.ticks, this.native.sides(this.robot));
   }
 
-  /** It is about to be started again: its lessons stay. */
+  /** Prepares for a restart of the robot: its lessons stay. */
   restart() {
     this.native.c.page_history_restart(this.robot);
     this.history.forgetCells(this.ticks);

@@ -1,5 +1,5 @@
 // @ts-check
-/* As much of TOML as world files have: keys with numbers, and lists of lists of numbers. Errors name the line. */
+/* The part of TOML that world files use: keys with numbers, and lists of lists of numbers. Errors name the line. */
 
 /**
  * @typedef {number | unknown[]} Value
@@ -10,7 +10,7 @@
 
 const TOKEN = /([A-Za-z_][\w-]*)|([-+]?\d[\d_]*(?:\.\d[\d_]*)?(?:[eE][-+]?\d+)?)|([[\],=])|(\s+|#[^\n]*)|(.)/gy;
 
-/** What was written in a line cannot be read. */
+/** A line cannot be read. */
 export class LineError extends Error {
   /**
    * @param {number} line

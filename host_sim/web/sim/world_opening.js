@@ -1,5 +1,5 @@
 // @ts-check
-/* The experiment that a world file is of: a world that a person wrote, or that of a run with what changed in it. */
+/* Makes an experiment from a world file: a person's own world, or that of a run with its changes. */
 
 import { worldIn } from "./log_opening.js";
 import { WrittenError, checkedWorld } from "./native_layouts.js";
@@ -20,7 +20,7 @@ import { LineError, parseToml } from "./toml.js";
 export function openWorld({ module, worlds }, { name, text }, base) {
   if (name.endsWith(".toml")) return { ...base, world: writtenWorld(module, worlds.random, { name, text }) };
   const { seed, of, limit_ticks, robots = 1, edits, world, body } = worldIn(module, worlds, text);
-  if (!(robots >= 1 && robots <= ROBOTS_MAX)) throw new Error(`${name} is of ${robots} robots; this page has room for ${ROBOTS_MAX}`);
+  if (!(robots >= 1 && robots <= ROBOTS_MAX)) throw new Error(`${name} is for ${robots} robots; this page has room for ${ROBOTS_MAX}`);
   const setups = Array.from({ length: robots }, () => ({ ...base.robots[0] }));
   return { ...base, seed, environments: of, limit_ticks, robots: setups, changes: edits, world: world ?? base.world, body };
 }

@@ -1,5 +1,5 @@
 // @ts-check
-/* The worlds that a run can take place in, those with a name and written ones. */
+/* The worlds of runs: named ones and written ones. */
 
 /**
  * @typedef {import("../types.js").SimParams} SimParams

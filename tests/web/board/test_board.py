@@ -93,7 +93,7 @@ def test_a_page_without_a_robot_watches(watch, open_page):
 
     watcher = open_page(url, ready=OWN)
 
-    assert watcher.inner_text("#own-robot") == "Every robot has a page already: here you can watch."
+    assert watcher.inner_text("#own-robot") == "Every robot already has a page: here you can watch."
     assert not watcher.is_visible("#erase")
     assert page.is_visible("#erase")
 

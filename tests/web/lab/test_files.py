@@ -53,7 +53,7 @@ def test_a_memory_goes_out_and_comes_back(page, tmp_path):
 
     page.set_input_files("#open", tmp_path / "robot.mem")
 
-    wait_for_text(page, "#file-news", "The robot begins with robot.mem.")
+    wait_for_text(page, "#file-news", "The robot starts with robot.mem.")
     simulated(page)
     page.evaluate("octet.go(0)")
     assert bytes(page.evaluate("octet.scene.state.memory")) == memory
@@ -81,7 +81,7 @@ def test_a_file_that_is_no_memory_is_told(page, tmp_path):
 
     page.set_input_files("#open", tmp_path / "robot.mem")
 
-    wait_for_text(page, "#file-news", "these eight bytes are not a memory of a robot")
+    wait_for_text(page, "#file-news", "these eight bytes are not a robot's memory")
     assert page.evaluate("octet.lane.experiment.robots[0].memory") is None
 
 

@@ -143,7 +143,7 @@ def test_what_it_says_of_two_runs_is_of_those_that_are_there(page):
         " return document.querySelector('#parting').textContent; }"
     )
 
-    assert said == "A and B do the same to the end."
+    assert said == "A and B do the same until the end."
 
 
 def test_axe_finds_nothing(page):

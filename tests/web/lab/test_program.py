@@ -181,15 +181,15 @@ def test_a_link_has_seed_world_behaviour_memory_program_and_language(open_page, 
     [
         (
             FOUND[: FOUND.index("_rule")],
-            "This link is cut short. Taken from it: seed, environments, world, behaviour, memory",
+            "This link is incomplete. Loaded from it: seed, environments, world, behaviour, memory",
         ),
         (
             FOUND.replace("v=1", "v=2"),
-            "This link is of another version of the page. Taken from it: seed, environments",
+            "This link is from another version of the page. Loaded from it: seed, environments",
         ),
-        ("#v=1&seed=x&world=moon&seed2=3&end", "Not taken: seed, world, seed2."),
-        ("#v=1&program=%E2%8&environments=3&end", "Taken from it: environments. Not taken: program."),
-        ("#v=1&memory=1.2.3&end", "Not taken: memory."),
+        ("#v=1&seed=x&world=moon&seed2=3&end", "Not loaded: seed, world, seed2."),
+        ("#v=1&program=%E2%8&environments=3&end", "Loaded from it: environments. Not loaded: program."),
+        ("#v=1&memory=1.2.3&end", "Not loaded: memory."),
     ],
 )
 def test_what_of_a_link_was_taken_and_what_not_is_told(link, told, open_page, file):

@@ -76,7 +76,7 @@ def test_another_world_than_that_of_the_log_is_found(tmp_path, run):
         ({"edits": [{**EDIT, "do": "jump"}]}, NO_WORLD),
         ({"edits": [None]}, NO_WORLD),
         ({"edits": [{"tick": 3, "do": "body", "what": "melt"}]}, NO_WORLD),
-        ({"world": "nowhere"}, 'this page knows no world "nowhere"'),
+        ({"world": "nowhere"}, 'this page has no world "nowhere"'),
         ({"world": {"name": "my.toml", "food": []}}, "a world needs food, such as food = [[3500, 400]]"),
     ],
     ids=str,
