@@ -30,7 +30,7 @@ import { showFacts } from "../panel/panel.js";
 
 const BORDER = 2;
 
-/** Shows the last message, at most once a frame of the screen. */
+/** Shows the last message, at most once per screen frame. */
 class Board {
   constructor() {
     this.curves = new BoardCurves();

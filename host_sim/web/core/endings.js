@@ -1,12 +1,12 @@
 // @ts-check
-/* What is said when an environment has ended, or a run was started over. */
+/* The texts for the end of an environment and for a run that was started over. */
 
 import { SIDE } from "../generated.js";
 import { robotWords, say } from "./language.js";
 import { minutes } from "./phrases.js";
 
 /**
- * How an environment ended, and after the last one how all did: a heading and a sentence.
+ * A heading and a sentence for how an environment ended, and after the last one for all of them.
  * @param {import("../types.js").Ended} ended
  * @param {boolean} done - Whether it was the last one.
  * @returns {[string, string]}

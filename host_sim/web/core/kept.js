@@ -1,8 +1,8 @@
 // @ts-check
-/* What this browser keeps from one visit to the next, where it is allowed to. */
+/* Texts that the browser keeps from one visit to the next, if it is allowed to. */
 
 /**
- * The text that was kept under a name; empty if there is none.
+ * The text kept under a name; empty if there is none.
  * @param {string} name
  */
 export function kept(name) {

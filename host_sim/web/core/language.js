@@ -1,5 +1,5 @@
 // @ts-check
-/* The words of the page in its reader's language: the browser's, or the one that was chosen here before. */
+/* The texts of the page in the reader's language: the browser's, or the one chosen here before. */
 
 import { made } from "./building.js";
 import { byId } from "./elements.js";
@@ -18,7 +18,7 @@ const FALLBACK = "en";
 const CHANGED = "octet-language";
 
 /**
- * The languages that are in the page, by their codes.
+ * The languages of the page, by code.
  * @type {Record<string, Texts>}
  */
 const ALL = JSON.parse(byId("texts").textContent ?? "");
@@ -48,7 +48,7 @@ export function wordsOf(part) {
 }
 
 /**
- * A text of the page, with its gaps filled.
+ * A text of the page, with its placeholders filled in.
  * @param {Key} key
  * @param {Record<string, string | number>} [values]
  */
@@ -88,7 +88,7 @@ function readRobot() {
 }
 
 /**
- * A name or a sentence that comes in English, in the page's language; as it is where that language has none for it.
+ * Translates an English name or sentence into the page's language; returns it unchanged if there is no translation.
  * @param {string} text
  * @returns {string}
  */
@@ -115,7 +115,7 @@ export function speak(code) {
 }
 
 /**
- * Calls back now, and whenever another language is chosen.
+ * Calls a function now and whenever another language is chosen.
  * @param {() => void} write
  */
 export function inEachLanguage(write) {
@@ -123,7 +123,7 @@ export function inEachLanguage(write) {
   write();
 }
 
-/** Writes what elements say from the beginning: `data-say` names an element's text, `data-say-title` a title. */
+/** Writes the fixed texts of elements: `data-say` names an element's text, `data-say-title` its title. */
 function sayAll() {
   document.documentElement.lang = spoken;
   const write = (/** @type {string} */ name, /** @type {(element: Element, text: string) => void} */ into) => {
@@ -138,7 +138,7 @@ function sayAll() {
   for (const option of document.querySelectorAll("[data-kinds] option")) option.textContent = nameIn("kinds", option.getAttribute("value") ?? "");
 }
 
-/** Fills the element `language`, where the page has one. */
+/** Fills the element `language`, if the page has one. */
 function offerLanguages() {
   const field = document.getElementById("language");
   if (!(field instanceof HTMLSelectElement)) return;

@@ -1,5 +1,5 @@
 // @ts-check
-/* The colours of a canvas: those of the style sheet, so that light and dark are decided in one place. */
+/* The colours of a canvas, read from the style sheet, so that one place defines light and dark. */
 
 import { REASON } from "../generated.js";
 
@@ -16,7 +16,7 @@ const ROBOT_COLOURS = 8;
  * @property {string[]} robots - Colours that tell robots apart.
  */
 
-/** What the style sheet calls each reason, by reason: "toward-food". */
+/** The style sheet's name of each reason, such as "toward-food". */
 export const REASON_KEYS = Object.entries(REASON)
   .sort(([, a], [, b]) => a - b)
   .map(([name]) => name.toLowerCase().replaceAll("_", "-"));

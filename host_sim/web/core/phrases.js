@@ -1,5 +1,5 @@
 // @ts-check
-/* What a robot does and why, in its own words: those of robot.toml. */
+/* Puts what a robot does and why into its own words, those of robot.toml. */
 
 import { BODY_SENTENCES, PATTERNS, REASON, SENTENCES, SIDE, SIDES } from "../generated.js";
 import { REASON_KEYS } from "./palette.js";
@@ -58,7 +58,7 @@ function nameOf({ lifted, reason, beacon, left, right, by_hand, pattern }) {
 }
 
 /**
- * How the last trial went; empty if there was none, or it still goes on.
+ * How the last trial went; empty if there was none or it is still going on.
  * @param {State} state
  * @param {Words} [words]
  * @returns {string}

@@ -81,7 +81,7 @@ export class RunData {
   }
 }
 
-/** What a recorded run has of one robot. */
+/** One robot's part of a recorded run. */
 export class RobotData {
   /**
    * @param {RobotRun} run

@@ -3,7 +3,7 @@
 
 import { CELL_COUNT, FEEL } from "../generated.js";
 
-/** What changes of a body call the sensors, from bit 0 of `feel` on. */
+/** The names of the sensors in changes of a body, from bit 0 of `feel` on. */
 export const SENSORS = Object.keys(FEEL).map((name) => name.toLowerCase().replace("_", "-"));
 
 /** The bit of each sensor in `feel`, and the bearing of its cone's middle in degrees to the right of the heading. */

@@ -1,5 +1,5 @@
 // @ts-check
-/* Says what could not be done, where the hand is. */
+/* Shows what could not be done, next to the pointer. */
 
 import { byId, setText } from "./elements.js";
 

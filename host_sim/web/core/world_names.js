@@ -1,5 +1,5 @@
 // @ts-check
-/* What worlds are called. */
+/* The names of worlds. */
 
 export const RANDOM = "random";
 

@@ -15,7 +15,7 @@ const ZOOM_STEP = 1.5;
 /** The zoom in which a robot is followed, if there was none. */
 const FOLLOW_ZOOM = 2.5;
 const WHEEL_PX = 400;
-/** The part of what is in view by which an arrow key moves it. */
+/** How far an arrow key moves the view, as a fraction of its size. */
 const ARROW_SHARE = 0.15;
 /** @type {Record<string, [number, number]>} */
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };

@@ -1,5 +1,5 @@
 // @ts-check
-/* Makes a scene that of a tick of a recorded run. */
+/* Fills a scene with a tick of a recorded run. */
 
 /**
  * @param {import("./scene.js").Scene} scene

@@ -1,5 +1,5 @@
 // @ts-check
-/* What keys do in the arena, so that everything works without a pointer. */
+/* Keyboard control of the arena, so that everything works without a pointer. */
 
 import { isForPage } from "../core/elements.js";
 

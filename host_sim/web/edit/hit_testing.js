@@ -1,5 +1,5 @@
 // @ts-check
-/* What lies at a place in the arena, and in which order the keyboard goes through it all. */
+/* Finds what lies at a place in the arena, and the order in which the keyboard visits all items. */
 
 /**
  * @typedef {import("../draw/scene.js").Item} Item

@@ -1,5 +1,5 @@
 // @ts-check
-/* Where items come to lie: whole numbers of mm, within the walls. */
+/* Places items at whole mm within the walls. */
 
 /**
  * @typedef {import("../draw/scene.js").Item} Item

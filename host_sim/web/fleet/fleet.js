@@ -1,5 +1,5 @@
 // @ts-check
-/* fleet.html: the robots of a fleet on the move, what they have learned, and one of them at a closer look. */
+/* fleet.html: shows the robots of a fleet moving, what they have learned, and one of them in detail. */
 
 import { made } from "../core/building.js";
 import { byId, setText, typedById } from "../core/elements.js";
@@ -15,7 +15,7 @@ const ALL = PATTERNS.length - 1;
 const ARROWS = ["·", "↰", "↱"];
 const SEED_SPAN = 2 ** 32;
 
-/** Plays what was sampled. */
+/** Plays the samples. */
 class FleetPage {
   /** @param {import("./fleet_data.js").FleetData} data */
   constructor(data) {

@@ -1,5 +1,5 @@
 // @ts-check
-/* What host_sim/report/fleet_page.py has written of a fleet, unpacked. */
+/* Unpacks a fleet's data, written by host_sim/report/fleet_page.py. */
 
 import { unpackColumns } from "../core/packed_columns.js";
 import { PATTERNS } from "../generated.js";
@@ -27,7 +27,7 @@ import { PATTERNS } from "../generated.js";
  * @typedef {{first: number, bars: number[][], food: number[][]}} FleetScene
  */
 
-/** A robot that is farther away in the next sample was carried into another environment. */
+/** A robot that moves farther than this to the next sample was carried into another environment. */
 const JUMP_MM = 600;
 const EATEN_BITS = 30;
 const SIDE_BITS = 2;
@@ -43,7 +43,7 @@ export async function fleetData(fleet) {
   return new FleetData(fleet, columns, scenes);
 }
 
-/** What each robot does and knows, by the number of a sample. */
+/** What each robot does and knows at each sample. */
 export class FleetData {
   /**
    * @param {Fleet} fleet

@@ -7,10 +7,10 @@ import { PATTERNS } from "../generated.js";
 
 const GAP_MM = 120;
 const FOOD_MM = 50;
-/** In small worlds, what is in them is drawn larger than it is. */
+/** Small worlds are drawn with enlarged contents. */
 const SMALL_PX_PER_MM = 0.08;
 const ENLARGED = 2.2;
-/** From this radius on one can see that a robot is round, and where it looks. */
+/** Minimum radius at which a robot is drawn round and with its heading. */
 const ROUND_PX = 3;
 
 /** Draws some worlds with all that is in them, if anything differs from what is there. */

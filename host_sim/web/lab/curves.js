@@ -1,5 +1,5 @@
 // @ts-check
-/* The curves of the runs, growing with time, and the table of what they have come to. */
+/* The curves of the runs over time, and the table of their results. */
 
 import { byId, setText, typedById } from "../core/elements.js";
 import { heard, inEachLanguage, nameIn, say, robotWords } from "../core/language.js";

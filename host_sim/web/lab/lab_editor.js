@@ -1,5 +1,5 @@
 // @ts-check
-/* What a person does in the arenas: as on the live page, in the run that is selected. Plants can be put down and grow. */
+/* Editing of the arenas, as on the live page, in the selected run. Plants can be added and grown. */
 
 import { ArenaEditor } from "../edit/arena_editor.js";
 import { bindArenaKeys } from "../edit/arena_keys.js";

@@ -1,5 +1,5 @@
 // @ts-check
-/* octet.html: runs of the real firmware in this page, side by side; what a person changes makes another future. */
+/* octet.html: runs of the real firmware in this page, side by side; each change leads to another future. */
 
 import { SidePanel } from "./side_panel.js";
 import { byId, isForPage, setText, typedById } from "../core/elements.js";

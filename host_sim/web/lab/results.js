@@ -1,5 +1,5 @@
 // @ts-check
-/* What a run has come to, up to a tick: numbers for curves, for a table and for a file. */
+/* The results of a run up to a tick: numbers for curves, for a table and for a file. */
 
 import { PARAMETERS, REASON } from "../generated.js";
 

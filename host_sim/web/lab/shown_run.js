@@ -1,5 +1,5 @@
 // @ts-check
-/* One of the runs that are shown side by side: its experiment, what came of it, and its arena. */
+/* One of the runs shown side by side: its experiment, its results, and its arena. */
 
 import { heard, say } from "../core/language.js";
 import { setText } from "../core/elements.js";
@@ -170,7 +170,7 @@ export class ShownRun {
     this.experiment = { ...this.experiment, changes: this.experiment.changes.filter((it) => !changes.includes(it)) };
   }
 
-  /** Takes the change back that was made last; false if there is none. */
+  /** Undoes the last change; false if there is none. */
   undo() {
     const { changes } = this.experiment;
     this.experiment = { ...this.experiment, changes: changes.slice(0, -1) };

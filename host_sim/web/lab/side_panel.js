@@ -38,7 +38,7 @@ import { RANDOM, nameOf } from "../core/world_names.js";
  * @property {(experiment: Experiment) => void} begin
  */
 
-/** What can be let happen to a body, as `tools/run --change` has it; docs/worlds.md explains each. */
+/** The changes of a body that the page offers, as for `tools/run --change`; docs/worlds.md explains each. */
 const FAULTS = [
   ...SENSORS.flatMap((sensor) => [`stuck-on:${sensor}`, `stuck-off:${sensor}`]),
   "mirror", "noise:10/1000", "noise:100/1000", "swap-motors", "weak-motor:left:60%", "weak-motor:right:60%",
@@ -71,7 +71,7 @@ export class SidePanel {
     this.bindFiles();
   }
 
-  /** Fills the fields with what can be chosen. */
+  /** Fills the fields with their choices. */
   offer() {
     offer(this.behaviour, PROFILES.map((name) => [name, heard(name)]));
     offer(this.fault, FAULTS.map((what) => [what, faultName(what)]));
@@ -172,7 +172,7 @@ export class SidePanel {
     this.lab.begin(experiment);
   }
 
-  /** The robot begins with other random turns. */
+  /** Starts the robot with other random turns. */
   reseed() {
     if (!this.robotSeed.checkValidity() || this.robotSeed.value === "") return;
     this.lab.lane.setUp({ seed: Number(this.robotSeed.value) });

@@ -1,5 +1,5 @@
 // @ts-check
-/* The worlds that a new run can take place in, each as a picture of its first environment: one of them is chosen. */
+/* The choice of a new run's world: a picture of each world's first environment. */
 
 import { made } from "../core/building.js";
 import { byId, typedById } from "../core/elements.js";

@@ -1,5 +1,5 @@
 // @ts-check
-/* The course: the lesson that is open, and its goals, which the runs themselves reach. */
+/* The course: the open lesson and its goals, which are checked against the runs. */
 
 import { byId } from "../core/elements.js";
 import { keep, kept } from "../core/kept.js";
@@ -105,7 +105,7 @@ export class Course {
     for (const experiment of others) this.lab.select(this.lab.addLane(experiment));
   }
 
-  /** Looks whether goals are reached by what is shown now, and shows it. */
+  /** Checks which goals the runs shown now have reached, and shows it. */
   show() {
     if (this.begun) this.check();
     if (!byId("panel-lessons").hidden) this.view.show();

@@ -1,5 +1,5 @@
 // @ts-check
-/* What the data of a run show up to a tick: the goals of the lessons ask for it. */
+/* Facts about a run up to a tick, for the goals of the lessons. */
 
 import { PARAMETERS, REASON } from "../generated.js";
 

@@ -1,5 +1,5 @@
 // @ts-check
-/* What the goals of the lessons ask of the runs, up to the tick that is shown. */
+/* Checks of the lessons' goals on the runs, up to the tick shown. */
 
 import { PARAMETERS, PATTERNS, SIDE } from "../generated.js";
 import { hasEatenAll, hasEnded, isProgrammed, longestStretch, settingAt, stretchesOf, ticksPerObstacle } from "./evidence.js";

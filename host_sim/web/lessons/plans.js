@@ -1,5 +1,5 @@
 // @ts-check
-/* The seven lessons: what each begins with, and when its goals are reached. Their words are in texts/. */
+/* The seven lessons: how each begins, and when its goals are reached. Their texts are in texts/. */
 
 import { PARAMETERS } from "../generated.js";
 import { experimentOf } from "../lab/shown_run.js";
@@ -25,7 +25,7 @@ import { changedAnswer, repeatsWhatItWasTaught, tellsKnowingFromSaying } from ".
  * @property {Goal[]} goals
  */
 
-/** What a robot knows that has learned all. */
+/** The memory of a robot that has learned everything. */
 const LEARNED = [0, 1, 1, 1, 2, 1, 2, 1];
 
 /** @type {Plan[]} */

@@ -1,5 +1,5 @@
 // @ts-check
-/* The times at which a robot had to get past what a person has put into its arena. */
+/* The times at which a robot had to get past something that a person put into its arena. */
 
 import { REASON } from "../generated.js";
 import { stretchesOf } from "./evidence.js";
@@ -17,7 +17,7 @@ import { stretchesOf } from "./evidence.js";
  * @typedef {{at: Place, last: number, tried: boolean, knewNothing: boolean}} Meeting
  */
 
-/** How much farther than its sensors reach a thing may be that a robot has just noticed, mm. */
+/** How far beyond its sensors' range a thing may be that a robot has just noticed, mm. */
 const SLACK_MM = 15;
 
 /** @type {WeakMap<RunData, Meeting[]>} */

@@ -1,5 +1,5 @@
 // @ts-check
-/* What the goals of the last lesson ask of what was said. */
+/* Checks of the last lesson's goals on the conversation. */
 
 /**
  * @typedef {import("../talk/talk_box.js").Exchange} Exchange

@@ -1,5 +1,5 @@
 // @ts-check
-/* What some lessons need beside the rest of the page: one kind of tool each. */
+/* Tools that some lessons need beside the rest of the page. */
 
 import { setText } from "../core/elements.js";
 import { languageCode } from "../core/language.js";

@@ -1,5 +1,5 @@
 // @ts-check
-/* What is printed: a worksheet with room to write, or the notes for teachers. */
+/* The printed pages: a worksheet with room to write, or the notes for teachers. */
 
 import { pictureOf } from "../panel/cells_view.js";
 import { byId } from "../core/elements.js";

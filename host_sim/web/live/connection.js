@@ -1,5 +1,5 @@
 // @ts-check
-/* The WebSocket of a live run: connects, and connects again. */
+/* The WebSocket of a live run: connects, and reconnects. */
 
 import { byId, setText } from "../core/elements.js";
 import { say } from "../core/language.js";
@@ -9,7 +9,7 @@ import { say } from "../core/language.js";
 const RECONNECT_MS = 1000;
 const GOING_AWAY = 1001;
 
-/** Says in the element `status` when it is lost; the next run may come to the same address. */
+/** Shows a lost connection in the element `status`; the next run may use the same address. */
 export class Connection {
   /**
    * @param {string} path - The address, with its query.

@@ -13,7 +13,7 @@ import { inEachLanguage, say } from "../core/language.js";
 
 /** @type {Record<string, string>} */
 const KEYS = { " ": "play", ".": "decision", n: "next" };
-/** What has no effect once the run is over. */
+/** The controls without effect once the run is over. */
 const NEEDS_A_RUN = ["play", "decision", "lift", "add-bar"];
 
 /** Sends what a person asks for, and shows how things stand. */

@@ -1,5 +1,5 @@
 // @ts-check
-/* The live page: shows what comes over the WebSocket, sends what a person does. */
+/* The live page: shows what arrives over the WebSocket and sends what a person does. */
 
 import { byId, setText } from "../core/elements.js";
 import { restarted } from "../core/endings.js";
@@ -16,7 +16,7 @@ import { TalkBox } from "../talk/talk_box.js";
  * @typedef {import("../types.js").Message} Message
  */
 
-/** Draws at most once a frame of the screen. */
+/** Draws at most once per screen frame. */
 class LivePage {
   constructor() {
     /** @type {LiveView | undefined} */

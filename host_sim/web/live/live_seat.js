@@ -1,5 +1,5 @@
 // @ts-check
-/* A live page with a robot of its own: it shows that robot, and what else it has no right to change is hidden. */
+/* A live page with a robot of its own: it shows that robot and hides all that it may not change. */
 
 import { byId, setText, typedById } from "../core/elements.js";
 import { inEachLanguage, say } from "../core/language.js";
@@ -49,7 +49,7 @@ export class LiveSeat {
   }
 }
 
-/** What this page is recognised by when it is loaded again: its own secret, which ends with the tab. */
+/** A secret by which the server recognises this page when it is reloaded; it is lost with the tab. */
 export function pageKey() {
   try {
     const known = sessionStorage.getItem(KEY) ?? newKey();

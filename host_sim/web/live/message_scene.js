@@ -1,5 +1,5 @@
 // @ts-check
-/* Makes a scene that of a live run. */
+/* Fills a scene with a message of a live run. */
 
 import { Scene } from "../draw/scene.js";
 

@@ -46,7 +46,7 @@ int32_t page_command(uint32_t robot, uint32_t opcode, uint32_t which, uint32_t v
     if (opcode == OPCODE_START)
         page_state()->robots[robot].halted = false;
     send(robot, &message);
-    page_state()->robots[robot].known_count = 0;   /* after a command, even what was reported long ago may be news */
+    page_state()->robots[robot].known_count = 0;   /* after a command, even an old report may be news */
     while (page_take(robot, &frame))
         if (frame.id == wire_id(&page_octet(robot)->wire, OCTET_ANSWER_FRAME_ID)) {
             (void)octet_answer_unpack(&answer, frame.data, frame.len);

@@ -3,7 +3,7 @@
 #include <string.h>
 
 enum {
-    COUNTS = 3,   /* that stand before what is handed over */
+    COUNTS = 3,   /* numbers in front of the lists in the result */
     TANGENTS_MAX = 6000
 };
 
@@ -13,7 +13,7 @@ static struct drawing {
     struct written_fault fault;
     struct layout layout;
     struct pose starts[PAGE_ROBOTS_MAX];
-    union {   /* used one after the other */
+    union {   /* used at different times */
         struct {
             uint8_t cells[WRITTEN_CELLS_MAX];
             uint32_t stack[WRITTEN_CELLS_MAX];
@@ -75,7 +75,7 @@ static struct reach reach(void)
     return (struct reach){.cells = drawing.room.reach.cells, .stack = drawing.room.reach.stack};
 }
 
-/* Appends what consists of doubles. */
+/* Appends structs that consist of doubles. */
 static double *put(double *at, const void *things, size_t size)
 {
     memcpy(at, things, size);

@@ -2,7 +2,7 @@
 
 #include "octet.h"
 
-/* Room for a block's lines: the senses, the drive and a report of each tick, and all at once in one of them. */
+/* Room for a block's lines: senses, drive and report of each tick, and in one of the ticks all waiting frames. */
 enum { LINES_A_TICK = 3, LOG_LINES = PAGE_ROBOTS_MAX * (LINES_A_TICK * PAGE_TICKS_MAX + PAGE_WAITING_MAX) };
 
 void page_bind(struct loop_robot *robot, struct octet *octet)
@@ -20,7 +20,7 @@ void page_bind(struct loop_robot *robot, struct octet *octet)
     robot->poses = poses[index];
 }
 
-/* As in host_sim/client/supervision.py: all that it has said but its drive, then its report. */
+/* As in host_sim/client/supervision.py: logs the robot's frames except the drive, then asks for its report. */
 static bool ask(struct loop *loop, size_t index)
 {
     struct loop_robot *robot = &loop->robots[index];

@@ -1,6 +1,6 @@
 #include "host_sim/web/native/page_frames.h"
 
-enum { STEP = 3, NAME = 5 };   /* numbers of each */
+enum { STEP = 3, NAME = 5 };   /* numbers per step and per name */
 
 char *page_program_text(void)
 {

@@ -47,7 +47,7 @@ static void set_world(struct page_world *of, const double dimensions[PAGE_DIMENS
     of->world.food = of->food;
 }
 
-/* What the bodies overlap where they are now is not new to them. */
+/* Rebuilds the space from the furniture. What the bodies overlap already counts as no new contact. */
 static void take_furniture(struct page_world *of)
 {
     of->space.capsule_count = of->ranges.capsule_count = of->kit_ranges.capsule_count = of->furniture.capsule_count;
@@ -101,7 +101,7 @@ void page_build(void)
     take_furniture(of);
 }
 
-/* A body that has come from another environment has rolled as far as it has; of the rest it knows nothing. */
+/* A body in a new environment keeps its odometry, faults and traits; all else starts afresh. */
 static void begin_body(struct body *body, const struct pose *start)
 {
     *body = (struct body){

@@ -144,7 +144,7 @@ function makeButton(cell, onPress) {
   button.type = "button";
   button.disabled = cell === 0;
   button.addEventListener("click", () => {
-    // Pressed again before the first press is shown, it goes on from what was wanted.
+    // A second press before the first one is shown continues from the side that the first one asked for.
     const next = (SIDES.indexOf(button.dataset.wanted ?? button.dataset.side ?? "") + 1) % SIDES.length;
     button.dataset.wanted = SIDES[next];
     onPress(cell, next);

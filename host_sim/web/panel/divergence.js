@@ -1,5 +1,5 @@
 // @ts-check
-/* Where two runs part, and why. */
+/* Where two runs diverge, and why. */
 
 import { byId, setText } from "../core/elements.js";
 import { CELL_COUNT } from "../generated.js";

@@ -1,5 +1,5 @@
 // @ts-check
-/* The article's listing, with the line lit that the robot executes. */
+/* The article's listing, with the line highlighted that the robot executes. */
 
 import { pictureOf } from "./cells_view.js";
 import { byId, setText } from "../core/elements.js";

@@ -1,5 +1,5 @@
 // @ts-check
-/* What is written beside the arena: what a robot does and why, how bored it is, how the run stands. */
+/* The texts beside the arena: what a robot does and why, how bored it is, and the state of the run. */
 
 import { SteadyStates } from "./steady_states.js";
 import { CellsView } from "./cells_view.js";

@@ -1,5 +1,5 @@
 // @ts-check
-/* Which of several robots the panel shows: a button for each, and keys. With one robot there is nothing to see. */
+/* Chooses which of several robots the panel shows: a button for each, and keys. Hidden if there is only one robot. */
 
 import { byId, isForPage } from "../core/elements.js";
 import { inEachLanguage, say } from "../core/language.js";

@@ -1,14 +1,14 @@
 // @ts-check
-/* Which state of a robot words and colours tell of: people read more slowly than robots decide. */
+/* Holds a robot's state long enough for texts and colours to be read: people read more slowly than robots decide. */
 
 import { REASON } from "../generated.js";
 
 /** @typedef {import("../types.js").State} State */
 
-/** A state stays this long before one that matters less, so that nothing flickers. */
+/** How long a state stays before a less important one replaces it, so that nothing flickers. */
 const HOLD_MS = 700;
 const LIFTED_WEIGHT = 9;
-/** How much each reason matters. */
+/** The importance of each reason. */
 const WEIGHT = new Map([
   [REASON.STOP, 0], [REASON.WANDER, 1], [REASON.TOWARD_FOOD, 2], [REASON.LOOK_AROUND, 1],
   [REASON.REMEMBERED, 3], [REASON.TRIAL, 4], [REASON.BOREDOM, 5], [REASON.EAT, 5],

@@ -26,7 +26,7 @@ const MARKS = {
 };
 const THUMB_PX = 8;
 
-/** Says in the element marks-legend what each mark stands for, in the language of the page. */
+/** Explains each mark in the element marks-legend, in the language of the page. */
 export function explainMarks() {
   const items = () => Object.entries(MARKS).map(([kind, [reason]]) =>
     made("li", [nameIn("kinds", kind)], kind === "change" ? { "data-thing": kind } : { "data-reason": REASON_KEYS[reason] }));

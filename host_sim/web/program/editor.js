@@ -1,5 +1,5 @@
 // @ts-check
-/* A field for a program, with the numbers of its lines, the one that is lit and the one with a mistake. */
+/* A field for a program, with line numbers, one line highlighted, and one marked as a mistake. */
 
 /** The text is in `field`. */
 export class Editor {

@@ -1,5 +1,5 @@
 // @ts-check
-/* A link to an experiment: what it takes to see it again stands behind the # of the page's address. */
+/* A link to an experiment: all that reproduces it follows the # of the page's address. */
 
 import { filled } from "../core/phrases.js";
 import { CELL_COUNT, PROFILES } from "../generated.js";

@@ -1,5 +1,5 @@
 // @ts-check
-/* Where a program is: the steps of the decision that is under way at a tick, one by one, and its variables. */
+/* Where a program is: the single steps of the decision in progress at a tick, and its variables. */
 
 /**
  * @typedef {import("../lab/shown_run.js").ShownRun} ShownRun
@@ -9,7 +9,7 @@
 const CELLS_SHOWN = 16;   // of an array
 const DECIMALS = 1000;
 
-/** `state` is the last that is known. */
+/** `state` is the last known one. */
 export class ProgramSteps {
   /** @param {import("../lab/simulator.js").Simulator} simulator */
   constructor(simulator) {
@@ -80,7 +80,7 @@ export class ProgramSteps {
     return next;
   }
 
-  /** The line that is under way, from 1; 0 if there is none. */
+  /** The line being executed, from 1; 0 if there is none. */
   get line() {
     const steps = this.state?.steps ?? [];
     return steps[this.place ?? steps.length - 1]?.line ?? 0;

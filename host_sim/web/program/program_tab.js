@@ -1,5 +1,5 @@
 // @ts-check
-/* The tab with a program for a robot: it runs beside the firmware, step by step if one likes. */
+/* The tab with a program for a robot, which runs beside the firmware, step by step if desired. */
 
 import { buttonOf, choiceOf, made } from "../core/building.js";
 import { byId, setText } from "../core/elements.js";
@@ -128,7 +128,7 @@ export class ProgramTab {
     lab.setPlaying(true);
   }
 
-  /** The next line, or, after the last one of a decision, the first one of the next. */
+  /** Goes to the next line or, after a decision's last one, to the first line of the next decision. */
   step() {
     this.lab.setPlaying(false);
     if (this.own && !this.steps.advance()) this.nextDecision();

@@ -16,7 +16,7 @@ export class PlayingPage {
     this.first = first;
     /** The tick that is shown. */
     this.tick = first;
-    /** The same with its fraction, as it plays on. */
+    /** The same with a fraction, while it plays. */
     this.exactTick = first;
     this.playing = false;
     /**
@@ -67,7 +67,7 @@ export class PlayingPage {
   /** @param {number} _step - 1 for the next event of the chosen kind, -1 for the one before. */
   jump(_step) {}
 
-  /** Asks what would have been if something were changed at this tick. */
+  /** Opens "What if?" at this tick. */
   whatIf() {}
 
   resize() {

@@ -1,5 +1,5 @@
 // @ts-check
-/* A conversation in a page, with the robot of a run or with ELIZA; it marks what is known. */
+/* A conversation on a page, with the robot of a run or with ELIZA; answers that are known facts are marked. */
 
 import { byId } from "../core/elements.js";
 import { inflate } from "../core/packed_columns.js";
@@ -55,7 +55,7 @@ export class Conversation {
   }
 }
 
-/** All who can be talked to in a page that has the whole run. They are unpacked when the first of them is spoken to. */
+/** All speakers of a page that has the whole run. They are unpacked when one of them is first spoken to. */
 export class Conversations {
   /** @type {Promise<Record<string, Conversation>> | undefined} */
   #all;

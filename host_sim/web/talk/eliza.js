@@ -1,5 +1,5 @@
 // @ts-check
-/* ELIZA of 1966 in a page: answers sentences by a script that host_sim/talk/script.py has read and checked. */
+/* The ELIZA of 1966 on a page: answers sentences by a script that host_sim/talk/script.py has read and checked. */
 
 /**
  * @typedef {string | number | {words: string[]} | {tags: string[]}} Part

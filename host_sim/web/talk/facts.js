@@ -1,5 +1,5 @@
 // @ts-check
-/* What a robot knows of a run in a page, up to a tick. host_sim/talk/facts.py says what each fact is. */
+/* What a robot on a page knows of its run up to a tick. host_sim/talk/facts.py explains each fact. */
 
 import { REASON, SIDE } from "../generated.js";
 import { decimal, filled, lessonSentence, sentence, verdict } from "../core/phrases.js";

@@ -1,5 +1,5 @@
 // @ts-check
-/* A box to talk in: who is asked, what was said, and a line to write in. */
+/* The box for conversations: the choice of a speaker, what was said, and an input line. */
 
 import { buttonOf, made } from "../core/building.js";
 import { setText } from "../core/elements.js";

@@ -170,7 +170,7 @@ def test_a_page_without_it_says_how_to_get_it(recorded, open_page):
     page.click("#what-if")
 
     command = "tools/octet replay out/run.log --html out/replay.html --what-if"
-    wait_for_text(page, "#no-what-if", f"This command writes one that has: {command}")
+    wait_for_text(page, "#no-what-if", f"This command writes one that does: {command}")
 
 
 def test_axe_finds_nothing_and_fingers_hit_everything(plain, open_page):
