@@ -196,17 +196,20 @@ class PacedRun:
             self._next_s = began
         now = began
         while now >= self._next_s and now - began < _SLICE_S and self.playing and self.ended_at is None:
-            self._tick()
-            self._next_s = now if self.speed == FULL_SPEED else self._next_s + self.params.tick_s / self.speed
+            self._run_ticks(now)
             now = time.monotonic()
             if self._commands:
                 break
         self._measure(now)
 
-    def _tick(self) -> None:
+    def _run_ticks(self, now: float) -> None:
+        """Runs some of the ticks that are due; one by one where one of them may be the last before a pause."""
         simulation = self.simulation
-        in_blocks, changes = self.speed == FULL_SPEED and self._decided is None, simulation.record.edits_tried
-        simulation.step(simulation.block_ticks if in_blocks else 1)
+        first, changes = simulation.tick, simulation.record.edits_tried
+        tick_s = 0.0 if self.speed == FULL_SPEED else self.params.tick_s / self.speed
+        due = 1 + int((now - self._next_s) / tick_s) if tick_s else simulation.block_ticks
+        simulation.step(min(due, simulation.block_ticks) if self._decided is None else 1)
+        self._next_s = self._next_s + (simulation.tick - first) * tick_s if tick_s else now
         self.layout += simulation.record.edits_tried - changes
         if self._has_decided(simulation.drives[0]):
             self._pause()

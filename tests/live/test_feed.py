@@ -17,6 +17,7 @@ from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import RobotTrack
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
+from tests.live.support import play
 
 
 def test_a_page_is_told_what_is_new_and_only_that(live):
@@ -35,9 +36,7 @@ def test_a_page_sees_crates_move():
         run.begin()
         feed = PageFeed(run)
         feed.next()
-        while not any(edit.do == "push_bar" for _, edit in simulation.record.edits):
-            assert not simulation.over
-            run._tick()
+        play(run, lambda: any(edit.do == "push_bar" for _, edit in simulation.record.edits))
 
     last = simulation.record.edits[-1].edit
     bars = {bar_id: ends for bar_id, *ends in json.loads(feed.next())["environment"]["bars"]}

@@ -4,6 +4,7 @@ import asyncio
 import json
 import time
 from dataclasses import replace
+from itertools import count
 from types import SimpleNamespace
 
 import pytest
@@ -33,6 +34,16 @@ def test_it_keeps_the_time_of_the_wall(live):
     began = time.monotonic()
     play(run, lambda: run.simulation.tick >= 100)
     assert time.monotonic() - began > 0.9 * 100 * 0.02 / 4
+
+
+def test_the_ticks_that_are_due_run_in_blocks(live, monkeypatch):
+    run, clock_ms, calls = live(speed=1000.0), count(), []
+    step = run.simulation.step
+    monkeypatch.setattr(paced_run.time, "monotonic", lambda: next(clock_ms) / 1000)
+    monkeypatch.setattr(run.simulation, "step", lambda ticks: (calls.append(ticks), step(ticks)))
+    play(run, lambda: run.simulation.tick >= 1000)
+    assert max(calls) >= 0.001 * 1000 / 0.02
+    assert len(calls) < 1000 / 10
 
 
 def test_full_speed_waits_for_nothing(live, monkeypatch):
