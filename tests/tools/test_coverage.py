@@ -97,7 +97,7 @@ def test_the_sums_are_those_of_all_conditions(built):
 
 
 def test_a_build_whose_tests_have_not_run_is_an_error(built):
-    with pytest.raises(MeasureError, match="no test has left anything"):
+    with pytest.raises(MeasureError, match="no test has left coverage data"):
         measure(built, built / "build")
 
 

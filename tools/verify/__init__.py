@@ -1,1 +1,1 @@
-"""What verifies the code beyond its tests: mutants, coverage, MISRA C and sizes."""
+"""Checks of the code beyond its tests: mutation testing, coverage, MISRA C and image sizes."""

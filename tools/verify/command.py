@@ -1,4 +1,4 @@
-"""What the commands have in common: their errors, how they run, and what they print."""
+"""Common parts of the verification commands: errors, argument parser, exit codes and subprocesses."""
 
 import argparse
 import subprocess
@@ -13,18 +13,18 @@ class VerifyError(Exception):
 
 
 class ChoiceError(VerifyError):
-    """What was asked for is not there."""
+    """The requested item does not exist."""
 
 
 def parser(name: str, description: str | None) -> argparse.ArgumentParser:
-    """The parser of a command, which is named by its path."""
+    """The argument parser of the command tools/NAME."""
     return argparse.ArgumentParser(
         prog=f"tools/{name}", description=description, formatter_class=argparse.RawDescriptionHelpFormatter
     )
 
 
 def run(name: str, check: Callable[[], Sequence[str]]) -> int:
-    """Checks, and prints the complaints; returns the exit code: 0, 1 if there are any, 2 if it was asked wrongly."""
+    """Runs a check and prints its complaints; returns the exit code: 0, 1 for complaints, 2 for a wrong request."""
     code = 1
     try:
         complaints = check()
@@ -36,15 +36,15 @@ def run(name: str, check: Callable[[], Sequence[str]]) -> int:
 
 
 def output_of(*command: object, error: type[VerifyError] = VerifyError, env: Mapping[str, str] | None = None) -> str:
-    """What a program prints.
+    """Runs a program and returns its standard output.
 
     Args:
-        command: Its name and arguments.
-        error: Raised if it fails.
-        env: Its environment; None for this process's.
+        command: Program and arguments.
+        error: The exception to raise if it fails.
+        env: Environment; None for this process's.
 
     Raises:
-        VerifyError: It is missing or fails; ends with what it printed last.
+        VerifyError: The program is missing or fails; the message ends with its last output.
     """
     words = [str(word) for word in command]
     try:

@@ -1,4 +1,4 @@
-"""The tables of exceptions: findings that a check permits, each with its reason. All have one format.
+"""Tables of exceptions: findings that a check permits, each with its reason. All have this format.
 
 [[exception]]
 in = "firmware/brain.c"            # a file, or several; * stands for anything
@@ -17,34 +17,34 @@ from tools.verify.command import VerifyError
 
 
 class TableError(VerifyError):
-    """The table cannot be used; says why."""
+    """The table is invalid; the message says why."""
 
 
 class Finding(Protocol):
-    """What a check finds."""
+    """A finding of a check."""
 
     @property
     def file(self) -> str:
-        """Where, from the root of the project."""
+        """Its file, relative to the project's root."""
 
     @property
     def what(self) -> str:
-        """What, as a table names it."""
+        """Its description, as tables name it."""
 
 
 class Permit(NamedTuple):
-    """One permitted finding in some files; `*` stands for anything.
+    """A permitted finding; `*` matches anything.
 
     Attributes:
-        file: Which files.
-        what: What is found there.
+        file: Pattern of the file.
+        what: Pattern of the description.
     """
 
     file: str
     what: str
 
     def covers(self, finding: Finding) -> bool:
-        """Whether it is for this finding."""
+        """Whether it permits a finding."""
         return _fits(finding.file, self.file) and _fits(finding.what, self.what)
 
     def __str__(self) -> str:
@@ -52,10 +52,10 @@ class Permit(NamedTuple):
 
 
 def read(path: Path) -> list[Permit]:
-    """All that a table lets through.
+    """Reads the exceptions of a table.
 
     Raises:
-        TableError: It cannot be read, or an exception lacks a part.
+        TableError: The table cannot be read, or an exception lacks a part.
     """
     try:
         rows = parse_toml(path.read_text())["exception"]
@@ -64,7 +64,7 @@ def read(path: Path) -> list[Permit]:
         raise TableError(f"cannot read {path}: {error!r}") from error
     for files, texts, why in parts:
         if not (files and texts and why):
-            raise TableError(f"{path}: an exception in {files} has no place, nothing to let through, or no reason")
+            raise TableError(f"{path}: an exception in {files} lacks in, what or why")
     return [Permit(*each) for files, texts, _ in parts for each in product(files, texts)]
 
 
@@ -75,12 +75,12 @@ def compare(findings: Sequence[Finding], table: Sequence[Permit]) -> list[str]:
 
 
 def is_covered(finding: Finding, table: Sequence[Permit]) -> bool:
-    """Whether a table lets it through."""
+    """Whether a table permits a finding."""
     return any(permit.covers(finding) for permit in table)
 
 
 def uncovering(table: Sequence[Permit], findings: Sequence[Finding]) -> list[Permit]:
-    """What of a table is for none of these."""
+    """The entries of a table that match none of these findings."""
     return [permit for permit in table if not any(map(permit.covers, findings))]
 
 

@@ -1,1 +1,1 @@
-"""What tools/coverage is made of."""
+"""Implementation of tools/coverage."""

@@ -1,8 +1,8 @@
-"""What the C tests have gone through, as the counters tell that clang has put into them.
+"""Coverage of the C tests, from clang's source-based counters.
 
-Three things are told of the code. Whether it was reached. Of each condition, which of its two outcomes has come. And
-of each condition of a decision with several (`a && b`), whether it was seen to decide: two runs that differ in it
-alone, and in what came of the whole (MC/DC).
+Three things are measured: the lines reached; for each condition, the outcomes that occurred; and MC/DC, for each
+condition of a decision with several (`a && b`): whether two evaluations differ only in this condition and in the
+result of the decision.
 """
 
 import json
@@ -19,25 +19,25 @@ VERSION = 19
 CLANG = f"clang-{VERSION}"
 FLAGS = ("-fprofile-instr-generate", "-fcoverage-mapping", "-fcoverage-mcdc")
 NOT_MEASURED = "unsupported MC/DC"
-"""What clang says of a decision that it cannot measure."""
+"""Clang's warning about a decision that it cannot measure."""
 COPY = "programmed_"
-"""So begin the functions of the core that host_sim/program builds once more, with tests of its own."""
+"""Prefix of the core's functions in host_sim/program's own build, which has its own tests."""
 
 _CODE = 0
 _JOINT = 6
 
 
 class MeasureError(VerifyError):
-    """It cannot be measured; says why."""
+    """The coverage cannot be measured; the message says why."""
 
 
 @dataclass(frozen=True, order=True)
 class Gap:
-    """What no test shows.
+    """A gap in the coverage.
 
     Attributes:
-        file: Where, from the root of the project.
-        line: Which one.
+        file: File, relative to the project's root.
+        line: Line, from 1.
         what: "never reached: " and the line or condition, or "never true: ", "never false: " or "never decides: "
             and the condition.
     """
@@ -52,14 +52,14 @@ class Gap:
 
 @dataclass(frozen=True)
 class Measured:
-    """The sum over all programs.
+    """Totals over all test programs.
 
     Attributes:
         outcomes: Number of outcomes of all conditions, two each.
-        seen: How many of them have come.
-        conditions: Number of conditions in decisions with several.
-        deciding: How many of them were seen to decide.
-        gaps: What is missing, each once.
+        seen: Number of these that occurred.
+        conditions: Number of conditions in decisions with several conditions.
+        deciding: Number of these that were shown to decide.
+        gaps: All gaps, each once.
     """
 
     outcomes: int
@@ -70,7 +70,7 @@ class Measured:
 
 
 class Place(NamedTuple):
-    """From the first character to the one behind the last; lines and columns count from 1."""
+    """A range of a source, end exclusive; lines and columns count from 1."""
 
     line: int
     column: int
@@ -79,7 +79,7 @@ class Place(NamedTuple):
 
 
 class Condition(NamedTuple):
-    """Where it is, how often it was true and false, and whether it is one of several that decide together."""
+    """A condition: its place, its counts of true and false, and whether its decision has several conditions."""
 
     place: Place
     true: int
@@ -88,23 +88,23 @@ class Condition(NamedTuple):
 
 
 class Source:
-    """A file of ours."""
+    """A source file."""
 
     def __init__(self, root: Path, path: Path) -> None:
         self.name = str(path.relative_to(root))
         self._lines = path.read_text().splitlines()
 
     def begins(self, line: int, column: int) -> bool:
-        """Whether nothing stands before it in its line."""
+        """Whether only white space precedes a column in its line."""
         return not self._lines[line - 1][: column - 1].strip()
 
     def line(self, number: int) -> str:
-        """A line; for the brace that begins a function, the one above it."""
+        """The text of a line; for the opening brace of a function, that of the line above."""
         text = self._lines[number - 1].strip()
         return self.line(number - 1) if text == "{" else text
 
     def cut(self, place: Place) -> str:
-        """What stands in a place, in one line."""
+        """The text of a place, joined to one line."""
         lines = self._lines[place.line - 1 : place.end_line]
         lines[-1] = lines[-1][: place.end_column - 1]
         lines[0] = lines[0][place.column - 1 :]
@@ -113,13 +113,13 @@ class Source:
 
 @dataclass(frozen=True)
 class File:
-    """The part of a function, with the macros in it, that stands in one place of a file.
+    """The code of a function, or of a macro expanded in it, within one file.
 
     Attributes:
         source: The file.
-        unreached: Lines where code begins that was never reached.
-        conditions: All of them, in the order of the source.
-        decisions: Those with several conditions: where, and which of them were seen to decide.
+        unreached: Lines on which unreached code begins.
+        conditions: All conditions, in source order.
+        decisions: Each decision with several conditions: its place, and which conditions were shown to decide.
     """
 
     source: Source
@@ -128,7 +128,7 @@ class File:
     decisions: Sequence[tuple[Place, Sequence[bool]]]
 
     def gaps(self) -> Iterator[Gap]:
-        """What is missing."""
+        """The gaps in this code."""
         for line in self.unreached:
             yield Gap(self.source.name, line, f"never reached: {self.source.line(line)}")
         for condition in self.conditions:
@@ -140,7 +140,7 @@ class File:
                 yield self._gap("never decides", condition)
 
     def judged(self) -> Iterator[tuple[Condition, bool]]:
-        """Each condition of a decision with several, and whether it was seen to decide."""
+        """Each condition of a decision with several, and whether it was shown to decide."""
         for place, decide in self.decisions:
             inside = [each for each in self.conditions if each.joint and _contains(place, each.place)]
             yield from zip(inside, decide, strict=True)
@@ -150,14 +150,14 @@ class File:
 
 
 def measure(root: Path, build: Path) -> Measured:
-    """Reads what the tests of a build have left.
+    """Reads the coverage that the tests of a build have recorded.
 
     Args:
         root: Folder of the sources.
-        build: Built by CLANG with FLAGS; its tests, whose names begin with test_, have been run.
+        build: Build folder, compiled by CLANG with FLAGS, whose test_* programs have been run.
 
     Raises:
-        MeasureError: There is nothing to read.
+        MeasureError: There is no coverage data.
     """
     files = list(_files(root, _export(build)))
     conditions = [condition for file in files for condition in file.conditions]
@@ -172,11 +172,11 @@ def measure(root: Path, build: Path) -> Measured:
 
 
 def _export(build: Path) -> list[dict[str, Any]]:
-    """Each function, with what all programs together have gone through in it."""
+    """The functions in llvm-cov's export, merged over all test programs."""
     profiles = sorted(build.rglob("*.profraw"))
     programs = [path for path in sorted(build.rglob("test_*")) if path.is_file() and os.access(path, os.X_OK)]
     if not profiles or not programs:
-        raise MeasureError(f"no test has left anything in {build}")
+        raise MeasureError(f"no test has left coverage data in {build}")
     programs += sorted(build.rglob("lib*.so"))
     merged = build / "tests.profdata"
     _output(f"llvm-profdata-{VERSION}", "merge", "-o", merged, *profiles)
@@ -191,7 +191,7 @@ def _output(*command: object) -> str:
 
 
 def _files(root: Path, functions: Iterable[dict[str, Any]]) -> Iterator[File]:
-    """The parts of all functions that stand in files of ours."""
+    """The parts of all functions that are in measured files."""
     for function in functions:
         if function["name"].startswith(COPY):
             continue
@@ -202,7 +202,7 @@ def _files(root: Path, functions: Iterable[dict[str, Any]]) -> Iterator[File]:
 
 
 def _file(source: Source, number: int, function: dict[str, Any]) -> File:
-    """One of them; the numbers in its rows are those of llvm-cov's export."""
+    """One part of a function; the rows are indexed as in llvm-cov's export."""
     regions = [row for row in function["regions"] if row[5] == number]
     branches = [row for row in function["branches"] if row[6] == number]
     decisions = [row for row in function["mcdc_records"] if row[4] == number]

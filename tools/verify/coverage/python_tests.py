@@ -1,6 +1,6 @@
-"""What the Python tests have gone through, as coverage.py tells: each line, and each way on from a line with several.
+"""Line and branch coverage of the Python tests, measured by coverage.py.
 
-The processes that the tests start are measured with them.
+Processes that the tests start are included.
 """
 
 import json
@@ -13,7 +13,7 @@ from typing import Any
 
 from tools.verify.coverage.measure import Gap, MeasureError
 
-# A comment cannot take a line out of the measure: the lines that need not be run are those that do nothing.
+# These patterns replace coverage.py's: no comment excludes a line, and only lines that do nothing are excluded.
 _SETTING = """\
 [run]
 branch = true
@@ -33,7 +33,7 @@ partial_branches =
 
 @dataclass
 class Sum:
-    """How many lines and branches there are, and how many were taken."""
+    """Numbers of lines and branches, and of those executed."""
 
     lines: int = 0
     lines_seen: int = 0
@@ -45,14 +45,14 @@ class Sum:
 
 
 def measure_python(root: Path, python: Path, sources: Sequence[str], tests: Sequence[str], folder: Path) -> Any:
-    """Runs tests, and returns coverage.py's report of each file.
+    """Runs tests and returns coverage.py's report of each file.
 
     Args:
         root: The project's folder.
-        python: The interpreter, which has pytest and coverage.
-        sources: Folders that are measured, from the root.
-        tests: What pytest is told.
-        folder: Is there, and empty; the measure leaves its files in it.
+        python: A Python interpreter that has pytest and coverage.
+        sources: Folders to measure, relative to the root.
+        tests: Arguments of pytest.
+        folder: An existing, empty folder for coverage's files.
 
     Raises:
         MeasureError: A test failed, or nothing was measured.
@@ -74,7 +74,7 @@ def measure_python(root: Path, python: Path, sources: Sequence[str], tests: Sequ
 
 
 def python_gaps(root: Path, files: Mapping[str, Any]) -> list[Gap]:
-    """Lines that were never reached; and of the others, ways on that were never taken."""
+    """Lines that were never reached, and branches between reached lines that were never taken."""
     return sorted(gap for name, file in files.items() for gap in _gaps(name, (root / name).read_text(), file))
 
 
@@ -90,7 +90,7 @@ def _gaps(name: str, text: str, file: Mapping[str, Any]) -> Iterator[Gap]:
 
 
 def sums(files: Mapping[str, Any], depth: int = 2) -> dict[str, Sum]:
-    """The sum for each package: the first folders of a file's name."""
+    """Totals for each package, which is the first `depth` folders of a path."""
     found: dict[str, Sum] = defaultdict(Sum)
     for name, file in files.items():
         it, total = file["summary"], found["/".join(Path(name).parts[:-1][:depth])]

@@ -1,1 +1,1 @@
-"""What tools/misra is made of."""
+"""Implementation of tools/misra."""

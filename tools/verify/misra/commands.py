@@ -1,4 +1,4 @@
-"""The compiler's commands for the sources to check."""
+"""Compile commands of the sources to check."""
 
 import json
 from collections.abc import Sequence
@@ -9,17 +9,17 @@ from tools.verify.command import VerifyError, output_of
 
 ROOT = Path(__file__).resolve().parents[3]
 BUILDS = ("feather_stm32f405", "blue_pill", "nucleo_g431rb")
-"""A source that several of them have is checked as the first has it."""
+"""A source that is part of several builds is checked with the options of the first."""
 
 CHECKED = ("firmware", "hal")
 
 
 class CheckError(VerifyError):
-    """It cannot be checked; says why."""
+    """The check cannot be made; the message says why."""
 
 
 class Command(TypedDict):
-    """One command of a compilation database."""
+    """An entry of a compilation database."""
 
     directory: str
     command: str
@@ -27,7 +27,7 @@ class Command(TypedDict):
 
 
 def built_sources() -> list[Command]:
-    """A command for each source of ours that a build has.
+    """The compile commands of all our sources in the builds, one for each source.
 
     Raises:
         CheckError: A build is missing.
@@ -42,7 +42,7 @@ def built_sources() -> list[Command]:
 
 
 def lone_sources(sources: Sequence[Path]) -> list[Command]:
-    """A command for each of these."""
+    """A compile command for each of these sources, without a build."""
     return [
         {"directory": str(ROOT), "command": f"cc -std=c99 -I{ROOT} -c {source}", "file": str(source.resolve())}
         for source in sources

@@ -14,18 +14,18 @@ from tools.verify.misra.commands import ROOT, CheckError, Command
 CPPCHECK = ROOT / ".venv/bin/cppcheck"
 _FINDING = re.compile(r"(?P<file>.+):(?P<line>\d+) misra-c2012-(?P<rule>[\d.]+)$")
 _OF_WHOLE_PROGRAMS = {"2.3", "2.4", "2.5", "5.7", "5.9", "8.5", "8.6", "8.7"}
-"""Rules that hold within a program: the sources are those of several, and the tool takes them for one."""
+"""Ignored rules about whole programs: cppcheck takes the sources of several programs for one."""
 _ERROR = re.compile(r".+ (syntaxError|preprocessorErrorDirective|internalError|internalAstError)$")
 
 
 @dataclass(frozen=True, order=True)
 class Finding:
-    """One line that deviates.
+    """A line that violates a rule.
 
     Attributes:
-        rule: Its number, as `15.6`.
-        file: Where, from the root of the project.
-        line: Which one.
+        rule: Number of the rule, as `15.6`.
+        file: File, relative to the project's root.
+        line: Line, from 1.
     """
 
     rule: str
@@ -34,7 +34,7 @@ class Finding:
 
     @property
     def what(self) -> str:
-        """As a table names it."""
+        """Its description, as tables name it."""
         return f"rule {self.rule}"
 
     def __str__(self) -> str:

@@ -1,1 +1,1 @@
-"""What tools/mutate is made of."""
+"""Implementation of tools/mutate."""

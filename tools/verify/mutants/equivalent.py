@@ -1,4 +1,4 @@
-"""Mutants that no test can kill: those that compile to the same code, and those listed with their reason."""
+"""Equivalent mutants, which no test can kill: those that compile to the same code, and those listed with a reason."""
 
 import subprocess
 import tempfile
@@ -23,20 +23,20 @@ def needless(table: Sequence[Permit], killed: Sequence[Mutant], alive: Sequence[
 
 
 class Compiler:
-    """Compares code."""
+    """Compares the code of mutants with that of their sources."""
 
     def __init__(self) -> None:
         self._originals: dict[str, str] = {}
 
     def same_code(self, source: Source, mutant: Mutant) -> bool:
-        """Whether a mutant compiles to the very instructions of its source, with gcc -O2."""
+        """Whether a mutant compiles to the same instructions as its source, with gcc -O2."""
         if source.file not in self._originals:
             self._originals[source.file] = self._code(source, source.text)
         original = self._originals[source.file]
         return original != "" and self._code(source, mutant.apply(source.text)) == original
 
     def _code(self, source: Source, text: str) -> str:
-        """Empty for what does not compile by itself."""
+        """The assembly of a text; empty if it does not compile by itself."""
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, Path(source.file).name)
             path.write_text(text)

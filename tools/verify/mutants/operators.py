@@ -1,7 +1,7 @@
-"""What an expression can be mutated to.
+"""Mutation operators for expressions.
 
-A comparison becomes its neighbours, or constant; `&&` and `||` change or lose a side; arithmetic, shifts, bits and
-signs change; a number, or the name of one, is one more; `!` goes.
+A comparison is replaced by its neighbours or by a constant; `&&` and `||` are swapped or lose a side; arithmetic,
+shift, bit and sign operators are replaced; a number or a named constant is incremented; `!` is removed.
 """
 
 from collections.abc import Sequence
@@ -26,16 +26,16 @@ ATOMS = ("DeclRefExpr", "MemberExpr", "CallExpr", "ArraySubscriptExpr", "Integer
 
 @dataclass
 class Site:
-    """A place that offers mutants.
+    """A place that can be mutated.
 
     Attributes:
-        begin: Where it begins in the source.
-        end: Where it has ended.
-        choices: What each of its mutants has there instead.
-        template: What stands there when all mutants are compiled in: @HERE@ is the number of the one that acts, from
-            1; @0@, @1@ are its parts.
-        parts: Where these begin and have ended.
-        inner: The sites within.
+        begin: Offset of its start in the source.
+        end: Offset of its end, exclusive.
+        choices: The replacement text of each mutant.
+        template: The text with all mutants compiled in: @HERE@ is the number of the active mutant, from 1, or 0; @0@,
+            @1@ are the parts.
+        parts: Start and end offsets of the parts.
+        inner: The sites inside this one.
     """
 
     begin: int
@@ -47,17 +47,17 @@ class Site:
 
 
 def span(node: Node) -> tuple[int, int]:
-    """Where a node begins and has ended."""
+    """Start and end offsets of a node."""
     return node.begin, node.end
 
 
 def changes_something(node: Node) -> bool:
-    """Whether it may do more than have a value."""
+    """Whether an expression may have side effects."""
     return any(part.kind in CHANGING or part.operator in ("=", "++", "--") for part in node.within())
 
 
 def site_of(text: str, node: Node, counting: Node | None) -> Site | None:
-    """An expression's own site, without what is within it; None if it has none.
+    """The site of an expression, without inner sites; None if it has no mutants.
 
     Args:
         text: The source.
@@ -77,7 +77,7 @@ def site_of(text: str, node: Node, counting: Node | None) -> Site | None:
 
 
 class _Operators:
-    """Makes sites."""
+    """Makes the sites of expressions."""
 
     def __init__(self, text: str, counting: Node | None) -> None:
         self._text = text
@@ -161,11 +161,11 @@ class _Operators:
         return self._text[node.begin : node.end]
 
     def _beside(self, node: Node) -> str:
-        """An operand that stands beside any operator."""
+        """An operand, in parentheses if an operator beside it needs them."""
         source = self._source(node)
         return source if node.bare.kind in ATOMS and node.kind != "CStyleCastExpr" else f"({source})"
 
     def _whole(self, node: Node, text: str) -> str:
-        """An expression that stands in the place of another, beside any operator."""
+        """The replacement of a whole expression, in parentheses unless the source has them there."""
         enclosed = self._text[node.begin - 1] == "(" and self._text[node.end] == ")"
         return text if enclosed else f"({text})"

@@ -9,11 +9,11 @@ from tools.verify.mutants.tree import PLAIN, Build, Tree, originals
 
 
 class Project:
-    """What is mutated.
+    """The sources and tests of the project.
 
     Attributes:
-        files: The sources that some C test is built from.
-        untested: The other sources of the folders that are mutated.
+        files: The sources that C tests are built from.
+        untested: The other sources in the mutated folders.
     """
 
     def __init__(self, root: Path, builds: Path, without: Collection[str] = ()) -> None:
@@ -21,11 +21,11 @@ class Project:
 
         Args:
             root: The project's folder.
-            builds: A folder for what is built.
-            without: Names of tests that are left out.
+            builds: Folder for the builds.
+            without: Names of tests to leave out.
 
         Raises:
-            BuildError: They cannot be built.
+            BuildError: The build cannot be configured.
         """
         self._root = root
         self._tree = Tree(root, builds)
@@ -39,7 +39,7 @@ class Project:
         self._read: dict[str, Source] = {}
 
     def sources(self, files: Collection[str]) -> list[Source]:
-        """Some of the sources, with their mutants; a mutant has the same number whatever else is read.
+        """Some of the sources, with their mutants, whose numbers do not depend on the selection.
 
         Raises:
             SourceError: They cannot be read.
@@ -53,7 +53,7 @@ class Project:
 
         Raises:
             BuildError: They cannot be built.
-            RunError: One of them fails with no mutant acting.
+            RunError: A test fails without a mutant.
         """
         sources = self.sources(self.files)
         self._tree.write(self._texts | {source.file: source.schemata for source in sources})
@@ -63,7 +63,7 @@ class Project:
         return Runner(tests, highest)
 
     def _as_before(self) -> dict[str, str]:
-        """The mutated sources of the last time: one that becomes the same again is not built again."""
+        """The mutated sources of the last run: those that stay the same are not rebuilt."""
         copies = {path: self._tree.folder / path for path in self._texts if _is_mutated(path)}
         return {path: it.read_text() for path, it in copies.items() if it.exists()}
 

@@ -1,4 +1,4 @@
-"""Runs test programs with one mutant acting in them, until one of them fails."""
+"""Runs test programs with one mutant active, until a test fails."""
 
 import contextlib
 import os
@@ -24,28 +24,28 @@ FIRST_CPU_MS = "120000"
 
 
 class RunError(VerifyError):
-    """The tests fail with no mutant acting; says which."""
+    """A test fails without a mutant; the message names it."""
 
 
 class Runner:
     """The tests of one build."""
 
     def __init__(self, tests: Sequence[Test], highest: int) -> None:
-        """Runs each test with no mutant acting.
+        """Runs each test without a mutant, to record its time and the sites it reaches.
 
         Args:
-            tests: All of them.
-            highest: The highest number of a mutant.
+            tests: The tests.
+            highest: The highest mutant number.
 
         Raises:
-            RunError: One of them fails.
+            RunError: A test fails.
         """
         self._tests = tests
-        self._seconds: dict[str, float] = {}  # of the processor
+        self._seconds: dict[str, float] = {}  # of processor time
         self._took_s: dict[str, float] = {}
-        self._kills: Counter[tuple[str, str]] = Counter()  # of a test among a file's mutants, and
-        self._runs: Counter[tuple[str, str]] = Counter()  # how often it was run with one
-        self._reached: dict[str, set[int]] = {}  # the places that each test comes by
+        self._kills: Counter[tuple[str, str]] = Counter()  # mutants killed, by test and file
+        self._runs: Counter[tuple[str, str]] = Counter()  # mutants tried, by test and file
+        self._reached: dict[str, set[int]] = {}  # mutation sites that each test reaches
         for test in tests:
             self._trace(test, highest)
 
@@ -56,7 +56,7 @@ class Runner:
             before, start = os.times(), time.monotonic()
             environment = {"OCTET_MUTANT_TRACE": marks.name, "OCTET_MUTANT_CPU_MS": FIRST_CPU_MS}
             if not passes(test, environment, FIRST_WAIT_S):
-                raise RunError(f"{test.name} fails with no mutant acting")
+                raise RunError(f"{test.name} fails without a mutant")
             used = os.times()
             cpu = used.children_user + used.children_system - before.children_user - before.children_system
             self._seconds[test.name] = cpu
@@ -65,7 +65,7 @@ class Runner:
         self._reached[test.name] = {number for number, mark in enumerate(found) if mark}
 
     def killer(self, mutant: Mutant) -> str:
-        """The test that fails with a mutant; empty if none does."""
+        """The name of a test that kills a mutant; empty if none does."""
         near = [test for test in self._tests if mutant.place in self._reached[test.name]]
         for test in sorted(near, key=lambda it: self._price(it, mutant.file)):
             key = (test.name, mutant.file)
@@ -76,19 +76,19 @@ class Runner:
         return ""
 
     def _price(self, test: Test, file: str) -> float:
-        """How long it takes a test to kill one of a file's mutants, by what it has done so far."""
+        """Estimated time for a test to kill a mutant of a file, from its history."""
         key = (test.name, file)
         return self._took_s[test.name] * (self._runs[key] + 2) / (self._kills[key] + 1)
 
     def _passes(self, test: Test, mutant: Mutant) -> bool:
         cpu_ms = CPU_MS + int(CPU_FACTOR * 1000 * self._seconds[test.name])
         environment = {"OCTET_MUTANT": str(mutant.number), "OCTET_MUTANT_CPU_MS": str(cpu_ms)}
-        # what it may take on a machine as busy as this one
+        # took_s was measured on this machine, and so allows for its load
         return passes(test, environment, WAIT_S + WAIT_FACTOR * self._took_s[test.name])
 
 
 def passes(test: Test, environment: Mapping[str, str], wait_s: float) -> bool:
-    """Runs a test in a folder of its own, as ctest does."""
+    """Runs a test in a temporary folder; returns whether it passes, by ctest's rules."""
     with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryFile() as output:
         process = subprocess.Popen(
             test.command,
@@ -109,9 +109,9 @@ def passes(test: Test, environment: Mapping[str, str], wait_s: float) -> bool:
 
 
 def end(process: subprocess.Popen[bytes], wait_s: float) -> int:
-    """A program's exit code; 1 if it has stood still for too long.
+    """A program's exit code; 1 if it used no processor time for `wait_s`.
 
-    One that is slow on a busy machine goes on; an endless loop uses up what it may have of the processor.
+    A program that is slow on a busy machine may continue; an endless loop ends at its limit of processor time.
     """
     before = 0
     while (code := _code(process, wait_s)) is None:
@@ -123,7 +123,7 @@ def end(process: subprocess.Popen[bytes], wait_s: float) -> int:
 
 
 def _code(process: subprocess.Popen[bytes], wait_s: float) -> int | None:
-    """A program's exit code; None if it has not ended within that time."""
+    """A program's exit code; None if it has not ended within `wait_s`."""
     try:
         return process.wait(wait_s)
     except subprocess.TimeoutExpired:
@@ -131,13 +131,13 @@ def _code(process: subprocess.Popen[bytes], wait_s: float) -> int | None:
 
 
 def ticks_used(pid: int) -> int:
-    """How much of the processor a program has used so far, as the kernel counts it."""
+    """Processor time that a program has used so far, in the kernel's clock ticks."""
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     return int(fields[11]) + int(fields[12])  # utime and stime, see proc(5)
 
 
 def _stop(process: subprocess.Popen[bytes]) -> None:
-    """Ends what the test has left running, too."""
+    """Kills a test and all that it has left running."""
     with contextlib.suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
     process.wait()

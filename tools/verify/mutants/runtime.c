@@ -1,8 +1,8 @@
-/* Which mutant acts, and which places were reached: linked into each program of mutants.
+/* Selects the active mutant and records the sites reached; linked into each test program that contains mutants.
 
-   OCTET_MUTANT         the number of the mutant that acts; none: all sources are as they were
-   OCTET_MUTANT_TRACE   a file with a byte for each number: each place that was reached marks its first one
-   OCTET_MUTANT_CPU_MS  the program ends when it has used so much of the processor: an endless loop */
+   OCTET_MUTANT         number of the active mutant; without it, none is active
+   OCTET_MUTANT_TRACE   file with a byte for each mutant number; each site reached sets the byte of its first mutant
+   OCTET_MUTANT_CPU_MS  limit of processor time, which ends an endless loop */
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <stdlib.h>
@@ -31,7 +31,7 @@ static unsigned number(const char *name)
     return text ? (unsigned)strtoul(text, NULL, 10) : 0;
 }
 
-/* Tests put other functions in the place of open and the like: system calls have no place that they know. */
+/* Direct system calls, because tests replace open and similar functions. */
 static void trace(const char *path)
 {
     long file = syscall(SYS_openat, AT_FDCWD, path, O_RDWR | O_CLOEXEC, 0);

@@ -1,4 +1,4 @@
-"""Mutant schemata: one text of a source that holds all of its mutants, and lets one of them act at a time."""
+"""Mutant schemata: one version of a source that contains all of its mutants, of which one at a time is active."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -14,15 +14,15 @@ class Mutant:
     """A change to a source.
 
     Attributes:
-        file: Which one, from the root of the project.
-        line: Where, from 1.
-        before: The line or lines that change, in one.
-        after: What they become.
-        number: Its own among all that are compiled together.
-        place: The number of the first mutant of the same place.
-        begin: Where the change begins in the source.
-        end: Where it has ended.
-        text: What stands there instead.
+        file: File, relative to the project's root.
+        line: Line, from 1.
+        before: The lines that change, joined to one.
+        after: The same after the change.
+        number: Unique among all mutants that are compiled together.
+        place: Number of the first mutant of the same site.
+        begin: Offset of the change in the source.
+        end: Offset of its end, exclusive.
+        text: The replacement text.
     """
 
     file: str
@@ -37,7 +37,7 @@ class Mutant:
 
     @property
     def what(self) -> str:
-        """What it changes, as tables name it."""
+        """Its description, as tables name it."""
         return f"{self.before} -> {self.after}"
 
     def apply(self, source: str) -> str:
@@ -73,7 +73,7 @@ def _walk(sites: Sequence[Site]) -> Iterator[Site]:
 
 
 def _rendered(text: str, begin: int, end: int, sites: Sequence[Site], numbers: dict[int, int]) -> str:
-    """A stretch of the source, with the sites in it."""
+    """A range of the source, with the mutants of its sites compiled in."""
     pieces = []
     at = begin
     for site in sorted((it for it in sites if begin <= it.begin and it.end <= end), key=lambda it: it.begin):

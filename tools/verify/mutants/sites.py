@@ -1,7 +1,7 @@
-"""Where a source can be mutated: a walk through its functions.
+"""Finds the mutation sites in a source's functions.
 
-Beside what its expressions offer (see operators): a condition is negated, a result becomes 0, a statement, a `break`,
-a `continue` or a `return` goes.
+Besides the mutations of expressions (see operators), a condition is negated, a returned value becomes 0, and a
+statement, `break`, `continue` or `return` is removed.
 """
 
 from collections.abc import Sequence
@@ -22,7 +22,7 @@ def sites_of(text: str, functions: Sequence[Node]) -> list[Site]:
 
 
 class _Finder:
-    """Walks through a function; adds what it finds to lists of sites."""
+    """Walks through a function and adds its sites to lists."""
 
     def __init__(self, text: str, returns_truth: bool) -> None:
         self._text = text
@@ -105,7 +105,7 @@ class _Finder:
             if variable.json.get("storageClass") == "static" and initial:
                 if "const" not in variable.type:
                     continue
-                # A table can hold mutants if it is filled anew at each call.
+                # A table can contain mutants only if it is initialised at each call: `static` is removed.
                 begin = self._text.index("static", variable.begin)
                 sites.append(Site(begin, begin + len("static"), [], "", []))
             sites += initial
@@ -126,7 +126,7 @@ class _Finder:
         if node.macro and self._text[node.end :].lstrip().startswith("("):
             return  # a macro with arguments
         if node.kind == "UnaryOperator" and node.operator == "&" and node.children[0].bare.names_constant:
-            return  # the place of a constant: a value has none
+            return  # the address of a constant: a mutated value has none
         site = site_of(self._text, node, self._counting)
         if site:
             sites.append(site)

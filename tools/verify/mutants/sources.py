@@ -1,4 +1,4 @@
-"""Which sources are mutated, in which group, and all of their mutants."""
+"""The mutated sources, their groups and their mutants."""
 
 import os
 import shlex
@@ -17,12 +17,12 @@ NUMBERS_EACH = 1000  # so a file that grows does not renumber the others
 
 
 class Group(NamedTuple):
-    """Sources that are judged together.
+    """Sources that share a score.
 
     Attributes:
-        name: What a person calls it.
-        bar: How many of its mutants must be killed, in percent.
-        paths: How the paths of its files begin.
+        name: Name in reports.
+        bar: Share of the mutants that must be killed, percent.
+        paths: Prefixes of the paths of its files.
     """
 
     name: str
@@ -48,10 +48,10 @@ class Source:
 
     Attributes:
         file: Its path from the root of the project.
-        text: As it is.
+        text: The unchanged source.
         options: The compiler's options: folders, definitions, the standard.
-        mutants: All of them.
-        schemata: The text that has them all compiled in.
+        mutants: All of its mutants.
+        schemata: The source with all mutants compiled in.
     """
 
     file: str
@@ -62,16 +62,16 @@ class Source:
 
 
 def group_of(file: str) -> Group:
-    """The first group whose paths fit."""
+    """The first group with a matching path."""
     return next(group for group in GROUPS if file.startswith(tuple(group.paths)))
 
 
 def options_of_sources(tree: Path, commands: Sequence[Mapping[str, str]]) -> dict[str, list[str]]:
-    """The sources of the firmware and its body that some test is built from, in order, with the compiler's options.
+    """The sources of firmware and HAL that tests are built from, sorted, with the compiler's options of each.
 
     Args:
-        tree: Where the copy is that the commands are for.
-        commands: How each source is compiled.
+        tree: The copy of the sources that the commands compile.
+        commands: Entries of a compilation database.
     """
     return dict(sorted(dict(_options(tree, commands)).items()))
 
@@ -82,10 +82,10 @@ def read_sources(root: Path, options: Mapping[str, Sequence[str]], files: Collec
     Args:
         root: The project's folder.
         options: The compiler's options for all sources.
-        files: Those to read.
+        files: The sources to read.
 
     Raises:
-        SourceError: One of them is no C.
+        SourceError: Clang cannot read one of them.
     """
     with ProcessPoolExecutor(os.cpu_count()) as pool:
         each = enumerate(options.items())

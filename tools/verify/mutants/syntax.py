@@ -1,4 +1,4 @@
-"""C sources as clang reads them: a tree of nodes that know where they stand in the text."""
+"""Clang's syntax trees of C sources: nodes with their offsets in the text."""
 
 import json
 import subprocess
@@ -25,7 +25,7 @@ TRANSPARENT = ("ImplicitCastExpr", "ParenExpr", "CStyleCastExpr")
 
 
 class SourceError(VerifyError):
-    """A source cannot be read; says why."""
+    """Clang cannot read a source; the message says why."""
 
 
 @dataclass
@@ -33,14 +33,14 @@ class Node:
     """A declaration, statement or expression.
 
     Attributes:
-        kind: As clang calls it.
-        begin: Where it begins in its file.
-        end: Where it has ended.
-        macro: It comes from a macro's text, and begin and end are those of the macro's name.
-        type: Type of an expression, without names given by typedef.
+        kind: Clang's name for it.
+        begin: Offset of its start in its file.
+        end: Offset of its end, exclusive.
+        macro: Whether a macro expands to it; begin and end are then those of the macro's name.
+        type: Type of an expression, with typedefs resolved.
         operator: Operator of an expression that has one.
-        json: All that clang says.
-        children: What it is made of.
+        json: Clang's whole description.
+        children: Child nodes.
     """
 
     kind: str
@@ -54,26 +54,26 @@ class Node:
 
     @property
     def bare(self) -> "Node":
-        """What is left without parentheses and casts."""
+        """The expression inside all parentheses and casts."""
         node = self
         while node.kind in TRANSPARENT and node.children and not node.macro:
             node = node.children[-1]
         return node
 
     def within(self) -> Iterator["Node"]:
-        """This node and all below it."""
+        """This node and all of its descendants."""
         yield self
         for child in self.children:
             yield from child.within()
 
     @property
     def is_constant(self) -> bool:
-        """Whether its value is known to the compiler."""
+        """Whether the compiler knows its value."""
         return all(node.kind in CONSTANT_PARTS or node.names_constant for node in self.within())
 
     @property
     def names_constant(self) -> bool:
-        """Whether it is the name of an enumerator, or of a whole number that is const for all functions."""
+        """Whether it names an enumerator or a const integer."""
         named = self.json.get("referencedDecl", {})
         kind = named.get("type", {}).get("qualType", "")
         whole = kind.startswith("const ") and not {"*", "["} & set(kind) and not kind.startswith("const struct")
@@ -81,17 +81,17 @@ class Node:
 
     @property
     def is_pointer(self) -> bool:
-        """Whether it points somewhere."""
+        """Whether its type is a pointer or an array."""
         return "*" in self.type or "[" in self.type
 
     @property
     def is_number(self) -> bool:
-        """Whether it has a single value that is not a place."""
+        """Whether its type is a scalar other than a pointer."""
         return not self.is_pointer and not self.type.startswith(("struct", "union", "void"))
 
     @property
     def is_name(self) -> bool:
-        """Whether its value is one of some names, not a quantity."""
+        """Whether its value is one of a set of names, not a quantity."""
         return self.bare.type.startswith("enum ") or self.bare.names_constant
 
 
@@ -114,7 +114,7 @@ def functions(path: Path, options: Sequence[str]) -> list[Node]:
 
 
 def node_of(item: Json) -> Node | None:
-    """The node that clang describes; None if it stands in no place of the file itself."""
+    """Converts clang's description of a node; None if the node is not in the file itself."""
     span = _span(item.get("range", {}))
     if span is None or (item["kind"].endswith("Decl") and _place(item.get("loc", {})) is None):
         return None
@@ -136,7 +136,7 @@ def _span(source_range: Json) -> tuple[int, int, bool] | None:
 
 
 def _place(location: Json) -> tuple[int, int] | None:
-    """Where a token begins and has ended; None if that is in another file."""
+    """Start and end offsets of a token; None if it is in another file."""
     here = location.get("expansionLoc", location)
     if "offset" not in here or "includedFrom" in here:
         return None

@@ -16,16 +16,16 @@ GENERATED = ("generated/robot_words.h", "generated/octet.h", "generated/build_id
 
 
 class BuildError(VerifyError):
-    """It cannot be built; says why."""
+    """The build fails; the message says why."""
 
 
 @dataclass(frozen=True)
 class Build:
-    """A way to build.
+    """A build configuration.
 
     Attributes:
         name: Name of its folder.
-        options: Options of CMake.
+        options: Options for CMake.
     """
 
     name: str
@@ -41,9 +41,9 @@ class Test:
     """A test as ctest would run it.
 
     Attributes:
-        name: As ctest calls it.
-        command: What it runs.
-        failing: What makes it a failure if it is in its output, as regular expressions.
+        name: Name in ctest.
+        command: Program and arguments.
+        failing: Regular expressions; if one matches the output, the test fails.
     """
 
     name: str
@@ -64,25 +64,25 @@ def _sources(root: Path) -> Iterable[str]:
 
 
 class Tree:
-    """A copy of the sources, and what is built from it.
+    """A copy of the sources, and its builds.
 
     Attributes:
-        folder: Where the copy is.
+        folder: Folder of the copy.
     """
 
     def __init__(self, root: Path, folder: Path) -> None:
-        """Copies nothing yet.
+        """Sets the paths; copies nothing yet.
 
         Args:
             root: The project's folder.
-            folder: Where the copy and its builds go.
+            folder: Parent folder of the copy and its builds.
         """
         self.folder = folder / "source"
         self._root = root
         self._builds = folder
 
     def write(self, texts: Mapping[str, str]) -> None:
-        """Makes the copy so; what is the same already stays as it is, and is not built again."""
+        """Makes the copy hold exactly these texts; files that stay the same are not written, and so not rebuilt."""
         for old in [path for path in self.folder.rglob("*") if path.is_file()]:
             if str(old.relative_to(self.folder)) not in texts:
                 old.unlink()
@@ -94,10 +94,10 @@ class Tree:
         (self.folder / "tools/generate").chmod(0o755)
 
     def configure(self, build: Build) -> None:
-        """Prepares a build, with what is made from octet.dbc.
+        """Configures a build and generates its sources.
 
         Raises:
-            BuildError: That fails.
+            BuildError: CMake or a generator fails.
         """
         to = self._builds / build.name
         to.mkdir(parents=True, exist_ok=True)
@@ -112,12 +112,12 @@ class Tree:
         _run("ninja", "-C", to, *GENERATED)
 
     def commands(self, build: Build) -> list[Mapping[str, str]]:
-        """How each source is compiled, as a compilation database has it."""
+        """The entries of the compilation database, one for each source."""
         entries: list[Mapping[str, str]] = json.loads(_run("ninja", "-C", self._builds / build.name, "-t", "compdb"))
         return [entry for entry in entries if " -c " in entry["command"]]
 
     def tests(self, build: Build, files: Collection[str]) -> list[Test]:
-        """Builds the tests that some files are part of, but those that need a CAN interface, and returns them.
+        """Builds the tests that contain some files; returns those that need no CAN interface.
 
         Raises:
             BuildError: They cannot be built.

@@ -1,4 +1,4 @@
-"""Lets mutants act, and decides what became of each."""
+"""Tries mutants and gives a verdict on each."""
 
 import os
 from collections.abc import Callable, Iterable, Sequence
@@ -15,39 +15,39 @@ from tools.verify.mutants.verdicts import Verdict
 
 Verdicts = list[tuple[Mutant, Verdict]]
 
-TRIES = 3  # of a mutant that is listed as equivalent: a test may fail because the machine is busy
+TRIES = 3  # for a mutant listed as equivalent, since a test may fail because the machine is busy
 
 
 def never(_: Verdicts) -> bool:
-    """Sanitizers are asked as well."""
+    """Always runs the sanitizer build, too."""
     return False
 
 
 class Trial:
-    """A run over some mutants."""
+    """A trial of mutants."""
 
     def __init__(self, project: Project, table: Sequence[Permit], tell: Callable[[str], None]) -> None:
-        """Begins nothing yet.
+        """Starts nothing yet.
 
         Args:
-            project: Where they are.
-            table: Which of them are equivalent.
-            tell: Takes what is to be shown meanwhile.
+            project: The sources and tests.
+            table: The equivalent mutants.
+            tell: Called with each progress message.
         """
         self._project = project
         self._table = table
         self._tell = tell
 
     def judge(self, mutants: Sequence[Mutant], is_enough: Callable[[Verdicts], bool] = never) -> Verdicts:
-        """What becomes of each.
+        """The verdict on each mutant.
 
         Args:
-            mutants: All of them.
-            is_enough: Whether the verdicts without sanitizers will do: these take as long again.
+            mutants: The mutants to try.
+            is_enough: Whether the verdicts without sanitizers suffice; the sanitizer build doubles the time.
 
         Raises:
             BuildError: The tests cannot be built.
-            RunError: One of them fails with no mutant acting.
+            RunError: A test fails without a mutant.
         """
         left = self._survivors(PLAIN, mutants)
         same = self._of_same_code(left)
@@ -63,7 +63,7 @@ class Trial:
         return list(verdicts.items())
 
     def _survivors(self, build: Build, mutants: Sequence[Mutant]) -> list[Mutant]:
-        """Those that no test of a build fails with."""
+        """The mutants that no test of a build kills."""
         if not mutants:
             return []
         self._tell(f"building, {build.name}")
@@ -81,7 +81,7 @@ class Trial:
         return any(not tests.killer(mutant) for _ in range(tries))
 
     def _of_same_code(self, mutants: Sequence[Mutant]) -> set[Mutant]:
-        """Those that the compiler makes nothing else of; what is listed has its reason already."""
+        """The mutants that compile to the same code; those listed as equivalent are not compared."""
         compiler = Compiler()
         asked = [mutant for mutant in mutants if not is_covered(mutant, self._table)]
         self._tell(f"comparing the code of {len(asked)} mutants")
@@ -90,7 +90,7 @@ class Trial:
 
 
 def _those(mutants: Iterable[Mutant], fit: Callable[[Mutant], bool]) -> list[Mutant]:
-    """Those that fit, asked side by side."""
+    """The mutants that satisfy a condition, checked in parallel."""
     all_of_them = list(mutants)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         return [mutant for mutant, fits in zip(all_of_them, pool.map(fit, all_of_them), strict=True) if fits]

@@ -1,4 +1,4 @@
-"""What became of each mutant, and what that makes of the tests."""
+"""Verdicts on mutants, and the scores computed from them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ SAMPLE = Group("sample", 97.0, ("",))
 
 
 class Verdict(Enum):
-    """What became of a mutant."""
+    """The verdict on a mutant."""
 
     KILLED = "killed"
     SAME_CODE = "the same code"
@@ -21,11 +21,11 @@ class Verdict(Enum):
 
 @dataclass(frozen=True)
 class Score:
-    """The mutants of a group.
+    """The score of a group of mutants.
 
     Attributes:
-        group: Which one.
-        counts: How many there are of each verdict.
+        group: The group.
+        counts: Number of mutants with each verdict.
     """
 
     group: Group
@@ -33,13 +33,13 @@ class Score:
 
     @property
     def percent(self) -> float:
-        """How many are killed of those that can be."""
+        """Share of the non-equivalent mutants that are killed, percent."""
         killed, alive = self.counts[Verdict.KILLED], self.counts[Verdict.ALIVE]
         return 100.0 * killed / (killed + alive) if killed + alive else 100.0
 
     @property
     def is_enough(self) -> bool:
-        """Whether it reaches its bar."""
+        """Whether the score reaches the group's bar."""
         return self.percent >= self.group.bar
 
     def __str__(self) -> str:
@@ -58,7 +58,7 @@ def scores(verdicts: Sequence[tuple[Mutant, Verdict]]) -> list[Score]:
 
 
 def score_of_sample(verdicts: Sequence[tuple[Mutant, Verdict]]) -> Score:
-    """The score of mutants that are too few to be judged by group."""
+    """The score of a sample, which is too small to be judged by group."""
     return _score(SAMPLE, [verdict for _, verdict in verdicts])
 
 

@@ -1,1 +1,1 @@
-"""How big the images are, and of what."""
+"""Sizes of the flash images and of their parts."""

@@ -1,4 +1,4 @@
-"""The table of budgets: a row for each image and compiler; in each cell what was recorded / the limit."""
+"""The table of size budgets: a row for each image and compiler, with `recorded / limit` in each cell."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ COLUMNS = ("flash", "ram", "stack", "instructions")
 
 
 class Cell(NamedTuple):
-    """Bytes or instructions: what it was, and what it may be."""
+    """A recorded size and its limit, in bytes or instructions."""
 
     recorded: int
     limit: int
@@ -21,16 +21,16 @@ class Cell(NamedTuple):
 
 
 Key = tuple[str, str]
-"""An image, or the core on a processor; and the compiler, as `arm-none-eabi-gcc 12`."""
+"""An image, or the core on a processor, and the compiler, as `arm-none-eabi-gcc 12`."""
 
 
 @dataclass(frozen=True)
 class Budget:
-    """A table in a file.
+    """A table of budgets.
 
     Attributes:
-        head: What stands before its rows.
-        rows: The cells of each row by their columns.
+        head: The text before the table.
+        rows: The cells of each row, by column.
     """
 
     head: str
@@ -40,19 +40,19 @@ class Budget:
         """The row of an image.
 
         Raises:
-            VerifyError: There is none with this compiler.
+            VerifyError: There is no row for this compiler.
         """
         if (what, compiler) not in self.rows:
             raise VerifyError(f"no budget for {what} with {compiler}: add a row, and tools/size --record fills it in")
         return self.rows[what, compiler]
 
     def record(self, what: str, compiler: str, sizes: Mapping[str, int]) -> None:
-        """Keeps what an image takes today; its limits stay."""
+        """Replaces the recorded sizes of an image; its limits stay."""
         cells = self.of(what, compiler)
         self.rows[what, compiler] = {name: cell._replace(recorded=sizes[name]) for name, cell in cells.items()}
 
     def write(self, path: Path) -> None:
-        """Writes the table, in columns."""
+        """Writes the table with aligned columns."""
         texts = [[*key, *(str(cells.get(name, "")) for name in COLUMNS)] for key, cells in self.rows.items()]
         widths = [max(map(len, column)) for column in zip(*texts, ["", "", *COLUMNS], strict=True)]
         lines = ["what", "compiler", *COLUMNS], ["-" * width for width in widths], *texts
@@ -61,10 +61,10 @@ class Budget:
 
 
 def read(path: Path) -> Budget:
-    """The table in a file.
+    """Reads the table in a file.
 
     Raises:
-        ChoiceError: It cannot be read.
+        ChoiceError: The file cannot be read or has no valid table.
     """
     try:
         head, bar, text = path.read_text().partition("| what ")

@@ -1,4 +1,4 @@
-"""The core without a body, compiled for processors that we have no board for: it is portable, and small."""
+"""Size of the core alone, without a HAL, on processors that we have no board for."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,9 +18,9 @@ class Processor:
     """A compiler and its flags.
 
     Attributes:
-        name: As the table says it.
+        name: Name in the table of budgets.
         prefix: Prefix of the compiler's tools, such as arm-none-eabi-.
-        flags: Those of the compiler that choose the processor.
+        flags: Compiler flags that select the processor.
     """
 
     name: str
@@ -41,7 +41,7 @@ def compiler_of(prefix: str) -> str:
 
 
 def _linked(processor: Processor, folder: Path, *libraries: str) -> dict[str, int]:
-    """Sizes of the core's sections by name. What no library brings, a body has anyway: it counts in `.lent`."""
+    """Sizes of the core's sections, by name. Undefined symbols get stubs in `.lent`: any HAL provides them anyway."""
     sources = [path for path in sorted((ROOT / "firmware").rglob("*.c")) if path.name != "main.c"]
     compiler = (f"{processor.prefix}gcc", *processor.flags, *_COMMON, "-I", str(ROOT), "-I", str(folder), "-nostdlib")
     core, lent, program = (folder / f"{processor.name}.{kind}" for kind in ("o", "c", "elf"))
@@ -64,15 +64,15 @@ def measure(processor: Processor, folder: Path) -> dict[str, int]:
     """Compiles and links the core for a processor.
 
     Args:
-        processor: Which.
-        folder: Where the output goes.
+        processor: The target.
+        folder: Folder for the output.
 
     Raises:
         VerifyError: It does not compile, or the compiler is not installed.
 
     Returns:
-        Bytes: flash, all our own; library, what it needs of the compiler's as well, such as a division where the
-        processor has none; ram, the state of one robot.
+        Bytes: flash, our own code and constants; library, functions of the compiler's library, such as a division
+        where the processor has none; ram, the state of one robot.
     """
     (folder / "state.c").write_text(_STATE)
     output_of(_PYTHON, ROOT / "tools" / "generate", "--c", folder / "robot_words.h")

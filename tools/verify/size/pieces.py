@@ -1,7 +1,7 @@
-"""What is in an image: how much of its flash and RAM each source file takes, and each function and object.
+"""Composition of an image: flash and RAM by source file, and by function or object.
 
-All is compiled as it is linked, so that functions of many files end up in one: the debugging information tells which
-instruction comes from which line.
+Link-time optimization merges functions of many files into one: the debugging information tells which source line each
+instruction comes from.
 """
 
 import re
@@ -26,11 +26,11 @@ _REST = "rest"
 
 @dataclass(frozen=True)
 class Piece:
-    """A share of an image.
+    """A part of an image.
 
     Attributes:
-        module: The source file, without its ending; for an object its own name; "rest" for padding and texts.
-        symbol: The function that it has become a part of, or the object.
+        module: The source file without its suffix; for an object its own name; "rest" for padding and strings.
+        symbol: The function that contains it after inlining, or the object.
         flash: Bytes of flash.
         ram: Bytes of RAM, without the stack.
     """
@@ -65,13 +65,13 @@ def _pieces(image: Path) -> Iterator[Piece]:
 
 
 def read_pieces(image: Path) -> list[Piece]:
-    """The pieces of an image, which add up to all of it.
+    """The pieces of an image, which add up to its total size.
 
     Args:
         image: An ELF file with debugging information.
 
     Raises:
-        VerifyError: It is none.
+        VerifyError: The image is not such a file.
     """
     pieces = list(_pieces(image))
     sections = {found["name"]: int(found["size"]) for found in _SECTION.finditer(_run("size", "-A", image))}

@@ -1,4 +1,4 @@
-"""The worst stack of an image, from the call graphs that the compiler leaves beside what it makes."""
+"""The worst-case stack of an image, from the call graphs that gcc writes with -fcallgraph-info."""
 
 import re
 from collections import defaultdict
@@ -9,33 +9,33 @@ from pathlib import Path
 from tools.verify.command import VerifyError
 
 LIBRARY = 32
-"""Bytes allowed for a function of the compiler's library; none calls further. More than any that we use takes."""
+"""Bytes assumed for each function of the compiler's library, an upper bound; none of these calls another function."""
 
 _NODE = re.compile(r'^node: \{ title: "([^"]+)" label: "[^"]*\\n(\d+) bytes \(([a-z, ]+)\)', re.MULTILINE)
 _EDGE = re.compile(r'^edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"', re.MULTILINE)
 
 
 class StackError(VerifyError):
-    """The worst stack cannot be known."""
+    """The worst-case stack cannot be determined."""
 
 
 @dataclass
 class CallGraph:
-    """Who calls whom, and what each takes.
+    """A call graph with the stack frame of each function.
 
     Attributes:
-        frames: Bytes of stack of each function by its name, those of one file with that file's path before it.
-        calls: Whom each function calls.
+        frames: Bytes of stack of each function, by name; static functions have their file's path as a prefix.
+        calls: The functions that each function calls.
     """
 
     frames: dict[str, int] = field(default_factory=dict)
     calls: defaultdict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
 
     def add(self, text: str) -> None:
-        """Takes in one file of the compiler's.
+        """Adds the text of a .ci file that the compiler wrote.
 
         Raises:
-            StackError: A function takes more or less stack as it runs.
+            StackError: The stack frame of a function is not constant.
         """
         for name, size, kind in _NODE.findall(text):
             if kind != "static":
@@ -45,7 +45,7 @@ class CallGraph:
             self.calls[caller].add(callee)
 
     def worst(self, function: str, above: tuple[str, ...] = ()) -> tuple[int, list[str]]:
-        """The deepest way down from a function: its bytes, and the functions on it.
+        """The deepest call chain from a function: its bytes of stack, and its functions.
 
         Raises:
             StackError: There is recursion, or a call through a pointer.
@@ -63,14 +63,14 @@ class CallGraph:
 
 
 def read_graph(build: Path, image: str) -> CallGraph:
-    """The call graph of an image: what was compiled as it was linked, and the files that were compiled before.
+    """The call graph of an image, from link-time optimization and from files compiled without it.
 
     Args:
         build: The build folder.
         image: The image's name.
 
     Raises:
-        StackError: It is missing, or says that the stack cannot be known.
+        StackError: It is missing, or the stack frame of a function is not constant.
     """
     graph = CallGraph()
     linked = sorted(build.glob(f"{image}.elf.ltrans*.ci"))
@@ -82,5 +82,5 @@ def read_graph(build: Path, image: str) -> CallGraph:
 
 
 def worst_stack(graph: CallGraph, roots: Iterable[str]) -> tuple[int, list[str]]:
-    """The deepest way down from any of the roots, each of which begins with an empty stack."""
+    """The deepest call chain from any of the roots, each of which begins with an empty stack."""
     return max((graph.worst(root) for root in roots), key=lambda found: found[0])
