@@ -1,6 +1,6 @@
-# What this is built from, as build_id.h in OCTET_GENERATED: looked up at each build, rewritten only when it has changed.
+# Generates build_id.h, the commit of the sources, in OCTET_GENERATED: checked at each build, rewritten only if changed.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
-  # The second output is never made: that is what has the command run at each build.
+  # The second output is never made, so the command runs at each build.
   add_custom_command(
     OUTPUT ${OCTET_GENERATED}/build_id.h ${OCTET_GENERATED}/build_id.always
     COMMAND ${CMAKE_COMMAND} -D SOURCE=${PROJECT_SOURCE_DIR} -D HEADER=${OCTET_GENERATED}/build_id.h
@@ -11,7 +11,7 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
   return()
 endif()
 
-# git COMMAND...: its one line of output, or nothing. The folder's own repository counts, none that the folder lies in.
+# git VARIABLE COMMAND...: git's one line of output, or nothing. A repository that encloses SOURCE does not count.
 get_filename_component(above ${SOURCE} DIRECTORY)
 set(ENV{GIT_CEILING_DIRECTORIES} ${above})
 macro(git variable)

@@ -1,5 +1,5 @@
-# What is made of octet.dbc and robot.toml when building: C code for packing and unpacking the wire's frames, and the
-# robot's numbers and words.
+# C code that the build generates from octet.dbc and robot.toml: packing and unpacking of frames, and the robot's
+# numbers and words.
 find_program(CANTOOLS cantools HINTS ${PROJECT_SOURCE_DIR}/.venv/bin REQUIRED)
 if(DEFINED SKBUILD)
   set(python ${Python_EXECUTABLE})   # the one that builds the wheel
@@ -22,7 +22,7 @@ add_custom_command(
   COMMENT "Generating the robot's numbers and words"
   VERBATIM)
 
-# Linking this makes robot_words.h first, and finds it.
+# Linking this library generates robot_words.h first, and adds its include path.
 add_custom_target(octet_generate_words DEPENDS ${OCTET_GENERATED}/robot_words.h)
 add_library(octet_words INTERFACE)
 add_dependencies(octet_words octet_generate_words)

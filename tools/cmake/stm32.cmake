@@ -1,4 +1,4 @@
-# The board that OCTET_BOARD names, and what its chip is made of.
+# The board that OCTET_BOARD names, its chip, and functions that build its images.
 set(OCTET_STM32 ${PROJECT_SOURCE_DIR}/hal/stm32)
 if(NOT EXISTS ${OCTET_STM32}/boards/${OCTET_BOARD}.cmake)
   file(GLOB boards RELATIVE ${OCTET_STM32}/boards ${OCTET_STM32}/boards/*.cmake)
@@ -36,13 +36,13 @@ function(octet_image link)
     octet_main octet_core octet_can_body octet_alone octet_link_${link})
 endfunction()
 
-# octet_place(IMAGE ADDRESS SIZE): where it lies in the flash, and how long it may be.
+# octet_place(IMAGE ADDRESS SIZE): sets an image's address and maximum size in flash.
 function(octet_place image address size)
   target_link_options(${image} PRIVATE LINKER:--defsym=IMAGE_AT=${address} LINKER:--defsym=IMAGE_SIZE=${size})
 endfunction()
 
-# octet_boot(LINK): the boot loader, and the robot in each of its slots. The header is in front of the program there, the
-# signature behind it.
+# octet_boot(LINK): the boot loader, and the robot in each of its slots, where a header precedes the program and a
+# signature follows it.
 function(octet_boot link)
   set(boot octet-${OCTET_BOARD}-${link}-boot)
   octet_program(${boot} octet_boot_main octet_boot octet_link_${link})

@@ -10,10 +10,10 @@ set_source_files_properties(${root}/tests/test.c PROPERTIES
   COMPILE_OPTIONS $<TARGET_PROPERTY:octet_warnings,INTERFACE_COMPILE_OPTIONS>)
 target_include_directories(unity SYSTEM PUBLIC ${UNITY_DIR})
 target_include_directories(unity PUBLIC ${root})
-target_compile_definitions(unity PUBLIC UNITY_INCLUDE_DOUBLE)   # for the world; the robot knows only whole numbers
+target_compile_definitions(unity PUBLIC UNITY_INCLUDE_DOUBLE)   # for the world; the robot uses integers only
 
-# octet_add_test(NAME COMMAND...): has ctest run a program of Unity's. With no test run, or with tests that are ignored, it
-# says OK and exits with 0: that is a failure here.
+# octet_add_test(NAME COMMAND...): adds a Unity program to ctest. If no test runs, or if tests are ignored, Unity exits
+# with 0: that is a failure here.
 function(octet_add_test name)
   add_test(NAME ${name} COMMAND ${ARGN})
   set_tests_properties(${name} PROPERTIES FAIL_REGULAR_EXPRESSION "\n0 Tests;[1-9][0-9]* Ignored" TIMEOUT 60)

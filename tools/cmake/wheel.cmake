@@ -1,5 +1,5 @@
-# What a wheel holds beside Python's files. It lies in host_sim/tree as it lies in a checkout. Where tools/wheels has made
-# them, the page, the flash images, the interfaces to C, completions and man pages are among it.
+# The contents of a wheel besides Python files, in host_sim/tree as in a checkout. If tools/wheels has made them, they
+# include the page, the flash images, the interfaces to C, completions and man pages.
 set(tree host_sim/tree)
 set(targets octet octet_models octet_world_shared octet_fleet_shared octet_loop_shared octet_programmed_shared
   octet_told_shared)

@@ -17,7 +17,7 @@ class Board:
     """A board that we build for.
 
     Attributes:
-        name: Its name, that of its file in hal/stm32/boards and of the CMake preset that builds for it.
+        name: Name of the board, of its file in hal/stm32/boards, and of its CMake preset.
         chip: Such as stm32f405.
         links: Its images: one for each link of its chip, such as bxcan or slcan, and those that drive pins.
     """
@@ -35,9 +35,9 @@ class Image:
         path: The .elf file; .bin and .hex lie beside it.
         board: The board that it was built for.
         chip: The board's chip.
-        node: Which robot on the bus it is.
+        node: The robot's node number on the bus.
         bitrate: Bus bit rate, bit/s; None on a serial line.
-        version: What `git describe` said.
+        version: Version, from `git describe`.
         dbc: Hash of the protocol.
     """
 
@@ -72,7 +72,7 @@ def choose_board(name: str, boards: dict[str, Board]) -> Board:
     """The board of that name.
 
     Raises:
-        FlashError: There is none.
+        FlashError: There is no such board.
     """
     if name not in boards:
         raise ChoiceError(f"no board {name}; there are {', '.join(boards)}")
@@ -80,10 +80,10 @@ def choose_board(name: str, boards: dict[str, Board]) -> Board:
 
 
 def build(board: Board, link: str, node: int, bitrate: int, root: Path = ROOT) -> Path:
-    """Brings the image for a board and a link up to date, in a folder of its own: the usual images stay as they are.
+    """Builds the image for a board and a link, in a separate folder: the usual images stay as they are.
 
     Raises:
-        FlashError: The board has no such link, or it does not build.
+        FlashError: The board has no such link, or the build fails.
     """
     if link not in board.links:
         raise ChoiceError(f"no link {link} on {board.name}; there are {', '.join(board.links)}")

@@ -24,7 +24,7 @@ class Probe:
     where: str
 
     def __str__(self) -> str:
-        """As --probe takes it."""
+        """The probe as --probe names it."""
         return f"{self.kind}:{self.where}"
 
 
@@ -55,11 +55,11 @@ def choose_probe(wanted: str | None, found: list[Probe]) -> Probe:
     """The probe to use.
 
     Args:
-        wanted: KIND or KIND:WHERE; None for the only one there is.
-        found: Those that are plugged in.
+        wanted: KIND or KIND:WHERE; None for the only probe there is.
+        found: The probes that are plugged in.
 
     Raises:
-        FlashError: There is none such, or several.
+        FlashError: There is no such probe, or several.
     """
     kind, _, where = (wanted or "").partition(":")
     if kind and kind not in KINDS:

@@ -33,10 +33,10 @@ class Plan:
     """The commands that will be run.
 
     Attributes:
-        program: Its name.
-        ask: Prints the chip's identity.
-        answer: Finds it in what was printed.
-        write: Writes, verifies and starts the image.
+        program: Name of the program.
+        ask: Command that prints the chip's identity.
+        answer: Pattern of the identity in the output.
+        write: Command that writes, verifies and starts the image.
     """
 
     program: str
@@ -72,15 +72,15 @@ _FOR_DEBUG_PROBES = {"openocd": _openocd, "pyocd": _pyocd}
 
 
 def make_plan(image: Image, probe: Probe, has: Callable[[str], object] = shutil.which) -> Plan:
-    """How to write an image through a probe.
+    """Plans how to write an image through a probe.
 
     Args:
-        image: To write.
-        probe: To write it through.
+        image: The image.
+        probe: The probe.
         has: Tells whether a program is installed.
 
     Raises:
-        FlashError: No program for it is installed.
+        FlashError: No program for the probe is installed.
     """
     makers = _FOR_SERIAL if probe.kind == "serial" else _FOR_DEBUG_PROBES
     for program, make in makers.items():
@@ -103,10 +103,10 @@ def _last_line(output: str) -> str:
 
 
 def check_chip(plan: Plan, chip: str) -> None:
-    """Makes sure that the chip behind the probe is the one that the image is for.
+    """Checks that the chip behind the probe is the one that the image is for.
 
     Raises:
-        FlashError: It is another one, or does not answer.
+        FlashError: It is another chip, or does not answer.
     """
     code, output = _run(plan.ask)
     found = plan.answer.search(output)

@@ -1,4 +1,4 @@
-"""The bench: a device, the rest of its bus, and what happens to the frames between them."""
+"""The bench: a device, the rest of its bus, and the faults of the frames between them."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -27,8 +27,8 @@ class Heard(NamedTuple):
     """A message from the device.
 
     Attributes:
-        at_ms: When.
-        name: The message.
+        at_ms: Time of arrival.
+        name: Name of the message.
         signals: The value of each signal.
     """
 
@@ -38,14 +38,14 @@ class Heard(NamedTuple):
 
 
 class _Moment(float):
-    """A time in s: that of 10 ms and 35 ms more is the same number as that of 45 ms."""
+    """A time in s, rounded after each addition: 10 ms + 35 ms equals 45 ms."""
 
     def __add__(self, span_s: float) -> "_Moment":
         return _Moment(round(float(self) + span_s, 6))
 
 
 class _Time:
-    """The bench's time, as a clock for the link: a wait takes none."""
+    """The bench's simulated time, as a clock for the link: waiting takes no time."""
 
     def __init__(self) -> None:
         self.now_ms = 0
@@ -61,13 +61,13 @@ class _Time:
 
 @dataclass(frozen=True)
 class Setup:
-    """What a bench is made of.
+    """The configuration of a bench.
 
     Attributes:
-        messages: Those of the bus.
-        open_device: Powers up a device.
-        rules: The faults.
-        seed: For all that is random in them.
+        messages: The messages of the bus.
+        open_device: Powers up a device and returns it.
+        rules: The fault rules.
+        seed: Seed of all that is random in the faults.
         node: The device's name in the DBC file: the bench sends all cyclic messages of other nodes. Empty: it
             sends only what the test names.
     """
@@ -80,12 +80,12 @@ class Setup:
 
 
 class Bench:
-    """What a test gets as `can_bench`.
+    """The bench that a test gets as `can_bench`.
 
     Attributes:
-        heard: All that the device has said.
+        heard: All messages from the device.
         damaged: Number of frames from the device with a wrong CRC or length.
-        setup: What it is made of.
+        setup: Its configuration.
     """
 
     def __init__(self, setup: Setup) -> None:
@@ -99,7 +99,7 @@ class Bench:
         self.restart([Rule.parse(text) for text in setup.rules])
 
     def restart(self, rules: Sequence[Rule]) -> None:
-        """Restarts at 0 ms with these faults and a device that was just powered up."""
+        """Restarts at 0 ms with these faults and a newly powered-up device."""
         self.close()
         schedule = Schedule(rules, self.setup.seed, self.setup.messages.forger)
         self._time = _Time()
@@ -205,7 +205,7 @@ class Bench:
         self._device = None
 
     def lines(self) -> Iterator[str]:
-        """What happened, for people."""
+        """A readable summary of the faults and the latest frames."""
         faults = [str(rule) for rule in self.faults]
         yield f"{self._link.schedule.count} faults by {self.now_ms} ms: {', '.join(faults[:_FAULTS]) or 'none'}" + (
             f", and {len(faults) - _FAULTS} more" if len(faults) > _FAULTS else ""

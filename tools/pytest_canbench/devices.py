@@ -22,7 +22,7 @@ struct frame { uint32_t id; uint8_t len; uint8_t data[8]; };
 void receive(const struct frame *frame);
 int tick(uint32_t now_ms, struct frame frames[16]);
 """
-"""What a library has: `tick` is called every ms, from 0 on, and returns the number of frames that it sends."""
+"""The functions of a library: `tick` is called every ms, from 0 on, and returns its number of frames to send."""
 
 START_S = 5.0
 """How long to wait for a program's first frame; without one, its time begins anyway."""
@@ -34,7 +34,7 @@ class Device(Protocol):
     """A link to a device; each `tick` is 1 ms of its time."""
 
     def send(self, frame: Frame) -> None:
-        """The device hears a frame."""
+        """Sends a frame to the device."""
 
     def receive(self, timeout_s: float) -> Frame | None:
         """The next frame that the device has sent, if there is one."""
@@ -43,11 +43,11 @@ class Device(Protocol):
         """Advances the device's time to `now_ms`."""
 
     def close(self) -> None:
-        """Ends it."""
+        """Switches the device off."""
 
 
 class LibraryDevice:
-    """A shared library, loaded anew for each device: its variables are as at power-up."""
+    """A shared library, loaded anew for each device so that its variables are as at power-up."""
 
     def __init__(self, source: Path) -> None:
         """Loads it.
@@ -56,7 +56,7 @@ class LibraryDevice:
             source: The library; or a C file, which is compiled.
 
         Raises:
-            UsageError: That cannot be done.
+            UsageError: It cannot be compiled or loaded.
         """
         self._folder = tempfile.TemporaryDirectory()
         library = Path(self._folder.name) / "device.so"
@@ -107,7 +107,7 @@ class LibraryDevice:
 
 def _build(source: Path, library: Path) -> None:
     if source.suffix != ".c":
-        shutil.copyfile(source, library)  # a library that is loaded already would be the same one
+        shutil.copyfile(source, library)  # a copy, since a loaded library is not loaded again
         return
     command = ["cc", "-shared", "-fPIC", "-O1", "-o", os.fspath(library), os.fspath(source)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -116,10 +116,10 @@ def _build(source: Path, library: Path) -> None:
 
 
 class ProcessDevice:
-    """A program on a socket pair, or on a bus such as vcan; a ms of its time is one of the wall clock.
+    """A program on a socket pair or on a bus such as vcan, in real time.
 
-    Its time begins with its first frame, or after `START_S`. If this machine is late, time stands still meanwhile,
-    so that the program does not get a burst of frames.
+    Its time begins with its first frame, or after `START_S`. If this machine falls behind, so does the bench's time:
+    the program does not get a burst of frames.
     """
 
     def __init__(self, command: str, folder: Path, bus: str) -> None:
@@ -127,7 +127,7 @@ class ProcessDevice:
 
         Args:
             command: Program and arguments. It finds its bus in CAN_INTERFACE and CAN_CHANNEL.
-            folder: Where it begins.
+            folder: Its working folder.
             bus: `fd` for a socket pair, else python-can's `INTERFACE:CHANNEL`.
 
         Raises:
@@ -245,12 +245,12 @@ class ImageDevice:
 
 
 def open_device(what: str, folder: Path, bus: str = "fd") -> Device:
-    """A device as it is named on the command line.
+    """Opens the device that the command line names.
 
     Args:
         what: A library (.so) or a C file (.c), `image:CHIP:FILE.elf`, or else a command.
-        folder: Where files are that are named without a folder; a command begins there.
-        bus: For a command, where it is to be.
+        folder: Base of relative paths, and working folder of a command.
+        bus: Bus of a command, as for `ProcessDevice`.
 
     Raises:
         UsageError: There is no such device.

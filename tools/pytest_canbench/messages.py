@@ -1,4 +1,4 @@
-"""The messages of a DBC file: frames with counters that go on and true CRCs, and what frames say."""
+"""Encodes and decodes the messages of a DBC file, with alive counters and valid CRCs."""
 
 import re
 from collections.abc import Iterable
@@ -29,9 +29,9 @@ class _Guard(NamedTuple):
 
 
 class Messages:
-    """Encodes and decodes. The signals `crc` or `checksum`, and `counter`, are filled in, whatever stands before a _.
+    """Encodes and decodes; fills in CRC and counter signals, which `_CRC` and `_COUNTER` find by name.
 
-    The data ID of a message is its attribute `DataID` or, 16 of them by commas, `DataIDList`; else its identifier.
+    The data ID of a message is its attribute `DataID`, or 16 of them in `DataIDList`, by commas; else its identifier.
 
     Attributes:
         file: The DBC file.
@@ -63,14 +63,14 @@ class Messages:
         """A message by its name.
 
         Raises:
-            UsageError: There is none.
+            UsageError: There is no such message.
         """
         if name not in self._names:
             raise UsageError(f"{self.file} has no message {name}; it has {', '.join(sorted(self._names))}")
         return self._names[name]
 
     def check_names(self, name: str, signals: Iterable[str]) -> None:
-        """Makes sure that a message has signals.
+        """Checks that a message has these signals.
 
         Raises:
             UsageError: There is no such message or signal.
@@ -81,7 +81,7 @@ class Messages:
                 raise UsageError(f"{name} has no signal {signal}; it has {', '.join(known)}")
 
     def check(self, name: str, signals: dict[str, float]) -> None:
-        """Makes sure that a message has signals, and room for their values.
+        """Checks that a message has these signals, and that their values fit.
 
         Raises:
             UsageError: There is no such message or signal, or a value does not fit.
@@ -93,7 +93,7 @@ class Messages:
             raise UsageError(f"{name}: {error}") from None
 
     def frame(self, name: str, signals: dict[str, float]) -> Frame:
-        """The next frame of a message: what is not told is 0, or what GenSigStartValue says."""
+        """The next frame of a message; a signal that is not given has its GenSigStartValue, or 0."""
         counter, told = self._guards[name].counter, dict(signals)
         if counter is not None and counter.name not in signals:
             count = self._counts.get(name, -1) + 1
@@ -101,7 +101,7 @@ class Messages:
         return self._protected(name, self._encode(name, told))
 
     def decode(self, frame: Frame) -> tuple[str, dict[str, float]] | None:
-        """What a frame says; None if it is of no message.
+        """The message and the signal values in a frame; None if the file has no such message.
 
         Raises:
             ValueError: It is damaged: its length or its CRC is wrong, or it cannot be read.
@@ -118,7 +118,7 @@ class Messages:
         return message.name, {str(name): float(str(value)) for name, value in dict(told).items()}
 
     def senders_of(self, node: str) -> list[str]:
-        """The messages that others send than a node, and have a cycle time.
+        """The cyclic messages of all nodes but one.
 
         Raises:
             UsageError: No message has this node as its sender.
@@ -129,7 +129,7 @@ class Messages:
         return [name for name, message in self._names.items() if message.cycle_time and node not in message.senders]
 
     def forger(self, name: str) -> "Forger":
-        """Somebody who sends frames of a message, or of any.
+        """A sender of forged frames of a message; of all messages if the name is empty.
 
         Raises:
             UsageError: There is no such message.
@@ -137,7 +137,7 @@ class Messages:
         return Forger(self, [self[name].name] if name else list(self._names))
 
     def forged(self, name: str, dice: Random, count: int) -> Frame:
-        """A frame of a message with random content, a true CRC and this count."""
+        """A frame of a message with random content, a valid CRC and this counter."""
         data, counter = dice.randbytes(self[name].length), self._guards[name].counter
         if counter is not None:
             word, mask = int.from_bytes(data, "little"), (1 << counter.length) - 1
@@ -146,7 +146,7 @@ class Messages:
         return self._protected(name, data)
 
     def count_in(self, frame: Frame) -> tuple[str, int]:
-        """The message that a frame is of, and its count; an empty name for one of none."""
+        """The message and the counter of a frame; an empty name if the file has no such message."""
         message = self._ids.get(frame.id)
         counter = self._guards[message.name].counter if message is not None else None
         if message is None or counter is None:
@@ -188,19 +188,19 @@ class Messages:
 
 
 class Forger:
-    """As in `host_sim.faults.bus_faults`: has listened, and goes on counting where the sender is."""
+    """As in `host_sim.faults.bus_faults`: listens, and continues the counters of the real sender."""
 
     def __init__(self, messages: Messages, names: list[str]) -> None:
         """Has heard nothing yet."""
         self._messages, self._names, self._counts = messages, names, dict[str, int]()
 
     def hear(self, frame: Frame) -> None:
-        """Somebody sends a frame."""
+        """Notes the counter of a frame on the bus."""
         name, count = self._messages.count_in(frame)
         self._counts[name] = count
 
     def forge(self, dice: Random) -> Frame:
-        """A frame whose CRC and counter are right."""
+        """A frame with a valid CRC and the next counter."""
         name = dice.choice(self._names)
         self._counts[name] = self._counts.get(name, -1) + 1
         return self._messages.forged(name, dice, self._counts[name])

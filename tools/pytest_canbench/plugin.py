@@ -1,4 +1,4 @@
-"""The plug-in: options, the fixture `can_bench`, the marker `can_faults`, and what a failure says."""
+"""The plug-in: options, the fixture `can_bench`, the marker `can_faults`, and reports of failures."""
 
 from collections.abc import Generator, Iterator
 from pathlib import Path
@@ -17,14 +17,14 @@ _OPTIONS = {
     "dbc": ("FILE.dbc", "", "the bus, as a DBC file"),
     "device": ("DEVICE", "", "the device: a library (.so), a C file, image:CHIP:FILE.elf, or a command"),
     "node": ("NODE", "", "the device's name in the DBC file; the bench sends the others' cyclic messages"),
-    "crc": ("PROFILE", "none", "how messages are protected: e2e1, e2e2, e2e5, j1850 or none"),
-    "bus": ("BUS", "fd", "for a command, its bus: fd (a socket pair), or such as socketcan:vcan0"),
+    "crc": ("PROFILE", "none", "CRC profile of the messages: e2e1, e2e2, e2e5, j1850 or none"),
+    "bus": ("BUS", "fd", "bus of a command: fd (a socket pair), or one such as socketcan:vcan0"),
     "seed": ("N", "1", "seed of the faults"),
 }
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Adds the options, each of which may stand in pytest's configuration file, too."""
+    """Adds the options, which pytest's configuration file may also set."""
     group = parser.getgroup("canbench", "a device on a CAN bus")
     for name, (metavar, default, text) in _OPTIONS.items():
         group.addoption(f"--can-{name}", metavar=metavar, help=f"{text} (default: {default or 'none'})")
@@ -38,7 +38,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def _told(config: pytest.Config, name: str) -> tuple[str, Path]:
-    """An option, and the folder that files in it are named from."""
+    """The value of an option, and the folder that its relative paths start from."""
     value = config.getoption(f"--can-{name}")
     if value is not None:
         return value, config.invocation_params.dir
@@ -76,7 +76,7 @@ def can_bench(request: pytest.FixtureRequest) -> Iterator[Bench]:
 def pytest_runtest_makereport(
     item: pytest.Item, call: pytest.CallInfo[None]
 ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Adds to a failure what happened on the bus."""
+    """Adds the faults and frames on the bus to the report of a failure."""
     report = yield
     bench = getattr(item, "funcargs", {}).get("can_bench")
     if call.when == "call" and report.failed and isinstance(bench, Bench) and call.excinfo is not None:
@@ -90,7 +90,7 @@ def pytest_runtest_makereport(
 
 
 def _place(failure: pytest.ExceptionInfo[BaseException], item: pytest.Item) -> tuple[type, int]:
-    """What tells one failure from another: its kind, and the last line of the test's file that led to it."""
+    """The identity of a failure: its exception type, and its last line in the test's file."""
     return failure.type, [entry.lineno for entry in failure.traceback if entry.path == item.path][-1]
 
 

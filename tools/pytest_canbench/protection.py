@@ -1,11 +1,11 @@
-"""CRCs and alive counters of messages, by the name of a profile."""
+"""Profiles of the CRCs and alive counters of messages, by name."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 
 def crc(data: bytes, bits: int, polynomial: int, start: int, final: int) -> int:
-    """A CRC, high bit first; `final` is what it is xored with at the end."""
+    """A CRC, most significant bit first; `final` is XORed with the result."""
     value, top = start, 1 << (bits - 1)
     for byte in data:
         value ^= byte << (bits - 8)
@@ -19,7 +19,7 @@ def _low_high(number: int) -> bytes:
 
 
 class Profile(NamedTuple):
-    """How messages are protected.
+    """A profile that protects messages.
 
     Attributes:
         crc: The CRC over the data without its own bytes, for the data IDs of a message and a counter.

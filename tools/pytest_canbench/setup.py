@@ -1,4 +1,4 @@
-"""Builds the distribution: what the plug-in needs of host_sim goes with it, under its own name."""
+"""Builds the distribution, which includes the modules of host_sim that the plug-in needs, in its own package."""
 
 import re
 from pathlib import Path
@@ -16,7 +16,7 @@ TAKEN = (
 
 
 class BuildPy(build_py):
-    """As setuptools has it, with these."""
+    """The build_py of setuptools, with the TAKEN modules."""
 
     def run(self) -> None:
         """As in `build_py`."""

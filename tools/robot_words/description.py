@@ -1,4 +1,4 @@
-"""What `octet.dbc` and `robot.toml` say together, as the generators take it."""
+"""The robot's description in `octet.dbc` and `robot.toml`, as input of the generators."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -7,12 +7,12 @@ from cantools.database.can import Message
 
 
 class DescriptionError(ValueError):
-    """The two files do not fit together, or ask for what the robot cannot hold."""
+    """The two files are inconsistent, or exceed what the robot can hold."""
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number that the robot is set up with; see `Description.parameters`."""
+    """A setting of the robot; see `Description.parameters`."""
 
     name: str
     number: int
@@ -25,10 +25,10 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Member:
-    """What SENSES or DRIVE says, as a member of `struct senses` or `struct drive`.
+    """A signal of SENSES or DRIVE, as a member of `struct senses` or `struct drive`.
 
     Attributes:
-        name: The member's name: the signal's with its unit.
+        name: Name of the member: the signal's name and unit.
         signal: The signal's name.
         is_flag: Whether it is a bit.
         meaning: What it means, with range and unit.
@@ -46,31 +46,31 @@ class Description:
 
     Attributes:
         messages: As cantools reads them, by rising identifier.
-        enums: The words that firmware and simulator share, each with its number, by what they are of.
-        meanings: What a word means, for some.
+        enums: Enumerations that firmware and simulator share: the words of each, with their numbers.
+        meanings: The meanings of some words, by enumeration.
         parameters: By rising number, from 0 without a gap.
-        body_parameters: Those that a body on pins keeps, behind them.
+        body_parameters: Parameters of a body on pins, numbered after the robot's.
         profiles: Names by number, from 0 without a gap.
-        memory: For each profile, what its eight bytes are: one of the enum `memory_kind`.
+        memory: The kind of memory of each profile, from the enum `memory_kind`.
         patterns: Names by number.
         feel: Names of the proximity sensors, from bit 0 on.
-        edits: What is changed in a world, each with the names of its fields.
-        senses: What a body tells its robot at each tick.
-        drive: What the robot answers.
-        row: The names of the numbers that are recorded of each tick: senses, drive, and what recorders add.
-        columns: What views show of a row: each with its place there.
-        sentences: What the robot says, by reasons and other names.
+        edits: Kinds of changes to a world, each with the names of its fields.
+        senses: The message of a body to its robot at each tick.
+        drive: The robot's answer.
+        row: Names of the numbers recorded at each tick: senses, drive, and additions of the recorder.
+        columns: The numbers of a row that views show, with their indexes.
+        sentences: What the robot says, by reason or other name.
         kit_settings: Parameters that a robot with a body of the kit is set to, unless a run says otherwise.
         plant: Radius and growth of a plant, mm.
-        body_sentences: What has happened to a body, by the names of faults.
+        body_sentences: Texts about faults of a body, by the name of the fault.
         cell_count: Number of bytes of a memory.
-        node_max: The last node.
-        range_none: A distance where nothing is within reach.
+        node_max: Highest node number.
+        range_none: Value of a distance if nothing is within reach.
         answer_wants_ranges: The bit of an answer by which a robot asks for distances.
-        tick_span: Ticks are numbered below it, and wrap.
-        action_span: Actions likewise.
-        odometer_span: Odometers count below it, and wrap.
-        odometer_counts_per_mm: How finely they count.
+        tick_span: Number of tick numbers, after which they wrap.
+        action_span: The same for actions.
+        odometer_span: The same for odometer counts.
+        odometer_counts_per_mm: Resolution of the odometers.
         layout_hash: Hash of the messages' layout.
         same_layout: Other hashes that stood for the same layout.
     """

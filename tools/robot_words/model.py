@@ -32,7 +32,7 @@ def read(dbc: Path, words: Path) -> Description:
     except DescriptionError:
         raise
     except (OSError, LookupError, TypeError, AttributeError, ValueError) as error:
-        raise DescriptionError(_one_line("not made as it must be", error)) from error
+        raise DescriptionError(_one_line("invalid", error)) from error
 
 
 def _one_line(what: str, error: Exception) -> str:
@@ -43,7 +43,7 @@ def _load(dbc: Path) -> Database:
     try:
         database = cantools.database.load_file(dbc)
     except cantools.Error as error:
-        raise DescriptionError(_one_line("no DBC that can be read", error)) from error
+        raise DescriptionError(_one_line("not a valid DBC file", error)) from error
     if not isinstance(database, Database):
         raise DescriptionError("not a database of CAN messages")
     return database
@@ -175,7 +175,7 @@ def _check_meanings(enums: Mapping[str, Mapping[str, int]], meanings: Mapping[st
 
 
 def _memory(kinds: Mapping[str, str], profiles: Sequence[str], known: Mapping[str, int]) -> Mapping[str, str]:
-    """Each profile's kind of memory; each kind is some profile's, so that a stored memory always finds one."""
+    """The kind of memory of each profile; each kind needs a profile, so that every stored memory has one."""
     if sorted(kinds) != sorted(profiles):
         raise DescriptionError(f"[memory] is of {', '.join(sorted(kinds))}, the profiles are {', '.join(profiles)}")
     if set(kinds.values()) != set(known):
@@ -208,7 +208,7 @@ def _member(signal: Signal) -> Member:
 
 
 def _row(senses: Sequence[Member], drive: Sequence[Member], recorded: Sequence[str]) -> list[str]:
-    """What both messages have is the drive's with its name before it."""
+    """The names in a row; if both messages have a name, drive's gets the prefix drive_."""
     sensed = [member.name for member in senses]
     return [*sensed, *(f"drive_{it.name}" if it.name in sensed else it.name for it in drive), *recorded]
 

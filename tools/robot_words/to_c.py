@@ -25,7 +25,7 @@ def header(robot: Description) -> str:
 
 
 def c_name(*words: str) -> str:
-    """REASON_LOOK_AROUND of "reason", "look_around"."""
+    """A constant's name: REASON_LOOK_AROUND from "reason", "look_around"."""
     return "_".join(words).upper().replace("-", "_")
 
 
@@ -87,7 +87,7 @@ def _profiles(robot: Description) -> str:
 
 
 def _row(robot: Description) -> str:
-    """What is recorded of a tick: the places, and what fills those of `struct senses` and `struct drive`."""
+    """The recorded row of a tick: its indexes, and the members of `struct senses` and `struct drive` in it."""
     places = "".join(f"    {c_name('row', name)},\n" for name in robot.row)
     lists = [
         f"#define {name}(X) {' '.join(f'X({it.name}, {it.signal})' for it in members)}\n"

@@ -38,7 +38,7 @@ def module(robot: Description) -> str:
 
 
 def _literal(value: object) -> str:
-    """A value as JavaScript has it, keys without quotes."""
+    """A value as a JavaScript literal, with unquoted keys."""
     if isinstance(value, dict):
         return "{ " + ", ".join(f"{key}: {_literal(inner)}" for key, inner in value.items()) + " }"
     return json.dumps(value)

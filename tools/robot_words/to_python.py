@@ -20,7 +20,7 @@ from host_sim.protocol.words import PARAMETERS as PARAMETERS
 class Signal(NamedTuple):
     """A little-endian whole number in a message.
 
-    `multiplexer` holds the values of the message's selector with which it is there; none if it always is.
+    `multiplexer` holds the selector's values for which it is present; empty if it always is.
     """
 
     name: str
@@ -58,11 +58,11 @@ def module(robot: Description) -> str:
 
 
 def _exchanged(robot: Description) -> list[str]:
-    """What body and robot exchange at each tick, and how it is recorded."""
+    """The exchange between body and robot at each tick, and how it is recorded."""
     ranges = [Member(name.replace("-", "_"), name, False, f"Sensor {name}.") for name in robot.feel]
     return [
         _tuple("Senses", "What the body senses at one tick.", robot.senses),
-        _tuple("Drive", "What the wheels are to do until the next tick.", robot.drive),
+        _tuple("Drive", "The commands to the wheels until the next tick.", robot.drive),
         _tuple("Ranges", "Whole mm from the rim to the nearest thing in each cone; None: out of reach.", ranges),
         f"\n\nNOTHING_SENSED = Senses({_zeros(robot.senses)})\nREST = Drive({_zeros(robot.drive)})\n",
         f"NOTHING_NEAR = Ranges({', '.join('None' for _ in ranges)})\n",

@@ -1,4 +1,4 @@
-"""The types of what pages are sent, for the TypeScript compiler: host_sim/web/generated_types.js."""
+"""The types of the data sent to pages, for the TypeScript compiler: host_sim/web/generated_types.js."""
 
 from types import NoneType, UnionType
 from typing import Any, get_args, get_origin, get_type_hints
@@ -7,7 +7,7 @@ from host_sim.view.state_types import EnvironmentScene, Lesson, Measures, State,
 
 _NAMES: dict[object, str] = {int: "number", float: "number", NoneType: "null"}
 _TYPES: tuple[Any, ...] = (Measures, EnvironmentScene, Trial, Lesson, State)
-_HEAD = "// @ts-check\n/* Made by tools/generate; what the fields mean stands in host_sim/view/state_types.py. */\n\n"
+_HEAD = "// @ts-check\n/* Made by tools/generate; host_sim/view/state_types.py documents the fields. */\n\n"
 
 
 def module() -> str:

@@ -1,1 +1,1 @@
-"""What tools/test is made of."""
+"""Implementation of tools/test and tools/prove."""

@@ -1,4 +1,4 @@
-"""Which tests a change concerns: those nearest to it in the import graph, of its name, or that name it."""
+"""Finds the tests that a change concerns: nearest in the import graph, of the same name, or mentioning the file."""
 
 import re
 import subprocess
@@ -10,16 +10,16 @@ _MANY = 8
 _IMPORT = re.compile(r"^\s*(?:from\s+([\w.]+)\s+import\s+(\([^)]*\)|.*)|import\s+([\w.]+))", re.MULTILINE)
 
 Graph = Mapping[str, set[str]]
-"""For each module the modules that import it."""
+"""The importers of each module."""
 
 
 def module_of(path: str) -> str:
-    """The module in a file of Python."""
+    """The name of the module in a Python file."""
     return path.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
 
 
 def importers(root: Path, paths: Iterable[str]) -> Graph:
-    """Who imports whom, among files of Python below `root`."""
+    """The import graph of Python files below `root`."""
     known = {module_of(path): path for path in paths}
     graph: dict[str, set[str]] = defaultdict(set)
     for module, path in known.items():
@@ -32,7 +32,7 @@ def importers(root: Path, paths: Iterable[str]) -> Graph:
 
 
 def rings(graph: Graph, module: str) -> Iterable[set[str]]:
-    """Who imports a module, who imports those, and so on; each module once."""
+    """The importers of a module, then the importers of these, and so on; each module once."""
     seen = {module}
     ring = set(graph.get(module, ()))
     while ring := ring - seen:
@@ -55,7 +55,7 @@ def mirror(path: str) -> str:
 def by_imports(graph: Graph, changed: str) -> tuple[set[str], int]:
     """The tests nearest to a changed file in the import graph, and the number of those farther away.
 
-    Where many are as near, those in the folder that mirrors the file's own.
+    If many are equally near, only those in the mirroring test folder, if there are any.
     """
     reached = [{it.replace(".", "/") + ".py" for it in ring} for ring in rings(graph, module_of(changed))]
     tests = [found for ring in reached if (found := set(filter(is_test, ring)))]
@@ -67,7 +67,7 @@ def by_imports(graph: Graph, changed: str) -> tuple[set[str], int]:
 
 
 def by_name(root: Path, changed: str, tests: Iterable[str]) -> set[str]:
-    """The tests of a file's own name, in the folder that mirrors its own, and those that name the file."""
+    """The tests named after a file in its mirroring test folder, and all tests that mention the file."""
     path = Path(changed)
     own = re.compile(rf"{re.escape(mirror(changed))}/(?:.*/)?test_(?:native_)?{re.escape(path.stem)}(?:_\w+)?\.py")
     name = rf"{re.escape(changed)}(?![\w/.-])" if path.suffix == ".py" else rf"[/\"'`]{re.escape(path.name)}[\"'`\s]"
@@ -75,11 +75,11 @@ def by_name(root: Path, changed: str, tests: Iterable[str]) -> set[str]:
 
 
 def c_tests(build: Path, changed: Sequence[str]) -> list[str]:
-    """The C tests of a build whose programs are made of changed files.
+    """The C tests of a build whose programs depend on changed files.
 
     Args:
         build: a folder `build/NAME` that CMake and ninja have built.
-        changed: paths from the project's top.
+        changed: paths relative to the project's root.
     """
     root = build.parent.parent
     made_of = _build_edges((build / "build.ninja").read_text())
@@ -98,12 +98,12 @@ def c_tests(build: Path, changed: Sequence[str]) -> list[str]:
 
 
 def _noted_deps(build: Path) -> str:
-    """What ninja has noted of the headers that each object includes."""
+    """Ninja's list of the headers that each object includes."""
     return subprocess.check_output(("ninja", "-C", build, "-t", "deps"), text=True)
 
 
 def _build_edges(text: str) -> dict[str, set[str]]:
-    """What each target of a build.ninja is made of; what it only has to wait for is left out."""
+    """The inputs of each target in a build.ninja, without order-only dependencies."""
     edges: dict[str, set[str]] = defaultdict(set)
     for targets, needs in re.findall(r"^build (.+?): \S+ ?(.*)$", text, re.MULTILINE):
         for target in targets.replace(" | ", " ").split():

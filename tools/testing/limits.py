@@ -1,4 +1,4 @@
-"""Running a command that may not take for ever."""
+"""Runs commands with time limits."""
 
 import math
 import os
@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, TypeVar
 
 T = TypeVar("T")
 Steps = Generator[None, None, T]
-"""Work that pauses wherever other work may go on; what it returns is its result."""
+"""A generator that yields to let others run, and returns a result."""
 
 NO_LIMIT = math.inf
 _LOOK_S = 0.2
@@ -26,7 +26,7 @@ class Ended(NamedTuple):
     """How a command ended.
 
     Attributes:
-        well: With exit code 0.
+        well: Whether its exit code was 0.
         why: The limit that stopped it, in words; empty if none did.
     """
 
@@ -36,12 +36,12 @@ class Ended(NamedTuple):
 
 @dataclass(frozen=True)
 class Limits:
-    """When to stop.
+    """Time limits.
 
     Attributes:
-        total_min: Minutes for everything, from `begun` on; infinite where there is no limit.
+        total_min: Minutes for the whole run, from `begun` on; infinite for no limit.
         stall_min: Minutes in which at least one test must begin or end.
-        begun: On the monotonic clock.
+        begun: Start of the run, s on the monotonic clock.
     """
 
     total_min: float
@@ -62,14 +62,12 @@ class Limits:
 
 
 def run_within(limits: Limits, command: Sequence[str], reports: Iterable[Path], **options: Any) -> Steps[Ended]:
-    """Runs a command, with all that it starts in a process group of its own, and stops it at a limit.
-
-    It is stopped as well when the generator is closed.
+    """Runs a command in its own process group, and stops the group at a limit or when the generator is closed.
 
     Args:
-        limits: When.
-        command: Its words.
-        reports: Files that grow as tests begin and end; with none, it cannot stall.
+        limits: Its time limits.
+        command: Program and arguments.
+        reports: Files that grow as tests begin and end; without any, there is no stall limit.
         options: For `subprocess.Popen`.
 
     Yields:
@@ -95,7 +93,7 @@ def run_within(limits: Limits, command: Sequence[str], reports: Iterable[Path], 
 
 
 def side_by_side(*lanes: Steps[None]) -> None:
-    """Lets generators run until the last has ended, each as far as its next `yield` at a time."""
+    """Runs generators in turn, each up to its next `yield`, until the last has ended."""
     with ExitStack() as stack:
         for lane in lanes:
             stack.callback(lane.close)
@@ -109,7 +107,7 @@ def _sizes(files: Sequence[Path]) -> list[int]:
 
 
 def _stop(process: "subprocess.Popen[bytes]") -> None:
-    """Ends a group: in good order if it can, by force if it must."""
+    """Stops a process group: by SIGINT, else by SIGTERM, else by SIGKILL."""
     for number in _HOW:
         os.killpg(process.pid, number)
         with suppress(subprocess.TimeoutExpired):

@@ -1,4 +1,4 @@
-"""Which stage runs which Python tests; those that no stage names are the stage python's."""
+"""The Python tests of each stage; the stage python runs those that no other stage names."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -24,33 +24,33 @@ PROVE: Mapping[str, tuple[str, ...]] = {
     "wheels": ("tests/wheel",),
     "documents": ("tests/docs/test_commands.py", "tests/docs/test_python_blocks.py"),
 }
-"""Of tools/prove."""
+"""The tests of each stage of tools/prove."""
 
 QUICK = ("studies", "web")
 """The stages of tools/prove that tools/test --quick runs as well, if a change concerns their tests."""
 
 PROVE_ON_VCAN = (*PROVE["boards"], *PROVE["campaign"])
-"""Where tools/prove has tests that need vcan0."""
+"""The parts of tools/prove with tests that need vcan0."""
 
 
 def named() -> list[str]:
-    """All that some stage names."""
+    """All paths that a stage of tools/prove names."""
     return [path for paths in PROVE.values() for path in paths]
 
 
 def of_stage(name: str) -> list[str]:
-    """What a stage of tools/prove runs, for pytest: not what another stage names within it."""
+    """The pytest arguments of a stage of tools/prove, which leave out what other stages name within it."""
     within = (path for path in named() if path not in PROVE[name] and path.startswith(PROVE[name]))
     return [*PROVE[name], *(f"--ignore={path}" for path in within)]
 
 
 def is_of(name: str, test: str) -> bool:
-    """Whether a file of tests is of that stage of tools/prove."""
+    """Whether a test file belongs to a stage of tools/prove."""
     return test.startswith(PROVE[name]) and f"--ignore={test}" not in of_stage(name)
 
 
 def with_vcan_tests(root: Path) -> list[str]:
-    """The files of python's with tests that need vcan0: loading all the others takes long in a kernel of its own."""
+    """The files of stage python with tests that need vcan0: in User-Mode Linux, loading all the others takes long."""
     files = (path.relative_to(root).as_posix() for path in sorted(root.glob("tests/**/test_*.py")))
     python = (path for path in files if not any(f"{path}/".startswith(f"{own}/") for own in named()))
     return [path for path in python if "pytest.mark.vcan" in (root / path).read_text()]

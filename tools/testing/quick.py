@@ -10,7 +10,7 @@ from tools.testing.stages import C_BUILD, ROOT, Stage, c_stage, pytest_stage, ru
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Runs what the changes concern.
+    """Runs the checks and tests that the changes concern.
 
     Returns:
         0 if all of it passed, or nothing has changed; else 1.
@@ -26,21 +26,21 @@ def run(arguments: argparse.Namespace) -> int:
     python = (pytest_stage(name, sorted(paths), arguments.allow_missing) for name, paths in own.items() if paths)
     stages = [*_checks(changed), *_c_stage(changed), *python]
     code = run_stages(stages, arguments)
-    left = [f"{farther} files of tests that reach the change only through others"] if farther else []
+    left = [f"{farther} test files that import the change only indirectly"] if farther else []
     left += [f"of tools/prove {', '.join(deeper)}"] if deeper else []
     print(f"left out: {'; '.join([*left, 'what needs vcan0'])}. tools/test and tools/prove run all")
     return code
 
 
 def changed_files(root: Path) -> list[str]:
-    """The files of a checkout that differ from the last commit, new ones too, without those that are gone."""
+    """The files of a checkout that were changed or added since the last commit."""
     commands = (("diff", "--name-only", "-z", "HEAD"), ("ls-files", "--others", "--exclude-standard", "-z"))
     named = "".join(subprocess.check_output(("git", *words), cwd=root, text=True) for words in commands)
     return [path for path in named.split("\0") if (root / path).is_file()]
 
 
 def python_tests(root: Path, changed: Sequence[str]) -> tuple[set[str], int]:
-    """The files of Python tests that the changes concern, and the number of those farther away among imports."""
+    """The Python test files that the changes concern, and the number of those farther away in the import graph."""
     files = (path for top in ("host_sim", "tests", "tools") for path in (root / top).rglob("*.py"))
     sources = [path.relative_to(root).as_posix() for path in files]
     tests = [path for path in sources if concerned.is_test(path)]
@@ -54,7 +54,7 @@ def python_tests(root: Path, changed: Sequence[str]) -> tuple[set[str], int]:
 
 
 def _checks(changed: Sequence[str]) -> list[Stage]:
-    """The checks of sources."""
+    """The stages lint and types, if Python files have changed."""
     python = [path for path in changed if path.endswith(".py")]
     if not python:
         return []
@@ -65,7 +65,7 @@ def _checks(changed: Sequence[str]) -> list[Stage]:
 
 
 def _c_stage(changed: Sequence[str]) -> list[Stage]:
-    """The C tests that are made of what has changed."""
+    """The stage of the C tests that depend on changed files."""
     sources = [path for path in changed if path.endswith((".c", ".h"))]
     if not sources or not set_up([c_stage()]):
         return [c_stage()] if sources else []

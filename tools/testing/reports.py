@@ -1,6 +1,6 @@
-"""What tests have said so far, read from files that grow as tests end: a run that is stopped is counted all the same.
+"""Counts test results in reports that grow as tests end, so that a stopped run is counted, too.
 
-pytest's is written by tests/conftest.py (`--progress FILE.jsonl`), ctest's is what it prints.
+The report of pytest is written by tests/conftest.py (`--progress FILE.jsonl`); that of ctest is its output.
 """
 
 import json
@@ -16,11 +16,11 @@ _CTEST_ENDS = re.compile(r" *\d+/\d+ Test +#\d+: (\S+) \.+ *(Passed)?")
 
 
 class Count(NamedTuple):
-    """How tests went.
+    """Test results.
 
     Attributes:
-        passed: How many passed.
-        failed: How many did not, those that were still running not counted.
+        passed: Number that passed.
+        failed: Number that failed, without those still running.
         allowed: Skipped tests that the caller allowed, with their reasons.
         running: Tests that have begun and not ended.
     """
@@ -32,11 +32,11 @@ class Count(NamedTuple):
 
 
 def count(reports: Iterable[Path], allowed: Collection[str]) -> Count:
-    """Counts all tests of some reports; one that is not there has none.
+    """Counts the tests in some reports; a missing report has none.
 
     Args:
-        reports: Files as named above.
-        allowed: Words before the colon in a skip's reason that make it no failure.
+        reports: Files in the formats named above.
+        allowed: Words before the colon in the reasons of accepted skips.
     """
     state: dict[str, str] = {}
     reasons: dict[str, str] = {}

@@ -27,14 +27,14 @@ Command = Sequence[str]
 
 @dataclass(frozen=True)
 class Stage:
-    """One kind of test.
+    """A stage of tests.
 
     Attributes:
-        name: what a person calls it.
-        setup: what tools/setup calls it.
-        commands: what it runs, all of them even if one fails.
-        reports: files that grow as tests begin and end; none where only sources are checked.
-        beside: whether it runs beside the other stages; its output is shown when it has ended.
+        name: its name on the command line.
+        setup: its stage of tools/setup.
+        commands: its commands, which all run even if one fails.
+        reports: files that grow as tests begin and end; none if it only checks sources.
+        beside: whether it runs beside the other stages; its output is then shown at its end.
     """
 
     name: str
@@ -46,15 +46,15 @@ class Stage:
 
 @dataclass(frozen=True)
 class Result:
-    """How a stage went.
+    """The result of a stage.
 
     Attributes:
         verdict: "ok", "FAILED" or "not run".
-        seconds: how long it took.
+        seconds: its duration.
         passed: tests that passed.
         failed: tests that did not; 1 for a stage that failed as a whole.
         missing: skipped tests that the caller allowed, with their reasons.
-        why: what stopped it; empty if nothing did.
+        why: why it was stopped; empty if it was not.
     """
 
     verdict: str
@@ -66,7 +66,7 @@ class Result:
 
 
 def run_commands(stage: Stage, limits: Limits, output: TextIO | None) -> Steps[list[Ended]]:
-    """Runs a stage's commands, as long as the limits let them."""
+    """Runs a stage's commands within the limits."""
     ended: list[Ended] = []
     for command in stage.commands:
         it = yield from run_within(limits, command, stage.reports, cwd=ROOT, stdout=output, stderr=output)
@@ -77,7 +77,7 @@ def run_commands(stage: Stage, limits: Limits, output: TextIO | None) -> Steps[l
 
 
 def run_stage(stage: Stage, allowed: Collection[str], limits: Limits, output: TextIO | None) -> Steps[Result]:
-    """Runs a stage; None prints at once."""
+    """Runs a stage; without an output file, it prints at once."""
     start = time.monotonic()
     if why := limits.passed():
         return Result("FAILED", failed=1, why=f"did not begin: {why}")
@@ -105,7 +105,7 @@ def pytest_stage(name: str, tests: Sequence[str], allowed: Collection[str]) -> S
         tests: files and folders, or options of pytest that choose.
         allowed: words before the colon in the reasons of accepted skips.
     """
-    # One more than there are cores: tests wait for processes and browsers now and then.
+    # One more than there are cores, since tests sometimes wait for processes and browsers.
     workers = os.environ.get("PYTEST_XDIST_AUTO_NUM_WORKERS", f"{len(os.sched_getaffinity(0)) + 1}")
     options = ("-n", workers, "--dist=worksteal", "-m", "not vcan")
     report = REPORTS / f"{name}.jsonl"
@@ -113,20 +113,20 @@ def pytest_stage(name: str, tests: Sequence[str], allowed: Collection[str]) -> S
 
 
 def pytest_command(report: Path, words: Sequence[str], allowed: Collection[str]) -> Command:
-    """Pytest with these words, in a way that its tests can be counted."""
+    """The command of pytest with these arguments, and with a report for `count`."""
     skips = (f"--allow-missing={name}" for name in allowed)
     return (".venv/bin/python", "-m", "pytest", "--quiet", f"--progress={report}", *skips, *words)
 
 
 def ctest_command(folder: str, report: Path, *selection: str) -> Command:
-    """The C tests of a build, in a way that they can be counted."""
+    """The command of ctest for a build, with a report for `count`."""
     options = ("--test-dir", f"build/{folder}", "--output-on-failure", "--no-tests=error")
     kept = 'set -o pipefail; "$@" | tee "$0"'
     return ("bash", "-c", kept, str(report), "ctest", *options, *selection)
 
 
 def c_stage(*selection: str) -> Stage:
-    """The stage of the C tests, with the sanitizers; the words choose some, as for ctest."""
+    """The stage of the C tests, with the sanitizers; `selection` are options of ctest."""
     report = REPORTS / "c.log"
     return Stage("c", "c", [ctest_command(C_BUILD, report, *selection)], [report])
 
@@ -135,7 +135,7 @@ RunStage = Callable[[Stage, TextIO | None], Steps[Result]]
 
 
 def run_one_by_one(stages: Sequence[Stage], at_once: bool, run: RunStage, results: dict[str, Result]) -> Steps[None]:
-    """Runs stages; each prints at once, or what it has printed is shown when it has ended."""
+    """Runs stages one after another; the output of each is shown at once, or at its end."""
     for stage in stages:
         if at_once:
             print(f"\n== {stage.name}", flush=True)
@@ -177,7 +177,7 @@ def set_up(stages: Sequence[Stage]) -> list[Stage]:
 
 
 def parse(parser: argparse.ArgumentParser, names: Sequence[str]) -> argparse.Namespace:
-    """The command line, with what every command of stages takes."""
+    """Parses the command line, adding the arguments that tools/test and tools/prove share."""
     add = parser.add_argument
     add("stages", nargs="*", metavar="STAGE", help=f"run only these: {', '.join(names)}")
     add(
@@ -203,7 +203,7 @@ def parse(parser: argparse.ArgumentParser, names: Sequence[str]) -> argparse.Nam
 
 
 def be_alone(parser: argparse.ArgumentParser) -> None:
-    """Ends the command if it runs in this checkout already, for both would write the same reports."""
+    """Ends the command if it is already running in this checkout: both would write the same reports."""
     REPORTS.mkdir(parents=True, exist_ok=True)
     lock = os.open(REPORTS / f"{Path(parser.prog).name}.lock", os.O_CREAT | os.O_RDWR)  # open until the end
     try:
@@ -226,7 +226,7 @@ def busy(count: int) -> Iterator[Sequence[subprocess.Popen[bytes]]]:
 
 
 def run_repeatedly(stages: Sequence[Stage], arguments: argparse.Namespace) -> int:
-    """As `run_stages`, as often and beside as many busy loops as the command line asks for.
+    """As `run_stages`, with the repetitions and busy loops that the command line asks for.
 
     Returns:
         0 if every run passed, else 1.
@@ -241,12 +241,12 @@ def run_repeatedly(stages: Sequence[Stage], arguments: argparse.Namespace) -> in
 
 
 def run_stages(stages: Sequence[Stage], arguments: argparse.Namespace) -> int:
-    """Sets up and runs the stages that the command line asks for; it asks for all if it names none.
+    """Sets up and runs the stages that the command line names, or all.
 
     Returns:
         0 if everything asked for ran and passed, else 1.
     """
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # what runs is stopped on the way out
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # running commands are stopped on the way out
     limits = Limits(arguments.time_limit, arguments.stall_limit, begun=time.monotonic())
     chosen = [stage for stage in stages if not arguments.stages or stage.name in arguments.stages]
     results = {it.name: Result("not run", failed=int(it.name not in arguments.allow_missing)) for it in chosen}
