@@ -24,16 +24,16 @@ _SLICE_S = 0.001
 class JoinedBoard:
     """Carries frames between a board and a bus.
 
-    The board's time follows the wall clock, and never runs ahead of it. Where this computer cannot keep up, it falls
-    behind: what the board counts as silence is never the computer's fault.
+    The board's time follows the wall clock and never runs ahead of it. If this computer cannot keep up, the board's
+    time falls behind: silence that the board detects is never this computer's fault.
     """
 
     def __init__(self, board: "EmulatedBoard", bus: can.BusABC) -> None:
-        """Joins them as of now.
+        """Connects the board to the bus from now on.
 
         Args:
-            board: Up and running.
-            bus: Open; the caller closes it.
+            board: A running board.
+            bus: An open bus; the caller closes it.
         """
         self._board, self._bus = board, bus
         self._now_s = time.monotonic()
@@ -42,8 +42,8 @@ class JoinedBoard:
         """Waits for a frame for a millisecond at most, and brings the board up to the present.
 
         Raises:
-            BoardError: The image does what the hardware does not allow.
-            can.CanError: The bus is gone.
+            BoardError: The image did something that the hardware does not allow.
+            can.CanError: The bus was closed or failed.
         """
         message = self._bus.recv(_SLICE_S)
         if message is not None and not message.is_error_frame:
@@ -87,10 +87,10 @@ def _join(name: str, bus: str, *, boot: bool) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Does what the command line says.
+    """Runs the command line.
 
     Args:
-        arguments: The words after the program's name; None for those that it was started with.
+        arguments: The arguments after the program's name; None for those of this process.
 
     Returns:
         The exit code: 0 done, 1 fault, 2 wrong usage, 130 interrupted.

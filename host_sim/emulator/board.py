@@ -1,4 +1,4 @@
-"""An emulated board: hardware, the image that it runs, and a link to the simulator."""
+"""An emulated board: its hardware, the image that it runs, and a link to the simulator."""
 
 import time
 from collections import deque
@@ -26,8 +26,8 @@ class Slots:
     """The slots of a boot loader.
 
     Attributes:
-        span: Where they begin and end, bytes from the begin of the flash.
-        images: What is in them: (offset in the flash, bytes).
+        span: Start and end of the slots, bytes from the start of the flash.
+        images: Their contents: (offset in the flash, bytes).
     """
 
     span: tuple[int, int]
@@ -38,9 +38,9 @@ class EmulatedBoard:
     """A `Link` to a board. Time on the board passes within `receive` and `pass_time`, and only there.
 
     Attributes:
-        hardware: Its parts.
+        hardware: Core, memories and peripherals.
         resets: Cause of each reset so far, after that of power-up.
-        drift: By how much its time runs faster than the simulator's: 0.02 for 2 %, negative for slower.
+        drift: Fraction by which its time runs faster than the simulator's: 0.02 for 2 %, negative if slower.
     """
 
     def __init__(
@@ -52,18 +52,18 @@ class EmulatedBoard:
         serial: bool = False,
         slots: Slots | None = None,
     ) -> None:
-        """Flashes the image, and lets it run until it has settled.
+        """Flashes the image and runs it until startup is complete.
 
         Args:
-            chip: What to build.
-            image: The `.elf`.
-            faults: How the hardware misbehaves.
-            serial: Whether its frames go over the serial line, as slcan text, rather than over the bus.
-            slots: If the image is a boot loader: where its slots are, and what a probe has written there.
+            chip: The chip on the board.
+            image: The `.elf` file.
+            faults: Hardware faults to simulate.
+            serial: Whether frames go over the serial line as slcan text instead of over the bus.
+            slots: If the image is a boot loader: its slots and the images written there by a probe.
 
         Raises:
             OctetError: The image cannot be read.
-            BoardError: It does what the hardware does not allow.
+            BoardError: The image did something that the hardware does not allow.
         """
         self.resets: list[str] = []
         self.drift = 0.0
@@ -87,16 +87,16 @@ class EmulatedBoard:
             self.put(CanFrame(frame.id, frame.data))
 
     def put(self, frame: CanFrame) -> None:
-        """Another node on the bus wants to send a frame of any kind."""
+        """Queues a frame of any kind from another node on the bus."""
         if self.hardware.on_bus:
             self.hardware.can.put(frame)
 
     def now(self) -> float:
-        """The board's time since power-up, s. By it, a client in lockstep waits as long on a busy host as on any."""
+        """The board's time since power-up, s. Lockstep timeouts use it, so that they do not depend on host load."""
         return self._clock.now / SECOND
 
     def receive(self, timeout_s: float) -> Frame | None:
-        """As in `Link`. Time is the board's: never faster than the wall clock, but for its drift; it may be slower.
+        """As in `Link`. The timeout is in board time, which, apart from drift, never runs faster than the wall clock.
 
         Raises:
             BoardError: The image does what the hardware does not allow.
@@ -113,17 +113,17 @@ class EmulatedBoard:
         """Lets time pass on the board, without waiting for the wall clock.
 
         Returns:
-            What it sent meanwhile.
+            The frames that it sent meanwhile.
         """
         said = self._listen(round(span_s * SECOND))
         return [Frame(frame.id, frame.data) for frame in said]
 
     def cut_power(self) -> None:
-        """Switches the board off and on again: only the flash keeps its content."""
+        """Switches the board off and on again; only the flash keeps its contents."""
         self.restart("power")
 
     def restart(self, cause: str) -> None:
-        """Resets the chip, for a cause as `Hardware.restart` has them."""
+        """Resets the chip; the causes are those of `Hardware.restart`."""
         self.resets.append(cause)
         self._reset_cause = None
         self.hardware.restart(cause)
@@ -137,7 +137,7 @@ class EmulatedBoard:
         self._said.clear()
 
     def _listen(self, span: int) -> list[CanFrame]:
-        """Lets so much time pass; returns all that was said until then."""
+        """Advances time by a span; returns the frames sent by then."""
         end = self._clock.now + span
         heard: list[CanFrame] = []
         while self._clock.now < end:
@@ -147,7 +147,7 @@ class EmulatedBoard:
         return heard
 
     def _run_until(self, moment: int) -> None:
-        """Runs until the board says something, at the latest until then."""
+        """Runs until the board sends something, but no later than a moment."""
         self._deadline = moment
         self._alarm.set(moment)
         while not self._has_news() and self._clock.now < moment:
@@ -180,18 +180,18 @@ class EmulatedBoard:
 def start_board(
     name: str, faults: Faults | None = None, link: str = "", *, boot: bool = False, version: int = 1
 ) -> EmulatedBoard:
-    """A board with the image that the build leaves for it, up and running.
+    """Starts a board with its built image.
 
     Args:
         name: One of `CHIPS`.
-        faults: How its hardware misbehaves.
-        link: Such as `bxcan` or `slcan`: which of its images; by default that for its CAN controller.
-        boot: Whether it starts through a boot loader, with an image in its first slot.
-        version: Of that image.
+        faults: Hardware faults to simulate.
+        link: The link of the image, such as `bxcan` or `slcan`; by default that for the board's CAN controller.
+        boot: Whether the board starts through a boot loader, with the image in its first slot.
+        version: Version of that image.
 
     Raises:
         UsageError: No board has that name.
-        OctetError: Its image is not built.
+        OctetError: The image is not built.
         BoardError: The image does what the hardware does not allow.
     """
     if name not in CHIPS:

@@ -1,6 +1,6 @@
-"""The pins of a board, checked against the functions of the chip's pins: for C, for people and for emulation.
+"""The pins of a board, checked against the pin functions of its chip: for C, documentation and emulation.
 
-A board's file in hal/stm32/boards names a pin for each signal; `pins.toml` in its chip's folder, what a pin can be.
+A board's file in hal/stm32/boards names a pin for each signal; `pins.toml` in its chip's folder lists pin functions.
 """
 
 import re
@@ -13,10 +13,10 @@ from host_sim.base.paths import ROOT
 from host_sim.base.toml_file import parse_toml
 
 STM32 = Path("hal", "stm32")
-"""Where boards and chips are, from the root."""
+"""Folders of boards and chips, relative to the root."""
 
 ADC = "ADC"
-"""The function of a pin whose voltage is measured."""
+"""Function of an analogue input."""
 
 _SET = re.compile(r"^set\((\w+) ([^)]*)\)", re.MULTILINE)
 _PIN = re.compile(r"P([A-I])(\d+)")
@@ -24,25 +24,25 @@ _ALWAYS = ("LED", "CAN_RX", "CAN_TX", "UART_RX", "UART_TX")
 
 
 def settings(path: Path) -> dict[str, str]:
-    """What a file of CMake sets."""
+    """The variables that a CMake file sets."""
     return dict(_SET.findall(path.read_text()))
 
 
 def place_of(pin: str) -> tuple[int, int]:
-    """The number of a pin's port, from 0 for A, and its own in that."""
+    """Port number (0 for A) and pin number of a pin."""
     return ord(pin[1]) - ord("A"), int(pin[2:])
 
 
 class ChipPins:
-    """What a chip's pins can be.
+    """The functions of a chip's pins.
 
     Attributes:
-        signals: What the drivers use for each signal, such as `CAN rx`; plain inputs and outputs are left out.
-        channels: The channel of the ADC of each pin that has one.
+        signals: The pin function of each signal, such as `CAN rx`; plain inputs and outputs are omitted.
+        channels: The ADC channel of each pin that has one.
     """
 
     def __init__(self, name: str, root: Path = ROOT) -> None:
-        """Reads the table of a chip."""
+        """Reads a chip's pin table."""
         table = parse_toml((root / STM32 / name / "pins.toml").read_text())
         self.name = name
         self._all = {f"P{port}{n}" for port, count in table["ports"].items() for n in range(count)}
@@ -56,7 +56,7 @@ class ChipPins:
         """Checks that each signal has a pin of its own that the chip has.
 
         Raises:
-            UsageError: It has not.
+            UsageError: A pin is missing, shared or unsuitable.
         """
         taken = dict(self._reserved)
         for signal, pin in signals.items():
@@ -69,12 +69,12 @@ class ChipPins:
                 raise UsageError(f"{signal} is on {pin}, which has no ADC on an {self.name}")
 
     def remap(self, signals: dict[str, str]) -> int:
-        """The fields of AFIO_MAPR with which each function has its pins: all at one of the places that it can be.
+        """The AFIO_MAPR fields that route each function to its pins, all of them in one of its mappings.
 
-        Where pins choose their functions themselves, each is on its own, and the fields are 0.
+        0 for chips whose pins select their functions themselves.
 
         Raises:
-            UsageError: It cannot be there.
+            UsageError: No mapping of a function has these pins.
         """
         wanted: dict[tuple[str, str], dict[str, str]] = {}
         for signal in (name for name, use in self.signals.items() if use != ADC and name in signals):
@@ -84,7 +84,7 @@ class ChipPins:
         return sum(self._remap(function, roles, signals) for (function, _), roles in wanted.items())
 
     def pin_of(self, use: str, mapr: int) -> str | None:
-        """The pin of a function such as `CAN rx`, as AFIO_MAPR has it; None if there is none."""
+        """The pin to which AFIO_MAPR routes a function such as `CAN rx`; None if there is none."""
         function, role = use.split()
         options = self._functions[function]
         width = max(option["set"] for option in options).bit_length()
@@ -95,9 +95,9 @@ class ChipPins:
         return None
 
     def function_of(self, use: str, pin: str) -> int | None:
-        """The number of the function that makes a pin, for example, `CAN rx`; None if there is none.
+        """The alternate function number that makes a pin, for example, `CAN rx`; None if there is none.
 
-        Where functions have no numbers, it is 0.
+        0 for chips without such numbers.
         """
         function, role = use.split()
         return next((option.get("af", 0) for option in self._functions[function] if option.get(role) == pin), None)
@@ -119,13 +119,13 @@ class Pins:
     """The pins of a board.
 
     Attributes:
-        board: Its name.
+        board: Name of the board.
         signals: The pin of each signal, such as PB8.
-        chip: What its chip's pins can be.
-        remap: The fields of AFIO_MAPR that go with them.
-        led_high: Whether the LED shines while its pin is high.
-        headers: The labels of the pins of the board's two headers, top down; empty if unknown.
-        ends: By signal, the part of a robot of its own that the wire goes to, and the terminal there.
+        chip: The pin functions of its chip.
+        remap: The AFIO_MAPR fields for these pins.
+        led_high: Whether the LED is on while its pin is high.
+        headers: Pin labels of the board's two headers, top to bottom; empty if unknown.
+        ends: By signal, the component and terminal at the far end of the wire, for a robot with a body on pins.
     """
 
     board: str
@@ -138,13 +138,13 @@ class Pins:
 
     @property
     def channels(self) -> dict[str, int]:
-        """The channel of the ADC, by signal."""
+        """The ADC channel of each analogue signal."""
         return {
             name: self.chip.channels[pin] for name, pin in self.signals.items() if self.chip.signals.get(name) == ADC
         }
 
     def header(self) -> str:
-        """What board.h includes."""
+        """The contents of the header that board.h includes."""
         lines = [f"/* Generated from hal/stm32/boards/{self.board}.cmake. */"]
         numbers: dict[str, object] = {}
         for signal, pin in self.signals.items():
@@ -158,7 +158,7 @@ class Pins:
         return "\n".join(lines) + "\n"
 
     def table(self) -> str:
-        """The wiring in Markdown."""
+        """The wiring table in Markdown."""
         lines = ["| signal | pin | as | goes to |", "| --- | --- | --- | --- |"]
         for signal, pin in sorted(self.signals.items(), key=lambda row: place_of(row[1])):
             use = self.chip.signals.get(signal, "input or output")
@@ -173,10 +173,10 @@ def _ends(root: Path) -> dict[str, tuple[str, str]]:
 
 
 def read_pins(board: str, root: Path = ROOT) -> Pins:
-    """The pins of a board.
+    """Reads the pins of a board.
 
     Raises:
-        UsageError: There is no such board, two signals have the same pin, or a pin cannot be what its signal needs.
+        UsageError: There is no such board, two signals share a pin, or a pin lacks the function of its signal.
     """
     path = root / STM32 / "boards" / f"{board}.cmake"
     if not path.exists():

@@ -27,7 +27,7 @@ def c_models() -> tuple[Any, Any]:
     """The interface to the models, and their library.
 
     Raises:
-        OctetError: They are not built.
+        OctetError: The models are not built.
     """
     lines = [line for header in _HEADERS for line in header.read_text().splitlines() if not line.startswith("#")]
     ffi = c_interface("\n".join(lines))

@@ -1,4 +1,4 @@
-"""CAN as a peripheral of the board: the models of its controllers and of the wire, written in C (`models/`)."""
+"""CAN controllers of the boards and the wire between nodes; the models are written in C (`models/`)."""
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
@@ -14,13 +14,13 @@ _EXTENDED, _REMOTE, _ID = 1 << 31, 1 << 30, (1 << 29) - 1
 
 
 class CanFrame(NamedTuple):
-    """One frame of any kind.
+    """A CAN frame of any kind.
 
     Attributes:
-        id: Its identifier, of 11 or 29 bits.
-        data: 0..8 bytes; of a remote frame, only the length counts.
+        id: Identifier, 11 or 29 bits.
+        data: 0..8 bytes; for a remote frame, only the length matters.
         extended: Whether the identifier has 29 bits.
-        remote: Whether it asks for data and has none.
+        remote: Whether it is a remote frame, which requests data.
     """
 
     id: int
@@ -31,11 +31,11 @@ class CanFrame(NamedTuple):
 
 @dataclass(frozen=True)
 class CanFaults:
-    """How a controller can misbehave.
+    """Faults of a CAN controller.
 
     Attributes:
         init_stuck: Whether initialization is never acknowledged.
-        stuck_mailboxes: Bit n is set if the frames of mailbox n never leave.
+        stuck_mailboxes: Bit n is set if frames in mailbox n are never sent.
     """
 
     init_stuck: bool = False
@@ -43,18 +43,18 @@ class CanFaults:
 
 
 class CanController(Peripheral):
-    """A controller, with its wire and one more node there that stands for the rest of the world.
+    """A controller, its wire, and one more node on the wire that represents the rest of the bus.
 
     Attributes:
-        model: The C model of its kind.
-        node: Its part common to all kinds, `struct can_node`.
-        wire: Its bus, `struct can_wire`.
+        model: The C model of the controller.
+        node: The part common to all controllers, `struct can_node`.
+        wire: The bus, `struct can_wire`.
     """
 
     called: str
-    """As in the reference manual."""
+    """Name of the peripheral, as in the reference manual."""
     control: int
-    """Offset of the register with which a driver lets it join the bus."""
+    """Offset of the register by which a driver connects it to the bus."""
 
     def __init__(
         self,
@@ -64,14 +64,14 @@ class CanController(Peripheral):
         faults: CanFaults,
         heard: Callable[[CanFrame], None],
     ) -> None:
-        """A controller that is on no bus.
+        """Creates a controller that is not on the bus.
 
         Args:
-            names: Of its registers by offset.
-            clock: The board's.
-            bus_hz: Gives the speed of the controller's clock.
-            faults: How it misbehaves.
-            heard: Takes what the board has sent.
+            names: Register names by offset.
+            clock: The board's clock.
+            bus_hz: Returns the frequency of the controller's clock, Hz.
+            faults: Faults to simulate.
+            heard: Called with each frame that the board has sent.
 
         Raises:
             OctetError: The models are not built.
@@ -90,11 +90,11 @@ class CanController(Peripheral):
 
     @abstractmethod
     def open(self) -> Any:
-        """Creates the model of this kind on the wire."""
+        """Creates the controller's model on the wire."""
 
     @abstractmethod
     def restart(self) -> None:
-        """The model, as after a reset."""
+        """Resets the model."""
 
     def reset(self) -> None:
         """As in `Peripheral`."""
@@ -107,9 +107,9 @@ class CanController(Peripheral):
         self.node.clocked = clocked
 
     def access_directly(self, space: Any, base: int) -> None:
-        """Has a `struct register_space` read and write the registers without Python.
+        """Lets a `struct register_space` access the registers without calling Python.
 
-        `control` is written here, since the controller then asks for the speed of its clock.
+        Writes to `control` still come here, since the controller then needs its clock frequency.
         """
         space.can, space.can_base = self.ffi.addressof(self.node), base
         for offset in self.registers:
@@ -118,7 +118,7 @@ class CanController(Peripheral):
             space.can_writable[word] = offset != self.control
 
     def put(self, frame: CanFrame) -> None:
-        """Queues a frame from the rest of the world; if too many are waiting, it is lost."""
+        """Queues a frame from the rest of the bus; it is lost if the queue is full."""
         flags = (_EXTENDED if frame.extended else 0) | (_REMOTE if frame.remote else 0)
         self._frame.id, self._frame.len = frame.id | flags, len(frame.data)
         self._data[:] = frame.data.ljust(8, b"\0")
@@ -166,7 +166,7 @@ _FILTERS = {0x200: "FMR", 0x204: "FM1R", 0x20C: "FS1R", 0x214: "FFA1R", 0x21C: "
 
 
 class BxCan(CanController):
-    """The controller of F1 and F4; see `CanController`."""
+    """bxCAN, the controller of F1 and F4; see `CanController`."""
 
     called, control = "CAN1", 0x00
 
@@ -178,7 +178,7 @@ class BxCan(CanController):
         heard: Callable[[CanFrame], None],
         banks: int = 14,
     ) -> None:
-        """Begins asleep, with this number of filter banks."""
+        """Starts in sleep mode, with this number of filter banks."""
         self._banks = banks
         names = _NAMED | _FILTERS
         boxes = ((_MAILBOX, ("TI", "TDT", "TDL", "TDH"), 3), (_OUTPUT, ("RI", "RDT", "RDL", "RDH"), 2))
@@ -205,14 +205,14 @@ _FD_NAMES |= {0x0D0: "TXBCR", 0x0D4: "TXBTO", 0x0D8: "TXBCF"}
 
 
 class FdCan(CanController):
-    """That of G4, in classic CAN mode, with its message RAM; see `CanController`."""
+    """FDCAN of the G4 in classic CAN mode, with its message RAM; see `CanController`."""
 
     called, control = "FDCAN1", 0x018
 
     def __init__(
         self, clock: Clock, bus_hz: Callable[[], int], faults: CanFaults, heard: Callable[[CanFrame], None]
     ) -> None:
-        """In initialization."""
+        """Starts in initialization mode."""
         _, library = c_models()
         ram = {library.FDCAN_RAM_AT + 4 * word: f"RAM[{word}]" for word in range(library.FDCAN_RAM_WORDS)}
         super().__init__(_FD_NAMES | ram, clock, bus_hz, faults, heard)

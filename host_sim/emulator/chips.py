@@ -17,7 +17,7 @@ from host_sim.emulator.serial import Usart, UsartG4
 from host_sim.emulator.system import POWER_F1, POWER_G4, PowerKind
 
 Gate = tuple[int, int]
-"""What switches a peripheral's clock: the offset of a register of RCC, and the number of a bit in it."""
+"""Clock enable bit of a peripheral: the offset of an RCC register, and the bit number."""
 
 
 @dataclass(frozen=True)
@@ -25,28 +25,28 @@ class Chip:
     """One chip on one board.
 
     Attributes:
-        name: As the board is called on the command line.
-        cpuid: What its core calls itself.
-        slow_hz: Speed of the watchdog's oscillator.
-        oscillators: The others' speeds; the crystal is the board's.
+        name: Name of the board on the command line.
+        cpuid: CPUID of its core.
+        slow_hz: Frequency of the watchdog's oscillator.
+        oscillators: Frequencies of the other oscillators; the crystal is the board's.
         ram: (base, bytes) of each RAM.
-        rcc: Makes the reset and clock control.
-        rcc_base: Where it lies.
-        flash: Makes the flash.
-        flash_base: Where its registers lie.
-        gpio: Makes a port by its name.
-        gpio_base: Where port A lies; each has 1 kB.
-        gpio_gates: The gate of each port's clock, from port A.
-        link: The image that talks through its CAN controller, by its link.
-        can: Makes that controller.
-        can_gate: The gate of CAN's clock.
-        power_gate: The gate of the clock of what watches the supply.
-        power: Where it has what watches the supply.
-        usart: Makes the serial port.
-        usart_base: Where that lies.
-        usart_gate: The gate of its clock.
-        afio_gate: The gate of the clock of the alternate functions' registers; None if the chip has none.
-        robot: What the chip has for a robot of its own; None where the board has no pins for one.
+        rcc: Creates the reset and clock control.
+        rcc_base: Base address of RCC.
+        flash: Creates the flash.
+        flash_base: Base address of the flash registers.
+        gpio: Creates a port of a name.
+        gpio_base: Base address of port A; each port takes 1 kB.
+        gpio_gates: Clock gate of each port, from port A.
+        link: Link name of the image that uses its CAN controller.
+        can: Creates that controller.
+        can_gate: Clock gate of CAN.
+        power_gate: Clock gate of the supply monitor.
+        power: Registers of the supply monitor.
+        usart: Creates the serial port.
+        usart_base: Base address of the serial port.
+        usart_gate: Clock gate of the serial port.
+        afio_gate: Clock gate of AFIO, the alternate function registers; None if the chip has none.
+        robot: Peripherals for a robot with a body on pins; None if the board has no pins for one.
     """
 
     name: str
@@ -75,16 +75,16 @@ class Chip:
 
 @dataclass(frozen=True)
 class RobotParts:
-    """What a robot of its own uses of a chip.
+    """The peripherals that a robot with a body on pins uses.
 
     Attributes:
-        motors: The gate of TIM1's clock.
-        counters: The gate of TIM2's; those of TIM3 and TIM4 are the next bits.
-        dma: That of DMA1's.
-        adc: That of ADC1's.
-        adc_base: Where that lies.
-        converter: Makes it, of its base, the speed of its clock and its DMA,
-        multiplexed: and of the multiplexer, with its gate and its base, if the chip has one.
+        motors: Clock gate of TIM1.
+        counters: Clock gate of TIM2; those of TIM3 and TIM4 are the next bits.
+        dma: Clock gate of DMA1.
+        adc: Clock gate of ADC1.
+        adc_base: Base address of ADC1.
+        converter: Creates ADC1 from its base address, its clock frequency and its DMA,
+        multiplexed: and the DMA multiplexer, with its clock gate and base address, if the chip has one.
     """
 
     motors: Gate
@@ -98,10 +98,10 @@ class RobotParts:
 
 WATCHDOG_BASE, CAN_BASE, POWER_BASE, AFIO_BASE = 0x40003000, 0x40006400, 0x40007000, 0x40010000
 SYSTICK_BASE, SCB_BASE, NVIC_BASE = 0xE000E010, 0xE000ED00, 0xE000E100
-"""Where all chips have the same."""
+"""Base addresses common to all chips."""
 
 GPIO_STRIDE = 0x400
-"""From one port to the next."""
+"""Address distance from one port to the next."""
 
 _MHZ = 1_000_000
 
@@ -199,6 +199,6 @@ STM32G431 = Chip(
         multiplexed=((0x48, 2), 0x40020800),
     ),
 )
-"""ST NUCLEO-G431RB. To be faster, the chip needs a higher voltage and a rest at half speed: not modelled."""
+"""ST NUCLEO-G431RB. Faster clocks need a higher core voltage and a pause at half speed: not modelled."""
 
 CHIPS = {chip.name: chip for chip in (STM32F405, STM32F103, STM32G431)}

@@ -6,7 +6,7 @@ from typing import Any
 from host_sim.emulator.c_models import c_models
 
 SECOND = 10**15
-"""Moments and spans are whole femtoseconds, so that sums of clock periods do not drift."""
+"""Moments and spans are in whole femtoseconds, so that sums of clock periods do not drift."""
 
 _NS = SECOND // 10**9
 _HOUR = 3600 * SECOND
@@ -16,10 +16,10 @@ NEVER = (2**64 - 1) * _NS
 
 
 class Alarm:
-    """When an event is next due."""
+    """The time at which an event is next due."""
 
     def __init__(self, clock: "Clock", number: int) -> None:
-        """As returned by `Clock.add`."""
+        """Created by `Clock.add`."""
         self._clock, self._number = clock, number
 
     def set(self, moment: int) -> None:
@@ -35,10 +35,10 @@ class Clock:
     """
 
     def __init__(self, hz: int) -> None:
-        """Begins at 0.
+        """Starts at 0.
 
         Args:
-            hz: Speed of the core at power-up.
+            hz: Core clock at power-up, Hz.
 
         Raises:
             OctetError: The models are not built.
@@ -56,7 +56,7 @@ class Clock:
 
     @property
     def now(self) -> int:
-        """This moment, since power-up."""
+        """Time since power-up."""
         now = self.model.now
         moment: int = now.ns * _NS + now.fs
         return moment
@@ -77,7 +77,7 @@ class Clock:
         """Adds an event.
 
         Args:
-            due: Does what is due, and returns the moment of its next call.
+            due: Handles the event, and returns the moment of its next call.
 
         Returns:
             The alarm, to be set when that moment changes. Until then, `due` is called as soon as any event is due.
@@ -91,7 +91,7 @@ class Clock:
         return Alarm(self, len(self._timed) - 1)
 
     def set_hz(self, hz: int) -> None:
-        """Changes the speed of the core."""
+        """Changes the core clock, Hz."""
         self.model.period_fs = SECOND // hz
         self.expect_now()
 
@@ -100,17 +100,17 @@ class Clock:
 
         Args:
             wire: The C model, `struct can_wire`.
-            take: Called when something was heard on it, or a controller refused something.
+            take: Called when something was received from it, or a controller rejected something.
         """
         self._take = self._ffi.callback("void(struct board_clock *)", lambda _clock: take(), onerror=self.fail)
         self.model.wire, self.model.take = wire, self._take
 
     def expect(self, moment: int) -> None:
-        """Notes that something new is due at a moment."""
+        """Notes that a new event is due at a moment."""
         self._library.clock_expect(self.model, divmod(min(moment, NEVER), _NS))
 
     def expect_now(self) -> None:
-        """Notes that something new is due at once."""
+        """Notes that a new event is due at once."""
         self._library.clock_expect(self.model, self.model.now)
 
     def settle(self) -> None:
@@ -140,7 +140,7 @@ class Clock:
             self.raise_failure()
 
     def skip_to_event(self) -> None:
-        """Advances time to the next event, an hour at most."""
+        """Advances time to the next event, by an hour at most."""
         self._library.clock_execute(self.model, 0)
         self._library.clock_skip_to_event(self.model, _HOUR // _NS)
         self.raise_failure()
@@ -150,12 +150,12 @@ class Clock:
         self.skip_to(self.now + span)
 
     def fail(self, _kind: object, failure: BaseException, _trace: object) -> None:
-        """Stops time, since a function that C called has failed. The arguments are those of `__exit__`."""
+        """Stops time because a Python callback of C has failed. The arguments are those of `__exit__`."""
         self._failure = failure
         self.model.failed = True
 
     def raise_failure(self) -> None:
-        """Raises the exception of `fail`, once: it could not pass through C."""
+        """Raises the exception passed to `fail`, once: exceptions cannot propagate through C."""
         if self._failure is not None:
             failure, self._failure = self._failure, None
             self.model.failed = False

@@ -1,4 +1,4 @@
-"""The converters of STM32F1 (RM0008 11) and G4 (RM0440 21), and the DMA that carries their samples off."""
+"""The A/D converters of STM32F1 (RM0008 11) and G4 (RM0440 21), and the DMA that stores their samples."""
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
@@ -28,17 +28,17 @@ class Dma(Peripheral):
         super().__init__("DMA1", {offset: Register(name) for offset, name in names.items()})
 
     def target(self, source: int) -> tuple[int, int] | None:
-        """Where channel 1 puts half-words from a register, and how many, round and round; None if it does not."""
+        """Address and number of the half-words to which channel 1 copies a register in circular mode; None if off."""
         control, count, peripheral, memory = (self.registers[at].value for at in (_CCR, _CNDTR, _CPAR, _CMAR))
         wanted = _CHANNEL_ON | _CIRCULAR | _MINC | _HALVES
         return (memory, count) if control & wanted == wanted and peripheral == source else None
 
 
 class Multiplexer(Peripheral):
-    """DMAMUX (RM0440 13): the request that each channel of DMA serves."""
+    """DMAMUX (RM0440 13): selects the request that each DMA channel serves."""
 
     def __init__(self) -> None:
-        """None serves any."""
+        """No request is selected."""
         super().__init__("DMAMUX", {4 * channel: Register(f"C{channel}CR") for channel in range(12)})
 
     def serves_converter(self) -> bool:
@@ -47,20 +47,20 @@ class Multiplexer(Peripheral):
 
 
 class Converter(Peripheral):
-    """ADC1, converting one channel after the other, over and over."""
+    """ADC1 in continuous scan mode."""
 
     data: int
-    """Offset of its register DR."""
+    """Offset of the data register DR."""
     hz_max: int
 
     def __init__(self, base: int, hz: Callable[[], int], dma: Dma, registers: Mapping[int, Register]) -> None:
         """At rest.
 
         Args:
-            base: Its address.
-            hz: Gives the speed of its clock.
-            dma: Carries its samples off.
-            registers: By offset.
+            base: Base address.
+            hz: Returns its clock frequency, Hz.
+            dma: Stores its samples.
+            registers: Registers by offset.
         """
         self._base, self._hz, self._dma = base, hz, dma
         self._begun = False
@@ -68,17 +68,17 @@ class Converter(Peripheral):
 
     @abstractmethod
     def order(self) -> Sequence[int]:
-        """The channels of a round."""
+        """The channels of a scan, in order."""
 
     def carried(self) -> bool:
-        """Whether DMA hears of its samples."""
+        """Whether DMA requests are enabled."""
         return True
 
     def switch_on(self) -> None:
-        """It is switched on.
+        """Switches it on.
 
         Raises:
-            BoardError: Its clock is too fast.
+            BoardError: The clock is too fast.
         """
         if not 0 < self._hz() <= self.hz_max:
             raise BoardError(f"ADC1 was switched on at {self._hz()} Hz, where {self.hz_max} is allowed")
@@ -89,10 +89,10 @@ class Converter(Peripheral):
         self._begun = False
 
     def convert(self, volts: Mapping[int, int]) -> tuple[int, bytes] | None:
-        """What a round of it leaves in memory: where, and what; None if it does not run.
+        """The result of a scan in memory: address and bytes; None if it is not running.
 
         Args:
-            volts: What each channel measures, 0..4095; another one measures nothing.
+            volts: Sample of each channel, 0..4095; channels not listed read 0.
         """
         target = self._dma.target(self._base + self.data) if self._begun and self.carried() else None
         if target is None:
@@ -105,7 +105,7 @@ class Converter(Peripheral):
 
 
 class ConverterF1(Converter):
-    """That of an STM32F1. What calibrates it lasts for some looks at it."""
+    """ADC1 of an STM32F1. Calibration takes a few reads of its flag."""
 
     data, hz_max = 0x4C, 14_000_000
 
@@ -153,7 +153,7 @@ class ConverterF1(Converter):
 
 
 class ConverterG4(Converter):
-    """That of an STM32G4. What it does takes no time."""
+    """ADC1 of an STM32G4. All operations complete at once."""
 
     data, hz_max = 0x40, 60_000_000
 
@@ -161,10 +161,10 @@ class ConverterG4(Converter):
         """As in `Converter`.
 
         Args:
-            base: Its address.
-            hz: Gives the speed of its bus.
-            dma: Carries its samples off.
-            multiplexer: Is before that.
+            base: Base address.
+            hz: Returns the frequency of its bus, Hz.
+            dma: Stores its samples.
+            multiplexer: Selects the DMA request.
         """
         self._multiplexer = multiplexer
         self._cr = Register("CR", _G4_ASLEEP, on_write=self._write_cr)
@@ -174,7 +174,7 @@ class ConverterG4(Converter):
         super().__init__(base, lambda: self._divided(hz()), dma, {**registers, _G4_ISR: isr, 0x08: self._cr})
 
     def order(self) -> Sequence[int]:
-        """As in `Converter`: six bits a place, the first of them for the number of places."""
+        """As in `Converter`: six bits per entry, the first entry for the number of entries."""
         fields = self.registers[_G4_SQR1].value | self.registers[_G4_SQR1 + 4].value << 30
         return [fields >> 6 * place & 31 for place in range(1, (fields & 15) + 2)]
 

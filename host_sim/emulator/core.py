@@ -45,7 +45,7 @@ except ImportError as error:
 PAGE = 0x1000
 _THUMB = 1
 _TRANSLATED_MAX = 16 << 20
-"""Room for translated code, in bytes: plenty for an image. Unicorn would take 1 GB, which not every machine gives."""
+"""Size of the buffer for translated code, bytes. Unicorn's default is 1 GB, which not every machine has."""
 
 _STACKED = (
     UC_ARM_REG_R0,
@@ -57,7 +57,7 @@ _STACKED = (
     UC_ARM_REG_PC,
     UC_ARM_REG_XPSR,
 )
-"""What the hardware saves when it enters an exception, from the lowest address."""
+"""Registers that the hardware stacks on exception entry, from the lowest address."""
 
 _RETURN_TO_THREAD = 0xFFFFFFF9
 _NMI, _HARD_FAULT = 2, 3
@@ -74,7 +74,7 @@ class Fault:
     """A fault exception of the core.
 
     Attributes:
-        cause: Bits of the register CFSR.
+        cause: Bits of CFSR.
         address: The address that could not be accessed; None if it was the instruction itself.
         pc: Address of the instruction.
     """
@@ -86,7 +86,7 @@ class Fault:
 
 @cache
 def unicorn_calls() -> Any:
-    """The calls of Unicorn that take C functions, and the most frequent one, as its header declares them."""
+    """Unicorn's functions that take C callbacks, and the most frequent one, as declared in its header."""
     return c_interface(
         "int uc_emu_start(void *uc, uint64_t begin, uint64_t until, uint64_t timeout, size_t count);"
         "int uc_emu_stop(void *uc);"
@@ -100,11 +100,11 @@ def unicorn_calls() -> Any:
 
 def _check(status: int) -> None:
     if status != UC_ERR_OK:
-        raise cast("Any", UcError)(status)  # it lacks types
+        raise cast("Any", UcError)(status)  # UcError lacks types
 
 
 def _disregard(_fault: Fault) -> None:
-    """Does nothing with it."""
+    """Ignores a fault."""
 
 
 class Core:
@@ -112,16 +112,16 @@ class Core:
 
     Attributes:
         on_fault: Called when the image faults; then its hard fault handler runs.
-        vectors: Address of the vector table in force.
-        wakes: Whether something ends its sleep after WFI.
+        vectors: Address of the current vector table.
+        wakes: Returns whether an event ends its sleep after WFI.
         on_nmi: Called when the non-maskable interrupt is taken, and when its handler returns.
     """
 
     def __init__(self, clock: Clock, vectors: int) -> None:
-        """A core without any memory.
+        """Creates a core without memory.
 
         Args:
-            clock: The board's, which its instructions drive.
+            clock: The board's clock, which instructions advance.
             vectors: Address of the vector table after a reset.
         """
         self.on_fault: Callable[[Fault], None] = _disregard
@@ -147,21 +147,21 @@ class Core:
 
     @property
     def instructions(self) -> int:
-        """Executed so far."""
+        """Number of instructions executed so far."""
         executed: int = self._blocks.instructions
         return executed
 
     def add_ram(self, base: int, size: int) -> None:
-        """Memory to read, write and execute."""
+        """Adds memory that can be read, written and executed."""
         self._uc.mem_map(base, size)
 
     def add_rom(self, base: int, contents: bytes) -> None:
-        """Memory to read and execute: whole pages."""
+        """Adds memory that can be read and executed, in whole pages."""
         self._uc.mem_map(base, len(contents), UC_PROT_READ | UC_PROT_EXEC)
         self._uc.mem_write(base, contents)
 
     def add_registers(self, window: Window) -> None:
-        """Registers rather than memory, whole pages of them."""
+        """Adds registers, in whole pages."""
         ffi, models = self._ffi, self._models
         made: Any = ffi.new("struct register_window *")
         on_read = ffi.callback("uint64_t(uint32_t, uint32_t)", window.read, onerror=self._clock.fail)
@@ -173,7 +173,7 @@ class Core:
         _check(self._library.uc_mmio_map(self._engine, window.base, window.size, read, made, write, made))
 
     def remove(self, base: int, size: int) -> None:
-        """Removes all memory or registers that were added there."""
+        """Removes memory or registers."""
         self._uc.mem_unmap(base, size)
         self._uc.ctl_flush_tb()
 
@@ -182,7 +182,7 @@ class Core:
         self._uc.mem_write(base, bytes(size))
 
     def write(self, address: int, data: bytes) -> None:
-        """Writes to a memory from outside the core."""
+        """Writes to memory from outside the core."""
         self._uc.mem_write(address, data)
 
     def reset(self) -> None:
@@ -196,13 +196,13 @@ class Core:
         self._pc = self._word(self.vectors + 4)
 
     def derail(self, address: int, stack: int | None = None) -> None:
-        """Makes the core continue at another address, with another stack if one is given, as after a bit error."""
+        """Makes the core continue at another address, optionally with another stack, as after a bit error."""
         self._pc = address
         if stack is not None:
             self._uc.reg_write(UC_ARM_REG_SP, stack)
 
     def interrupt(self) -> None:
-        """Requests the non-maskable interrupt, which is taken at the end of the block of instructions."""
+        """Requests the non-maskable interrupt, taken at the end of the current basic block."""
         self._nmi = True
         self.stop()
 
@@ -215,7 +215,7 @@ class Core:
 
         Raises:
             BoardError: The core locked up, or a model refused an access.
-            PowerCut: As the flash's.
+            PowerCut: The power was cut during a flash operation.
         """
         self._blocks.stopping = False
         if self._nmi and self._interrupted is None:
@@ -235,24 +235,24 @@ class Core:
             self._asleep = self._uc.mem_read(self._pc - len(_WFI), len(_WFI)) == _WFI
 
     def _sleep(self) -> None:
-        """Skips to what is next due, until something wakes it."""
+        """Skips from event to event until one wakes the core."""
         self._asleep = not self.wakes()
         if self._asleep:
             self._clock.skip_to_event()
 
     def _hook_blocks(self) -> Any:
-        """Lets the models count instructions: calling Python for each block would take most of the time."""
+        """Lets the C models count instructions: a Python call per basic block would take most of the time."""
         ffi, library = self._ffi, self._library
         blocks: Any = ffi.new("struct core_blocks *")
         blocks.clock = self._clock.model
         blocks.stop, blocks.read = ffi.addressof(library, "uc_emu_stop"), ffi.addressof(library, "uc_mem_read")
         hook, on_block = ffi.new("size_t *"), ffi.addressof(self._models, "core_on_block")
-        first, last = 1, 0  # of no range: everywhere
+        first, last = 1, 0  # an empty range means every address
         _check(library.uc_hook_add(self._engine, hook, UC_HOOK_BLOCK, on_block, blocks, first, last))
         return blocks
 
     def _on_unreachable(self, *access: object) -> bool:
-        """Unicorn's arguments: itself, the kind of access, address, size, value, and nothing."""
+        """Unicorn passes itself, the kind of access, address, size, value, and user data."""
         self._unreachable = cast("int", access[2])
         return False
 
@@ -291,7 +291,7 @@ class Core:
         self._pc = self._word(self.vectors + 4 * _HARD_FAULT)
 
     def _stack_registers(self) -> bool:
-        """False if the stack is not in memory; the handler begins all the same."""
+        """Returns False if the stack is not in memory; the handler runs all the same."""
         saved = b"".join(self._uc.reg_read(register).to_bytes(4, "little") for register in _STACKED)
         stack = (self._uc.reg_read(UC_ARM_REG_SP) & ~7) - len(saved)
         self._uc.reg_write(UC_ARM_REG_SP, stack)
@@ -309,7 +309,7 @@ def load_segments(path: Path) -> list[tuple[int, bytes]]:
     """The segments of an image, (address, bytes), as a probe writes them.
 
     Args:
-        path: The `.elf`.
+        path: The `.elf` file.
 
     Raises:
         OctetError: The file is not an image for an ARM core.

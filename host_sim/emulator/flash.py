@@ -1,4 +1,4 @@
-"""The chip's internal flash (F1: PM0075, F4: RM0090 3, G4: RM0440 5). The core stalls while it works."""
+"""The chip's internal flash (F1: PM0075, F4: RM0090 3, G4: RM0440 5). The core stalls during operations."""
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
@@ -12,21 +12,21 @@ BASE = 0x08000000
 ERASED = b"\xff"
 _KEYS = (0x45670123, 0xCDEF89AB)
 OUTLIVES = 16
-"""Bytes at the start of a page that an interrupted erase leaves unchanged; the others read blank."""
+"""Bytes at the start of a page that an interrupted erase leaves unchanged; the rest reads blank."""
 _WAIT_STATES = 7
 _UNFINISHED = 0x0F
-"""Bits of a byte that are not yet written when the power fails in the middle."""
+"""Bits of a byte that are not yet written when power fails during a write."""
 
 PG, _ERASE = 1 << 0, 1 << 1
 
 
 @dataclass(frozen=True)
 class FlashFaults:
-    """How the flash can misbehave. Writes and erasures are counted together, from 1.
+    """Faults of the flash. Writes and erases are counted together, from 1.
 
     Attributes:
         failing: Numbers of the operations that fail: they set an error flag and change nothing.
-        cut_at: Number of the operation during which the power fails.
+        cut_at: Number of the operation during which power fails.
     """
 
     failing: frozenset[int] = frozenset()
@@ -39,9 +39,9 @@ class FlashKind:
 
     Attributes:
         pages: Size of each page or sector in bytes, from the lowest.
-        hz_per_wait_state: Core speed that each wait state adds.
+        hz_per_wait_state: Core clock that each wait state allows, Hz.
         write_span: Time to write one unit, fs.
-        erase_span: Time to erase a page of a size, fs.
+        erase_span: Returns the time to erase a page of a size, fs.
         start: Bit STRT of CR.
         lock: Bit LOCK of CR.
         failure: Flag of SR for an internal error.
@@ -59,32 +59,32 @@ class FlashKind:
 
 
 def _disregard() -> None:
-    """Does nothing about it."""
+    """Does nothing."""
 
 
 class Flash(Peripheral):
-    """Memory that survives, and the registers through which it is changed.
+    """Non-volatile memory, and the registers that control it.
 
     Attributes:
-        kind: What it is like.
-        memory: All of its bytes.
-        operations: Writes and erasures so far.
-        erasures: These alone.
-        cuts: Numbers of the operations during which the power fails.
-        erasure_cuts: Numbers of the erasures during which it fails.
-        code_end: Offset in the memory up to which the image lies; it must not change that.
-        on_wait_states: Called when they have changed.
+        kind: Properties of this flash.
+        memory: Its contents.
+        operations: Number of writes and erases so far.
+        erasures: Number of erases so far.
+        cuts: Numbers of the operations during which power fails.
+        erasure_cuts: Numbers of the erases during which power fails.
+        code_end: Offset of the end of the image, which must not overwrite itself.
+        on_wait_states: Called when the wait states have changed.
         on_unreadable: Called when the core has read an uncorrectable error.
     """
 
     kind: FlashKind
 
     def __init__(self, clock: Clock, faults: FlashFaults) -> None:
-        """An erased flash.
+        """Creates an erased flash.
 
         Args:
-            clock: The board's.
-            faults: How it misbehaves.
+            clock: The board's clock.
+            faults: Faults to simulate.
         """
         self._clock, self._faults = clock, faults
         self.memory = bytearray(ERASED) * sum(self.kind.pages)
@@ -102,7 +102,7 @@ class Flash(Peripheral):
         super().__init__("FLASH", registers, clocked=True)
 
     def fill_last_page(self, size: int) -> None:
-        """Simulates long use: fills the blank places of the last page in use with what was written last.
+        """Simulates long use: fills the blank places of the last page in use with the latest record.
 
         Args:
             size: Size of a place, bytes.
@@ -113,34 +113,34 @@ class Flash(Peripheral):
 
     @abstractmethod
     def refusal(self, offset: int, size: int, value: int) -> int:
-        """Flags of SR for a write that the hardware refuses; 0 for one that it does."""
+        """SR flags for a write that the hardware rejects; 0 if it accepts the write."""
 
     @abstractmethod
     def page_to_erase(self) -> int:
-        """Number of the page that the registers name."""
+        """Number of the page selected by the registers."""
 
     def changed(self, offset: int, size: int, *, cut: bool) -> None:
-        """Called when bytes were written or erased, or when the power failed in the middle."""
+        """Called after bytes were written or erased, or power failed meanwhile."""
 
     def reset(self) -> None:
-        """As in `Peripheral`; the memory stays."""
+        """As in `Peripheral`; the memory keeps its contents."""
         super().reset()
         self._keys_taken = 0
 
     def core_hz_max(self) -> int:
-        """The fastest core clock that its present wait states allow, Hz."""
+        """The fastest core clock that the current wait states allow, Hz."""
         return ((self._acr.value & _WAIT_STATES) + 1) * self.kind.hz_per_wait_state
 
     def read(self, offset: int, size: int) -> int:
-        """What the core reads from the memory."""
+        """Reads the memory on behalf of the core."""
         return int.from_bytes(self.memory[offset : offset + size], "little")
 
     def write(self, offset: int, size: int, value: int) -> None:
-        """The core writes to the memory.
+        """Writes to the memory on behalf of the core.
 
         Raises:
-            BoardError: That is where the image is, or what is written there would not last.
-            PowerCut: The power went in the middle.
+            BoardError: The address is within the image, or the data written would not last.
+            PowerCut: Power failed during the write.
         """
         self._protect(offset)
         if value and self._page_of(offset) in self._half_erased:
@@ -198,7 +198,7 @@ class Flash(Peripheral):
             self._erase(self.page_to_erase())
 
     def _write_key(self, value: int) -> None:
-        """Both keys in order, and only once: a wrong one locks until reset."""
+        """Unlocks after both keys in order; a wrong key locks the flash until reset."""
         if self._keys_taken >= len(_KEYS) or value != _KEYS[self._keys_taken]:
             raise BoardError(f"FLASH KEYR was written with the wrong key 0x{value:08X}, which locks it until a reset")
         self._keys_taken += 1

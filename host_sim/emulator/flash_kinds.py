@@ -12,7 +12,7 @@ _F4_SNB_SHIFT, _F4_PSIZE_SHIFT = 3, 8
 
 
 class FlashF1(Flash):
-    """The STM32F103C8's: a half-word is written once between two erasures, but 0 can be written over anything."""
+    """Flash of the STM32F103C8: a half-word is written once per erase, but 0 can overwrite any value."""
 
     kind = FlashKind(
         pages=(1024,) * 64,
@@ -41,7 +41,7 @@ class FlashF1(Flash):
 
 
 class FlashF4(Flash):
-    """The STM32F405's: bits can be cleared at any time, by units of the size that CR says."""
+    """Flash of the STM32F405: bits can be cleared at any time, in units of the size set in CR."""
 
     kind = FlashKind(
         pages=(16 << 10,) * 4 + (64 << 10,) + (128 << 10,) * 7,
@@ -65,10 +65,10 @@ class FlashF4(Flash):
 
 
 class FlashG4(Flash):
-    """The STM32G431xB's: two words are written at once, with eight bits to correct an error in them.
+    """Flash of the STM32G431xB: two words are written at once, with eight bits of error correction.
 
     Attributes:
-        unreadable: Where the double words are that no correction fits, since the power went while they were written.
+        unreadable: Offsets of double words with uncorrectable errors, left by power failures during writes.
     """
 
     kind = FlashKind(
@@ -91,12 +91,12 @@ class FlashG4(Flash):
         self._eccr = self.registers[0x18] = Register("ECCR", on_write=self._write_eccr)
 
     def reset(self) -> None:
-        """As in `Peripheral`; the memory stays."""
+        """As in `Peripheral`; the memory keeps its contents."""
         super().reset()
         self._first = None
 
     def read(self, offset: int, size: int) -> int:
-        """As in `Flash`; what cannot be corrected is noted, and told by an interrupt."""
+        """As in `Flash`; an uncorrectable error is noted and raises an interrupt."""
         place = offset - offset % self._DOUBLE
         if place in self.unreadable:
             if not self._eccr.value & _G4_TWO_BITS:
@@ -105,7 +105,7 @@ class FlashG4(Flash):
         return super().read(offset, size)
 
     def write(self, offset: int, size: int, value: int) -> None:
-        """As in `Flash`; the second word of a pair starts it."""
+        """As in `Flash`; the second word of a pair starts the operation."""
         first, self._first = self._first, None
         if not self._cr.value & PG or self._sr.value & _G4_ERRORS:
             self._sr.value |= _G4_PGSERR
@@ -119,7 +119,7 @@ class FlashG4(Flash):
             super().write(first[0], self._DOUBLE, first[1] | value << 32)
 
     def refusal(self, offset: int, size: int, value: int) -> int:
-        """As in `Flash`; what is not erased takes zeros only."""
+        """As in `Flash`; a double word that is not erased accepts zeros only."""
         blank = self.memory[offset : offset + size] == ERASED * size and offset not in self.unreadable
         return 0 if blank or value == 0 else _G4_PROGERR
 

@@ -36,17 +36,17 @@ _NMI = 2
 """Number of the exception."""
 _TIM1_BASE, _DMA_BASE, _TIM1_UP = 0x40012C00, 0x40020000, 25
 _WINDOWS = ((0x40000000, 0x80000), (0x48000000, 2 * PAGE), (0x50000000, PAGE), (0xE000E000, PAGE))
-"""(base, bytes) of where registers can be."""
+"""Address ranges of registers, (base, bytes)."""
 
 
 @dataclass(frozen=True)
 class Faults:
-    """How the hardware misbehaves, part by part.
+    """Hardware faults to simulate, by part.
 
     Attributes:
-        rcc: The clocks.
-        can: The CAN controller.
-        flash: The flash.
+        rcc: Faults of the clocks.
+        can: Faults of the CAN controller.
+        flash: Faults of the flash.
     """
 
     rcc: RccFaults = field(default_factory=RccFaults)
@@ -58,21 +58,21 @@ class Hardware:
     """Core, memories and peripherals of one chip, with a CAN bus and a serial line.
 
     Attributes:
-        chip: Which one.
-        clock: Its time.
+        chip: The chip.
+        clock: The board's clock.
         core: The processor.
         can: The CAN controller and its bus.
         usart: The serial port, with slcan on its line.
         flash: The flash.
-        power: What watches the supply.
-        pins: The ports, from A.
+        power: The supply monitor.
+        pins: The GPIO ports, from A.
         rcc: The clocks.
         watchdog: The independent watchdog.
-        wiring: What its pins are joined to.
+        wiring: The connections of its pins.
         space: All registers by address.
-        faults: What the image did that the core cannot do.
-        interrupts: What wakes the core.
-        robot: The motors, sensors and so on wired to its pins; None if the board has none.
+        faults: Fault exceptions that the image caused.
+        interrupts: The interrupt controller, which wakes the core.
+        robot: Motors, sensors and other parts wired to its pins; None if the board has none.
     """
 
     def __init__(
@@ -82,13 +82,13 @@ class Hardware:
         heard: Callable[[CanFrame], None],
         restart: Callable[[str], None],
     ) -> None:
-        """All parts as after power-up, with no image.
+        """Creates all parts in their power-up state, without an image.
 
         Args:
-            chip: What to build.
-            faults: How it misbehaves.
-            heard: Takes the frames that the board sends, on the bus and on the serial line.
-            restart: Told the cause when something in the chip asks for a reset.
+            chip: The chip to emulate.
+            faults: Faults to simulate.
+            heard: Called with each frame that the board sends, on the bus or on the serial line.
+            restart: Called with the cause when a part of the chip requests a reset.
         """
         self.chip, self._heard = chip, heard
         self.faults: list[Fault] = []
@@ -123,7 +123,7 @@ class Hardware:
 
     @property
     def on_bus(self) -> bool:
-        """Whether the CAN controller is at the pins that lead to the bus."""
+        """Whether the CAN controller is routed to the pins wired to the bus."""
         return self.wiring.meets("CAN_RX", "CAN_TX")
 
     def flash_image(self, segments: list[tuple[int, bytes]], slots: tuple[int, int] = (0, 0)) -> None:
@@ -133,8 +133,8 @@ class Hardware:
 
         Args:
             segments: (address, bytes).
-            slots: Where the slots of a boot loader begin and end: bytes from the begin of the flash, whole pages of
-                the core's. A program that runs in one cannot change them.
+            slots: Start and end of a boot loader's slots, bytes from the start of the flash, in whole pages of the
+                core. A program running in a slot cannot change them.
         """
         flash = self.flash
         for address, data in segments:
@@ -158,7 +158,7 @@ class Hardware:
         )
 
     def follow_vectors(self) -> None:
-        """Lets the core execute a slot to which its vectors have gone, or write to the slots again."""
+        """Makes the slots executable if the vector table is in one, else writable again."""
         begin, end = self._slots
         inside = begin <= self.core.vectors - FLASH < end
         if inside == self._in_slot:
@@ -171,7 +171,7 @@ class Hardware:
             self.core.add_registers(self._flash_window(begin, end))
 
     def _move_vectors(self, address: int) -> None:
-        """Takes effect between two blocks of instructions."""
+        """Sets the vector table; takes effect between two basic blocks."""
         self.core.vectors = address
         if self._slots[1]:
             self.core.stop()
@@ -218,7 +218,7 @@ class Hardware:
         return gated
 
     def _for_robot(self, parts: RobotParts) -> list[tuple[int, Peripheral]]:
-        """What a robot of its own needs of the chip, and its wiring."""
+        """Creates the peripherals and wiring of a robot with a body on pins."""
         rcc = self.rcc
         motors = MotorTimer(self.clock, rcc.apb2_hz, lambda: self.interrupts.pend(_TIM1_UP))
         dma, timers = Dma(), {name: Timer(name) for name in _COUNTERS}
@@ -261,7 +261,7 @@ class Hardware:
             self._line.take(byte)
 
     def feed_line(self, text: bytes) -> None:
-        """Feeds text from the serial line."""
+        """Feeds received text to the serial port."""
         if self.wiring.meets("UART_RX"):
             self.usart.feed(text)
 

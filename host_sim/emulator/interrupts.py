@@ -1,16 +1,16 @@
-"""The interrupt controller of the core (PM0056 4.3), as far as it wakes a core. No interrupt is ever taken."""
+"""The core's interrupt controller (PM0056 4.3), reduced to waking the core. No interrupt is ever taken."""
 
 from host_sim.emulator.registers import Peripheral, Register
 
 _WORDS = 2
-"""Of 32 interrupts each."""
+"""Number of registers, each for 32 interrupts."""
 
 
 class Interrupts(Peripheral):
-    """Which interrupts are enabled, and which are pending."""
+    """Tracks which interrupts are enabled and which are pending."""
 
     def __init__(self) -> None:
-        """None is either."""
+        """Starts with none enabled or pending."""
         self._enabled = self._pending = 0
         registers = {}
         for word in range(_WORDS):
@@ -31,11 +31,11 @@ class Interrupts(Peripheral):
 
     @property
     def wakes(self) -> bool:
-        """Whether an enabled one is pending."""
+        """Whether an enabled interrupt is pending."""
         return bool(self._enabled & self._pending)
 
     def _register(self, name: str, shift: int, enabled: int, pending: int) -> Register:
-        """Ones set (1) or clear (-1) what is enabled or pending."""
+        """A register in which ones set (1) or clear (-1) enable or pending bits."""
 
         def on_write(value: int) -> None:
             bits = value << shift

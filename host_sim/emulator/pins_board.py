@@ -1,4 +1,4 @@
-"""A robot with a body on pins, on an emulated board in the simulated arena: it senses and moves through its pins."""
+"""A robot with a body on pins: an emulated board that senses and moves in the arena through its pins."""
 
 from collections import deque
 from pathlib import Path
@@ -16,16 +16,16 @@ from host_sim.protocol.generated import Opcode, Reason, Senses
 from host_sim.world.body import Body
 
 PINS = "pins"
-"""The image, and the kind of body."""
+"""Name of the image, and the kind of body."""
 
 _ANSWER_S = 0.1
 
 
 class PinsBoard(EmulatedBoard):
-    """A `Link` to a robot that senses by itself: `sense` is where its body is, and what it senses there.
+    """A `Link` to a robot that senses through its pins; `sense` passes it the state of its body.
 
-    The client's senses never reach the board: they are what it has said itself, and its drives answer them with
-    the client's numbers.
+    The client's senses never reach the board: they are those that the board reported. Its drives are returned with
+    the tick numbers of the client.
     """
 
     def __init__(self, chip: Chip, image: Path, faults: Faults | None = None, node: int = 1) -> None:
@@ -37,19 +37,19 @@ class PinsBoard(EmulatedBoard):
         self._drive: Frame | None = None
         self._waits = self._asked = False
         super().__init__(chip, image, faults)
-        assert self.hardware.robot is not None  # such chips alone have such images
+        assert self.hardware.robot is not None  # only such chips have this image
         self.robot: RobotOnPins = self.hardware.robot
 
     def sense(self, body: Body, senses: Senses, tick: int) -> Senses:
         """Lets a tick pass on the board.
 
         Args:
-            body: Where it is.
-            senses: What an ideal body senses there.
+            body: Position of the body.
+            senses: Senses of an ideal body there.
             tick: Number of the tick in the run.
 
         Returns:
-            What the board says that it senses; `senses` if it says nothing.
+            The senses that the board reports; `senses` if it reports none.
         """
         self._drive = None
         self.robot.feel(body, senses, tick)
@@ -82,7 +82,7 @@ class PinsBoard(EmulatedBoard):
             self._asked = True
             command = self._protocol.decode(frame)
             if command is not None and command.signals.get("opcode") == Opcode.START:
-                self._drive = None  # what it did before is no answer
+                self._drive = None  # an earlier drive is no answer
             super().send(frame)
             return
         if self._drive is None and self._pairs:
@@ -91,7 +91,7 @@ class PinsBoard(EmulatedBoard):
             drive = self._protocol.decode(self._drive)
             senses = self._protocol.decode(frame)
             assert drive is not None  # it was checked when it came
-            assert senses is not None  # our own
+            assert senses is not None  # encoded by this simulator
             numbers = {"tick": senses.signals["tick"], "counter": counter_of(frame)}
             answer = self._protocol.encode("DRIVE", {**drive.signals, **numbers})
             self._said.append(CanFrame(answer.id, answer.data))
@@ -113,7 +113,7 @@ class PinsBoard(EmulatedBoard):
             super()._receive(frame)
 
     def _take_pair(self, sensed: Frame, drive: Frame) -> None:
-        """While it rests and nobody waits, all ticks are alike: only the first one after a command is reported."""
+        """Takes a tick's frames; while the robot rests, only the first tick after a command is reported."""
         decoded = self._protocol.decode_drive(drive)
         if self._protocol.decode(sensed) is None or decoded is None:
             return
@@ -126,16 +126,16 @@ class PinsBoard(EmulatedBoard):
 
 
 def start_robot(name: str, faults: Faults | None = None) -> PinsBoard:
-    """A board with the image of a robot of its own, up and running.
+    """Starts a board with the image of a robot with a body on pins.
 
     Args:
         name: `blue_pill`.
-        faults: How its hardware misbehaves.
+        faults: Hardware faults to simulate.
 
     Raises:
-        UsageError: That board has no such image.
-        OctetError: It is not built.
-        BoardError: It does what the hardware does not allow.
+        UsageError: The board has no such image.
+        OctetError: The image is not built.
+        BoardError: The image did something that the hardware does not allow.
     """
     boards = [chip.name for chip in CHIPS.values() if chip.robot]
     if name not in boards:

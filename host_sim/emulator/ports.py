@@ -1,4 +1,4 @@
-"""The ports of pins: each pin with a mode of its own, and what drives it from outside."""
+"""GPIO ports: the mode of each pin, and the level driven from outside."""
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
@@ -12,20 +12,20 @@ _ALL = 0xFFFF
 
 
 class Port(KeptPeripheral):
-    """One port.
+    """A GPIO port.
 
     Attributes:
-        output: ODR: the levels that it drives.
+        output: ODR, the levels that the port drives.
         changed: Called when the mode of a pin may have changed.
     """
 
     def __init__(self, name: str, modes: Mapping[int, Register], data: int) -> None:
-        """After a reset, with nothing outside.
+        """Creates a port in its reset state, with nothing connected.
 
         Args:
-            name: The port's, such as GPIOA.
-            modes: The family's registers for modes, pulls and functions, by offset.
-            data: Offset of IDR; ODR, BSRR and one more follow.
+            name: Name of the port, such as GPIOA.
+            modes: The family's registers for modes, pulls and alternate functions, by offset.
+            data: Offset of IDR, followed by ODR, BSRR and one more register.
         """
         self.changed: Callable[[], object] = lambda: None
         self._driven = self._levels = self._plain = 0
@@ -44,15 +44,15 @@ class Port(KeptPeripheral):
 
     @abstractmethod
     def outputs(self) -> tuple[int, int]:
-        """The pins that are outputs, and those among them that nothing but ODR drives."""
+        """Bit masks of the output pins, and of those driven by ODR alone."""
 
     @abstractmethod
     def pulled_up(self) -> int:
-        """The pins that read high while nothing drives them."""
+        """Bit mask of the pins with a pull-up enabled."""
 
     @abstractmethod
     def serves(self, pin: int, function: int, *, out: bool) -> bool:
-        """Whether a pin is connected to a peripheral: to the function of that number, if the chip numbers them."""
+        """Whether a pin is connected to a peripheral, by the alternate function number if the chip has them."""
 
     @abstractmethod
     def measures(self, pin: int) -> bool:
@@ -69,11 +69,11 @@ class Port(KeptPeripheral):
         return bool(self.output.value >> pin & 1)
 
     def drives(self, pin: int) -> bool:
-        """Whether a pin is a plain output, and high."""
+        """Whether a pin is a general-purpose output, and high."""
         return bool(self._plain & self.output.value & 1 << pin)
 
     def drive(self, pin: int, *, high: bool) -> None:
-        """Something outside drives a pin."""
+        """Drives a pin from outside."""
         levels = self._levels & ~(1 << pin) | high << pin
         if levels != self._levels or not self._driven >> pin & 1:
             self._driven |= 1 << pin
@@ -85,7 +85,7 @@ class Port(KeptPeripheral):
         self._write_odr(self.output.value & ~pins)
 
     def settle(self) -> None:
-        """Updates the inputs from modes and levels: an open input reads its pull, or low."""
+        """Updates the inputs from modes and levels: a floating input reads its pull, or low."""
         outputs, self._plain = self.outputs()
         outside = self._levels & self._driven | self.pulled_up() & ~self._driven
         self.block.outputs = outputs
@@ -108,12 +108,12 @@ class Port(KeptPeripheral):
 
 
 class GpioF1(Port):
-    """A port of an STM32F1 (RM0008 9): four bits of mode a pin; what a function is joined to, AFIO says."""
+    """A port of an STM32F1 (RM0008 9): four mode bits per pin; AFIO routes the alternate functions."""
 
     _FLOATING, _ALTERNATE, _PULLED = 0x44444444, 2, 2
 
     def __init__(self, name: str) -> None:
-        """All pins float."""
+        """Starts with all pins floating."""
         self._modes = [Register(it, self._FLOATING) for it in ("CRL", "CRH")]
         modes = dict(zip((0x00, 0x04), self._modes, strict=True))
         super().__init__(
@@ -130,11 +130,11 @@ class GpioF1(Port):
         return outputs, sum((self.mode(pin) >> 2 < self._ALTERNATE) << pin for pin in _PINS) & outputs
 
     def pulled_up(self) -> int:
-        """As in `Port`; the output's level is the direction of a pull."""
+        """As in `Port`; ODR selects the direction of a pull."""
         return self.output.value & sum((self.mode(pin) >> 2 == self._PULLED) << pin for pin in _PINS)
 
     def serves(self, pin: int, function: int, *, out: bool) -> bool:  # noqa: ARG002 - AFIO has them
-        """As in `Port`; what comes in needs an input."""
+        """As in `Port`; a peripheral's input needs a pin in input mode."""
         kind = self.mode(pin) >> 2
         if not out:
             return self.mode(pin) & 3 == 0 and kind in {1, self._PULLED}
@@ -146,15 +146,15 @@ class GpioF1(Port):
 
 
 class GpioF4(Port):
-    """A port of an STM32F4 (RM0090 8.4): a mode, a pull and the number of a function for each pin."""
+    """A port of an STM32F4 (RM0090 8.4): a mode, a pull and an alternate function number for each pin."""
 
     _OUTPUT, _ALTERNATE, _ANALOG, _UP = 1, 2, 3, 1
     resets: ClassVar[Mapping[str, int]] = {"GPIOA": 0xA8000000, "GPIOB": 0x00000280}
-    """MODER after a reset: the pins of the debugger are in use."""
+    """MODER after a reset: the debugger's pins are in use."""
     other_resets = 0
 
     def __init__(self, name: str) -> None:
-        """As after a reset."""
+        """Creates the port in its reset state."""
         self._mode = Register("MODER", self.resets.get(name, self.other_resets))
         self._pull, self._functions = Register("PUPDR"), [Register("AFRL"), Register("AFRH")]
         modes = {0x00: self._mode, 0x04: Register("OTYPER"), 0x08: Register("OSPEEDR"), 0x0C: self._pull}

@@ -1,4 +1,4 @@
-"""Reset and clock control: what the families share."""
+"""Reset and clock control: the part common to all families."""
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
@@ -12,17 +12,17 @@ HSI, HSE, PLL = "HSI", "HSE", "PLL"
 """The oscillators."""
 
 _STARTUP = {HSI: 0, PLL: SECOND // 5000}
-"""Time from ON to READY; the crystal's is its own."""
+"""Time from ON to READY; that of the crystal is in `RccFaults`."""
 
 _HPRE_SHIFT = 4
 _ALL_FLAGS = 0xFE000000
 RESET_FLAGS = {"power": 1 << 27 | 1 << 26, "software": 1 << 28 | 1 << 26, "watchdog": 1 << 29 | 1 << 26}
-"""Flags of CSR by the cause of a reset; each drives the reset pin too."""
+"""CSR flags by cause of reset; each cause also sets the pin flag."""
 
 
 @dataclass(frozen=True)
 class RccFaults:
-    """How the clocks can misbehave.
+    """Faults of the clocks.
 
     Attributes:
         crystal_dead: Whether the external oscillator never starts.
@@ -37,14 +37,14 @@ class RccFaults:
 
 @dataclass(frozen=True)
 class Oscillators:
-    """Speeds in Hz.
+    """Frequencies, Hz.
 
     Attributes:
         internal: HSI.
         crystal: HSE.
         core_max: Fastest core clock that the chip allows.
-        apb1_max: The same for the slower peripheral bus.
-        apb2_max: The same for the faster one.
+        apb1_max: Fastest clock of the slower peripheral bus.
+        apb2_max: Fastest clock of the faster peripheral bus.
     """
 
     internal: int
@@ -55,14 +55,14 @@ class Oscillators:
 
 
 class Rcc(Peripheral):
-    """Makes the clocks, and opens their gates."""
+    """Generates the clocks, and gates those of the peripherals."""
 
     cfgr: Register
     csr_offset: int
     sources: ClassVar[Sequence[str]] = (HSI, HSE, PLL)
-    """The sources of the core's clock, as SW in CFGR numbers them."""
+    """The sources of the core clock, as numbered by SW in CFGR."""
     bits: ClassVar[Mapping[str, tuple[int, int]]] = {HSI: (0, 1), HSE: (16, 17), PLL: (24, 25)}
-    """The numbers of their bits ON and READY in CR."""
+    """Bit numbers of ON and READY of each source in CR."""
     forget: ClassVar[int] = 24
     """Bit RMVF of CSR."""
 
@@ -74,14 +74,14 @@ class Rcc(Peripheral):
         flash_hz: Callable[[], int],
         faults: RccFaults,
     ) -> None:
-        """As after power-up.
+        """Creates the clocks in their power-up state.
 
         Args:
-            registers: What the family adds, by offset.
-            clock: The board's.
-            oscillators: Their speeds.
-            flash_hz: Gives the fastest clock that the flash can follow as it is set up.
-            faults: How it misbehaves.
+            registers: Additional registers of the family, by offset.
+            clock: The board's clock.
+            oscillators: Frequencies of the oscillators.
+            flash_hz: Returns the fastest core clock that the flash allows with its current settings, Hz.
+            faults: Faults to simulate.
         """
         self._clock, self._oscillators, self._flash_hz = clock, oscillators, flash_hz
         self._dead = {source for source, dead in ((HSE, faults.crystal_dead), (PLL, faults.pll_dead)) if dead}
@@ -95,17 +95,17 @@ class Rcc(Peripheral):
 
     @abstractmethod
     def pll_source(self) -> str:
-        """Which oscillator the PLL is set up to follow."""
+        """The oscillator selected as the PLL's source."""
 
     @abstractmethod
     def pll_hz(self) -> int:
-        """The PLL's speed as it is set up."""
+        """The PLL's configured output frequency, Hz."""
 
     def check_pll(self) -> None:
         """Checks the setup of the PLL when it is switched on.
 
         Raises:
-            BoardError: It cannot lock on that.
+            BoardError: It cannot lock with this setup.
         """
 
     @abstractmethod
@@ -113,13 +113,13 @@ class Rcc(Peripheral):
         """Fields PPRE1 and PPRE2 of CFGR."""
 
     def add_gate(self, offset: int, bit: int, peripheral: Peripheral) -> None:
-        """A peripheral has a clock while that bit of that register is set."""
+        """Adds a clock gate: the peripheral is clocked while the bit of the register is set."""
         self._gates[offset, bit] = peripheral
         register = self.registers[offset]
         register.on_write = lambda value: self._write_gates(offset, value)
 
     def restart(self, cause: str) -> None:
-        """A reset of the chip: `reset`, and its cause is added to those noted since the image last cleared them.
+        """Resets the chip, and adds the cause to the flags noted since the image last cleared them.
 
         Args:
             cause: A key of `RESET_FLAGS`.
@@ -130,7 +130,7 @@ class Rcc(Peripheral):
         self._csr.value |= RESET_FLAGS[cause]
 
     def reset(self) -> None:
-        """As in `Peripheral`; the causes noted stay."""
+        """As in `Peripheral`; the noted causes are kept."""
         noted = self._csr.value & _ALL_FLAGS
         super().reset()
         self._csr.value = noted
@@ -138,36 +138,36 @@ class Rcc(Peripheral):
         self._clock.set_hz(self._oscillators.internal)
 
     def core_hz(self) -> int:
-        """Speed of the core."""
+        """Frequency of the core clock, Hz."""
         return self._hclk()
 
     def follows_crystal(self) -> bool:
-        """Whether the core's clock comes from the external oscillator, and is thus exact."""
+        """Whether the core clock is derived from the crystal, and thus exact."""
         source = self.sources[self.cfgr.value >> 2 & 3]
         return (self.pll_source() if source == PLL else source) == HSE
 
     def can_hz(self) -> int:
-        """Speed of CAN's clock."""
+        """Frequency of CAN's clock, Hz."""
         return self.apb1_hz()
 
     def usart_hz(self) -> int:
-        """Speed of the serial port's clock."""
+        """Frequency of the serial port's clock, Hz."""
         return self.apb2_hz()
 
     def adc_hz(self) -> int:
-        """Speed of what the converter divides its clock from."""
+        """Frequency of the clock that the ADC's prescaler divides, Hz."""
         return self.core_hz()
 
     def apb1_hz(self) -> int:
-        """Speed of the slower bus."""
+        """Frequency of the slower peripheral bus, Hz."""
         return self._hclk() >> max(self.prescalers()[0] - 3, 0)
 
     def apb2_hz(self) -> int:
-        """Speed of the faster bus."""
+        """Frequency of the faster peripheral bus, Hz."""
         return self._hclk() >> max(self.prescalers()[1] - 3, 0)
 
     def pll_is_on(self) -> bool:
-        """Whether the PLL is switched on: then it cannot be set up."""
+        """Whether the PLL is switched on: its setup is locked then."""
         return bool(self._cr.value >> self.bits[PLL][0] & 1)
 
     def _source_hz(self) -> int:
@@ -199,11 +199,11 @@ class Rcc(Peripheral):
                 self._ready_at[source] = self._clock.now + self._startup[source]
 
     def _switch(self, value: int) -> None:
-        """Takes a new CFGR: SWS follows SW if that clock runs."""
+        """Writes CFGR: SWS follows SW if the selected clock runs."""
         source = value & 3
         if not self._ready(self.sources[source]):
             source = self.cfgr.value >> 2 & 3
-        # The new source counts at once, the new divisors some cycles later.
+        # The new source takes effect at once, the new divisors some cycles later.
         self.cfgr.value = self.cfgr.value & ~0xF | value & 3 | source << 2
         self.check_speeds()
         self.cfgr.value = value & ~0xC | source << 2
@@ -211,10 +211,10 @@ class Rcc(Peripheral):
         self._clock.set_hz(self._hclk())
 
     def check_speeds(self) -> None:
-        """To be called whenever something changes on which a limit depends.
+        """Checks all clock limits; called whenever a clock or a limit changes.
 
         Raises:
-            BoardError: Something runs faster than it may.
+            BoardError: A clock is faster than its limit.
         """
         limits = {
             "core": (self._hclk(), self._oscillators.core_max),
@@ -234,7 +234,7 @@ class Rcc(Peripheral):
         return hz >> max(divisor - 7, 0)
 
     def _write_csr(self, value: int) -> None:
-        """The low bits are the slow oscillator's: on, and ready."""
+        """Writes CSR; its low bits are ON and READY of the slow oscillator."""
         slow = value & 1
         noted = 0 if value >> self.forget & 1 else self._csr.value & _ALL_FLAGS
         self._csr.value = noted | slow | slow << 1

@@ -11,7 +11,7 @@ _PLL_SETUP = 0x3F << 16
 
 
 class RccF1(Rcc):
-    """The F1's: the PLL is set up in CFGR."""
+    """Reset and clock control of the F1: CFGR configures the PLL."""
 
     csr_offset = 0x24
 
@@ -45,10 +45,10 @@ class RccF1(Rcc):
             raise BoardError(f"RCC CR was written to start the PLL at {self.pll_hz()} Hz, which it cannot make")
 
     def adc_hz(self) -> int:
-        """Speed of the converter's clock."""
+        """Frequency of the ADC's clock, Hz."""
         return self.apb2_hz() // (2 * ((self.cfgr.value >> 14 & 3) + 1))
 
     def _write_cfgr(self, value: int) -> None:
-        """The PLL's fields stay as they are while it is on."""
+        """Writes CFGR; the PLL's fields are locked while it is on."""
         kept = _PLL_SETUP if self.pll_is_on() else 0
         self._switch(value & ~kept | self.cfgr.value & kept)

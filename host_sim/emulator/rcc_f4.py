@@ -12,22 +12,22 @@ _G4_FROM_HSE, _G4_OUTPUT_R, _G4_CAN_SHIFT, _G4_CAN_PCLK1 = 3, 1 << 24, 24, 2
 
 
 class RccF4(Rcc):
-    """The F4's."""
+    """Reset and clock control of the F4."""
 
     csr_offset = 0x74
     pll_in: ClassVar[tuple[int, int]] = (950_000, 2_100_000)
-    """Hz, from and to, behind the PLL's first divisor (datasheet, 5.3.10)."""
+    """Range of the PLL's input after its first divisor, Hz (datasheet, 5.3.10)."""
     pll_inside: ClassVar[tuple[int, int]] = (100_000_000, 432_000_000)
-    """Hz, from and to, of its oscillator."""
+    """Range of the PLL's oscillator, Hz."""
     pllcfgr_at: ClassVar[tuple[int, int]] = (0x04, 0x24003010)
-    """Offset of PLLCFGR, and what it holds after a reset."""
+    """Offset and reset value of PLLCFGR."""
     cfgr_at: ClassVar[tuple[int, int]] = (0x08, 0)
     without_effect: ClassVar[Mapping[int, str]] = {
         0x0C: "CIR", 0x10: "AHB1RSTR", 0x20: "APB1RSTR", 0x24: "APB2RSTR", 0x40: "APB1ENR", 0x44: "APB2ENR",
         0x70: "BDCR",
     }  # fmt: skip
     gates_on: ClassVar[Mapping[int, tuple[str, int]]] = {0x30: ("AHB1ENR", 0x00100000)}
-    """Gates of which some are open after a reset."""
+    """Reset values of gate registers with gates open after a reset."""
 
     def __init__(
         self, clock: Clock, oscillators: Oscillators, flash_hz: Callable[[], int], faults: RccFaults
@@ -44,7 +44,7 @@ class RccF4(Rcc):
         return HSE if self._pllcfgr.value & _F4_PLLSRC else HSI
 
     def pll_factors(self) -> tuple[int, int, int]:
-        """What divides the source, multiplies that, and divides it again."""
+        """The PLL's input divisor, multiplier and output divisor."""
         setting = self._pllcfgr.value
         return max(setting & 0x3F, 1), setting >> 6 & 0x1FF, ((setting >> 16 & 3) + 1) * 2
 
@@ -72,7 +72,7 @@ class RccF4(Rcc):
 
 
 class RccG4(RccF4):
-    """The G4's. CAN has a choice of clocks."""
+    """Reset and clock control of the G4; CAN's clock is selectable."""
 
     csr_offset, forget = 0x94, 23
     sources = ("", HSI, HSE, PLL)
@@ -114,5 +114,5 @@ class RccG4(RccF4):
         return self._oscillators.crystal if choice == 0 and self._ready(HSE) else 0
 
     def usart_hz(self) -> int:
-        """As in `Rcc`: USART2 hangs on the other bus."""
+        """As in `Rcc`: USART2 is on the other bus."""
         return self.apb1_hz()

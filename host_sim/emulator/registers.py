@@ -15,7 +15,7 @@ _WORD = 4
 
 
 class BoardError(RobotError):
-    """The image did what the hardware does not allow or what is not modelled; the message says where."""
+    """The image did something that the hardware does not allow or that is not modelled; the message says where."""
 
 
 class PowerCut(Exception):  # noqa: N818 - nothing is wrong with the board
@@ -24,16 +24,16 @@ class PowerCut(Exception):  # noqa: N818 - nothing is wrong with the board
 
 @dataclass
 class Register:
-    """One register: plain storage, unless reading or writing it does more.
+    """A register: plain storage, unless reads or writes have side effects.
 
     Attributes:
         name: As in the reference manual.
-        reset_value: What it holds after a reset.
-        on_read: Gives what is read; None for what was written.
-        on_write: Takes what is written; None to keep it.
-        steady: Its value tells what has happened; a running counter's tells only the time.
-        idle: Writing it does not count as work: feeding a watchdog.
-        value: What it holds.
+        reset_value: Value after a reset.
+        on_read: Returns the value to read; None to read the last value written.
+        on_write: Handles a write; None to store the value.
+        steady: Whether its value changes only with events, unlike a running counter's.
+        idle: Whether writes do not count as work, as for feeding a watchdog.
+        value: Current value.
     """
 
     name: str
@@ -48,15 +48,15 @@ class Register:
         self.reset()
 
     def reset(self) -> None:
-        """Takes its value after a reset."""
+        """Restores the reset value."""
         self.value = self.reset_value
 
     def read(self) -> int:
-        """What the core reads."""
+        """Returns the value that the core reads."""
         return self.value if self.on_read is None else self.on_read()
 
     def write(self, value: int) -> None:
-        """What the core writes."""
+        """Handles a write by the core."""
         if self.on_write is None:
             self.value = value
         else:
@@ -64,7 +64,7 @@ class Register:
 
 
 def ignore(_value: int) -> None:
-    """A writer for what can be written without effect."""
+    """An `on_write` for registers whose writes have no effect."""
 
 
 class Peripheral:
@@ -72,46 +72,46 @@ class Peripheral:
 
     Attributes:
         name: As in the reference manual.
-        registers: By their offset.
-        clocked: Whether it has a clock; without one no register can be reached.
+        registers: Registers by offset.
+        clocked: Whether it has a clock; without one its registers are inaccessible.
     """
 
     def __init__(self, name: str, registers: Mapping[int, Register], *, clocked: bool = False) -> None:
-        """Collects the registers; `clocked` where no gate is before it."""
+        """Takes the registers; `clocked` is true if the peripheral has no clock gate."""
         self.name = name
         self.registers = dict(registers)
         self.clocked = clocked
         self._always_clocked = clocked
 
     def set_clocked(self, clocked: bool) -> None:
-        """Its gate was opened or closed."""
+        """Called when its clock gate was opened or closed."""
         self.clocked = clocked
 
     def reset(self) -> None:
-        """As after a reset of the chip."""
+        """Restores the state after a reset of the chip."""
         self.set_clocked(self._always_clocked)
         for register in self.registers.values():
             register.reset()
 
 
 class KeptRegister(Register):
-    """A register that C keeps, in a `struct plain_block`: it only holds what is put there."""
+    """A register stored by C in a `struct plain_block`, without side effects."""
 
     def __init__(self, block: Any, offset: int, name: str, reset_value: int = 0) -> None:
-        """One of a block.
+        """Creates a register of a block.
 
         Args:
             block: The `struct plain_block`.
-            offset: Its offset there.
+            offset: Its offset in the block.
             name: As in the reference manual.
-            reset_value: What it holds after a reset.
+            reset_value: Value after a reset.
         """
         self._values, self._word = block.value, offset // _WORD
         super().__init__(name, reset_value)
 
     @property
     def value(self) -> int:
-        """What it holds."""
+        """Current value."""
         return int(self._values[self._word])
 
     @value.setter
@@ -119,12 +119,12 @@ class KeptRegister(Register):
         self._values[self._word] = value
 
     def clear_by_zeros(self, value: int) -> None:
-        """Keeps the bits that are set in both."""
+        """Handles a write in which zeros clear bits."""
         self.value &= value
 
 
 class KeptPeripheral(Peripheral):
-    """A peripheral most of whose registers C keeps (`register_space.h`).
+    """A peripheral most of whose registers are stored by C (`register_space.h`).
 
     Attributes:
         block: The `struct plain_block`.
@@ -140,15 +140,15 @@ class KeptPeripheral(Peripheral):
         read_only: Sequence[int] = (),
         zeros_clear: Sequence[int] = (),
     ) -> None:
-        """After a reset.
+        """Creates the peripheral in its reset state.
 
         Args:
             name: As in the reference manual.
-            kept: The registers that C keeps, by offset.
-            others: Those that do more.
-            resets: What kept ones hold after a reset; 0 for all others.
-            read_only: Offsets of those whose writes are left to Python.
-            zeros_clear: Offsets of those in which a write clears bits, and sets none.
+            kept: Names of the registers stored by C, by offset.
+            others: Registers with side effects.
+            resets: Reset values of stored registers; 0 for all others.
+            read_only: Offsets of stored registers whose writes are left to Python.
+            zeros_clear: Offsets of stored registers in which a write only clears bits, by zeros.
         """
         ffi, library = c_models()
         self.block: Any = ffi.new("struct plain_block *")
@@ -169,7 +169,7 @@ class KeptPeripheral(Peripheral):
         self.block.clocked = clocked
 
     def keep_in(self, space: Any, base: int) -> None:
-        """Has a `struct register_space` access the registers without Python."""
+        """Lets a `struct register_space` access the registers without calling Python."""
         self.block.base = base
         space.blocks[space.block_count] = self.block
         space.block_count += 1
@@ -177,14 +177,14 @@ class KeptPeripheral(Peripheral):
 
 @dataclass(frozen=True)
 class Window:
-    """A range of addresses at which there are registers.
+    """An address range of registers.
 
     Attributes:
         base: The first address.
         size: Number of addresses, bytes.
-        read: Gives the value at (address, number of bytes).
+        read: Returns the value at (address, number of bytes).
         write: Takes (address, number of bytes, value).
-        model: The `struct register_space` that is asked first; None if there is none.
+        model: The `struct register_space` that is tried first; None if there is none.
     """
 
     base: int
@@ -195,17 +195,17 @@ class Window:
 
 
 class AddressSpace:
-    """The registers of all peripherals by address, for all accesses that C leaves to Python (`register_space.h`).
+    """The registers of all peripherals by address, for the accesses that C leaves to Python (`register_space.h`).
 
     Attributes:
-        model: The C model, `struct register_space`, which skips the time in which the image only waits.
+        model: The C model, `struct register_space`, which skips time spent polling.
     """
 
     def __init__(self, clock: Clock) -> None:
-        """Begins empty.
+        """Starts empty.
 
         Args:
-            clock: Whose time is skipped.
+            clock: The clock whose time is skipped.
         """
         ffi, self._library = c_models()
         self._clock = clock
@@ -215,7 +215,7 @@ class AddressSpace:
         self.model.clock = clock.model
 
     def attach(self, base: int, peripheral: Peripheral) -> None:
-        """Puts a peripheral there."""
+        """Maps a peripheral at a base address."""
         for offset, register in peripheral.registers.items():
             self._at[base + offset] = peripheral, register
 
@@ -231,11 +231,11 @@ class AddressSpace:
         """Reads a register.
 
         Args:
-            address: Where it is.
-            width: Bytes read at once.
+            address: Address of the register.
+            width: Number of bytes read at once.
 
         Raises:
-            BoardError: None is modelled there, its peripheral has no clock, or it is not read as a whole.
+            BoardError: No register is modelled there, its peripheral has no clock, or the read is partial.
         """
         register = self._find(address, width, "read")
         value = register.read()
@@ -248,7 +248,7 @@ class AddressSpace:
         return value
 
     def write(self, address: int, width: int, value: int) -> None:
-        """Writes a register; as `read`."""
+        """Writes a register; arguments and errors as for `read`."""
         register = self._find(address, width, "written")
         if not register.idle:
             self._library.space_begin_anew(self.model)

@@ -1,4 +1,4 @@
-"""What is wired to a body's pins: motors, encoders, sensors, bumpers, a button and a battery."""
+"""The parts wired to a body's pins: motors, encoders, sensors, bumpers, a button and a battery."""
 
 from typing import Any
 
@@ -17,39 +17,39 @@ _ONE = 65536
 _CNT = 0x24
 
 _NEAR_MM, _STRONG, _WEAK = 150, 4, 4
-"""A beacon's bursts in a tick: strong ones reach as far as it is seen, weak ones only so far."""
+"""Bursts of a beacon in a tick; strong ones have its full range, weak ones a short range."""
 
 
 class RobotOnPins:
-    """Joins the pins of a board to a body of the world, a `struct kit`.
+    """Connects the pins of a board to a body of the world, a `struct kit`.
 
     Attributes:
-        wiring: The board's.
+        wiring: The board's wiring.
         motors: TIM1.
         timers: TIM2 to TIM4 by name.
-        ffi: Makes what the world's library takes,
-        library: which this is.
-        kit: The body; None while there is none: nothing turns.
-        light: What each proximity sensor receives of its own LEDs' light while they shine, 0..4095.
-        ambient: What it receives with the LEDs off.
-        battery_v: The battery's voltage where there is no body with one.
+        ffi: The interface to the world's library.
+        library: The world's library.
+        kit: The body; None if there is none: then nothing turns.
+        light: Light that each proximity sensor receives from its own LEDs while they are on, 0..4095.
+        ambient: Light that it receives with the LEDs off.
+        battery_v: Battery voltage while there is no body, V.
         counts_by: Sign of each encoder's counts: -1 if its wires are swapped.
-        stalled: Whether something holds a motor.
-        swapped: Whether the plugs of the two motors are exchanged.
+        stalled: Whether a motor is blocked.
+        swapped: Whether the connectors of the two motors are swapped.
         converts: Whether the ADC updates the samples.
     """
 
     def __init__(
         self, core: Core, wiring: Wiring, motors: MotorTimer, timers: dict[str, Timer], converter: Converter
     ) -> None:
-        """With everything at rest.
+        """Starts with everything at rest.
 
         Args:
-            core: Has the memory into which samples go.
-            wiring: The board's.
+            core: The core whose memory receives the samples.
+            wiring: The board's wiring.
             motors: TIM1.
             timers: TIM2 to TIM4 by name.
-            converter: Measures the sensors.
+            converter: Samples the sensors.
         """
         self._core, self.wiring, self.motors, self.timers, self._converter = core, wiring, motors, timers, converter
         self.ffi, self.library = world_library()
@@ -63,17 +63,17 @@ class RobotOnPins:
         motors.on_update = self._beat
 
     def join(self, kit: Any) -> None:
-        """Puts the board into a body."""
+        """Connects the board to a body."""
         if kit != self.kit:
             self.kit = kit
             self._counts = [self.library.kit_count(kit, side) for side in range(2)]
 
     def feel(self, body: Body, senses: Senses, tick: int) -> None:
-        """What the sensors receive where a body is, in which the board is from now on.
+        """Connects the board to a body and sets what its sensors receive.
 
         Args:
-            body: Where it is.
-            senses: What an ideal body senses there.
+            body: The body, with its position.
+            senses: Senses of an ideal body there.
             tick: Number of the tick in the run.
         """
         self.join(body.kit)
@@ -113,7 +113,7 @@ class RobotOnPins:
         return port.drives(pin)
 
     def _push(self, side: int) -> int:
-        """What the bridge gives a motor, 1/65536 of the battery: the half that PWM drives less the other."""
+        """Motor voltage, 1/65536 of the battery's: that of the PWM half-bridge minus the other's."""
         if not self._high("BRIDGE_AWAKE"):
             return 0
         duty = self.motors.duty(2 + side) if self.wiring.meets(f"{SIDES[side]}_PWM") else 0.0
@@ -132,7 +132,7 @@ class RobotOnPins:
             self._fill()
 
     def _count(self, side: int) -> None:
-        """Updates an encoder's count; with one wire off, it counts nothing."""
+        """Updates an encoder's count; with a wire missing, it counts nothing."""
         count = self.library.kit_count(self.kit, side)
         more, self._counts[side] = count - self._counts[side], count
         timer, name = self.timers[f"TIM{3 + side}"], f"{SIDES[side]}_ENCODER_"
@@ -145,7 +145,7 @@ class RobotOnPins:
         return self.battery_v if self.kit is None else self.library.kit_supply_mv(self.kit) / 1000
 
     def figures(self) -> dict[str, Any]:
-        """What is on its pins: `volts` of the battery; left and right, `counts` of the encoders and `duty` in %."""
+        """Values at the pins: battery `volts`; left and right encoder `counts` and `duty` in %."""
         return {
             "volts": round(self.volts, 2),
             "counts": [self.timers[f"TIM{3 + side}"].registers[_CNT].read() for side in range(2)],

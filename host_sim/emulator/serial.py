@@ -17,10 +17,10 @@ _FIFO, _FIFO_ON = 8, 1 << 29
 
 
 class Usart(Peripheral):
-    """Bytes in and out, one at a time: that of F1 and F4.
+    """The serial port of F1 and F4, which handles one byte at a time.
 
     Attributes:
-        depth: Bytes that have come and wait to be taken, at most; as many wait behind the one that leaves.
+        depth: Capacity of the receive buffer, and of the transmit buffer behind the shift register, bytes.
     """
 
     on_bit, baud_at = 13, 0x08
@@ -30,9 +30,9 @@ class Usart(Peripheral):
         """At rest.
 
         Args:
-            clock: The board's.
-            bus_hz: Gives the speed of its clock.
-            heard: Takes each byte that the board sends.
+            clock: The board's clock.
+            bus_hz: Returns its clock frequency, Hz.
+            heard: Called with each byte that the board sends.
         """
         self._clock, self._bus_hz, self._heard = clock, bus_hz, heard
         self._coming: deque[int] = deque()
@@ -61,7 +61,7 @@ class Usart(Peripheral):
         self._alarm.set(self._next())
 
     def feed(self, text: bytes) -> None:
-        """Receives text from the far end of the line, at the line's full speed."""
+        """Queues text from the far end of the line, which arrives at the line's full speed."""
         if not self._coming:
             self._came_at = max(self._came_at, self._clock.now) + _BYTE_SPAN
         self._coming.extend(text)
@@ -80,7 +80,7 @@ class Usart(Peripheral):
         return min(self._came_at if self._coming else NEVER, self._left_at if self._leaving else NEVER)
 
     def _receive(self, byte: int) -> None:
-        """Without a receiver it is lost, and so it is where the one before was not taken."""
+        """Receives a byte; it is lost if the receiver is off or the buffer is full."""
         if not self._cr1.value >> self.on_bit & 1 or not self._cr1.value & _RE:
             return
         self._overrun = self._overrun or len(self._received) == self.depth
@@ -118,7 +118,7 @@ class Usart(Peripheral):
 
 
 class UsartG4(Usart):
-    """That of G4, with FIFOs, and flags that are cleared by name."""
+    """The serial port of the G4, with FIFOs and a flag clear register."""
 
     on_bit, baud_at = 0, 0x0C
 
@@ -150,19 +150,19 @@ class UsartG4(Usart):
 
 
 class SlcanLine:
-    """Assembles the lines that the board sends byte by byte."""
+    """Assembles lines from the bytes that the board sends."""
 
     def __init__(self, heard: Callable[[CanFrame], None]) -> None:
-        """At the beginning of a line.
+        """Starts at the beginning of a line.
 
         Args:
-            heard: Takes each frame.
+            heard: Called with each frame.
         """
         self._heard = heard
         self._text = bytearray()
 
     def take(self, byte: int) -> None:
-        """The board has sent a byte. A line that is not a frame is dropped."""
+        """Takes a byte that the board has sent. A line that is not a frame is dropped."""
         if byte != _LINE_END:
             self._text.append(byte)
             return

@@ -1,4 +1,4 @@
-"""What every chip has: SysTick, the system control block, the watchdog, and a watch over the supply."""
+"""Parts of every chip: SysTick, system control block, watchdog, and supply monitor."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ _SUPPLY_MV = 3300
 
 
 class SysTick(Peripheral):
-    """The core's own timer (PM0214 4.5), polled: counts down from LOAD to 0, over and over.
+    """The core's timer (PM0214 4.5), polled: counts down from LOAD to 0 repeatedly.
 
     Attributes:
         model: The C model, `struct systick`.
@@ -50,7 +50,7 @@ class SysTick(Peripheral):
         self.model.ctrl = self.model.load = 0
 
     def access_directly(self, space: Any, base: int) -> None:
-        """Has a `struct register_space` read VAL without Python."""
+        """Lets a `struct register_space` read VAL without calling Python."""
         space.systick, space.systick_val = self.model, base + 0x8
 
     def _restart(self, value: int) -> None:  # noqa: ARG002 - whatever is written, the count is 0
@@ -85,8 +85,8 @@ class Watchdog(Peripheral):
 
         Args:
             clock: The board's.
-            slow_hz: Speed of its own oscillator.
-            bite: Resets the board.
+            slow_hz: Frequency of its own oscillator, Hz.
+            bite: Resets the board; called when the watchdog expires.
         """
         self._clock, self._slow_hz, self._bite = clock, slow_hz, bite
         self._expires = NEVER
@@ -107,7 +107,7 @@ class Watchdog(Peripheral):
         self._alarm.set(NEVER)
 
     def period_s(self) -> float:
-        """Seconds from one feeding to the bite; 0 where it is not started."""
+        """Timeout after a feed, s; 0 if it is not started."""
         return (
             (self._reload.value + 1) * (4 << min(self._prescaler.value, 6)) / self._slow_hz if self._started else 0.0
         )
@@ -141,16 +141,16 @@ class Watchdog(Peripheral):
 
 @dataclass(frozen=True)
 class PowerKind:
-    """Where a family has what compares the supply with a voltage.
+    """The supply monitor's registers in a family of chips.
 
     Attributes:
-        registers: Their names by offset.
-        control: Offset of the one that switches it on.
-        status: Offset of the one with what comes of it.
-        on: Bit that switches it on; its level follows from the bit `level` on.
-        level: See there.
-        low: Bit of the status.
-        levels_mv: The voltages, by level.
+        registers: Register names by offset.
+        control: Offset of the control register.
+        status: Offset of the status register.
+        on: Enable bit of the control register.
+        level: Number of the lowest bit of the level in the control register.
+        low: Status bit: the supply is low.
+        levels_mv: Threshold voltages by level, mV.
     """
 
     registers: Mapping[int, str]
@@ -178,14 +178,14 @@ POWER_G4 = PowerKind(
 
 
 class PowerControl(Peripheral):
-    """Compares the supply with a voltage.
+    """The supply monitor, which compares the supply with a threshold.
 
     Attributes:
-        supply_mv: The supply, mV.
+        supply_mv: Supply voltage, mV.
     """
 
     def __init__(self, kind: PowerKind) -> None:
-        """A good supply."""
+        """Starts with a sufficient supply."""
         self.supply_mv, self._kind = _SUPPLY_MV, kind
         super().__init__("PWR", {offset: Register(name) for offset, name in kind.registers.items()})
         self.registers[kind.status].on_read = self._read_status
@@ -197,15 +197,15 @@ class PowerControl(Peripheral):
 
 
 class SystemControl(Peripheral):
-    """The core's system control block (PM0214 4.4): notes faults, and takes the request to reset."""
+    """The core's system control block (PM0214 4.4): notes faults, and accepts reset requests."""
 
     def __init__(self, cpuid: int, restart: Callable[[], None], move: Callable[[int], None]) -> None:
-        """No fault.
+        """Starts without a fault.
 
         Args:
-            cpuid: What the core calls itself.
+            cpuid: Value of CPUID.
             restart: Resets the board.
-            move: Takes the address of a new vector table.
+            move: Called with the address of a new vector table.
         """
         self._restart, self._move = restart, move
         self._icsr, self._bfar = Register("ICSR"), Register("BFAR")
@@ -229,11 +229,11 @@ class SystemControl(Peripheral):
         )
 
     def note_fault(self, cause: int, address: int | None) -> None:
-        """A fault became a hard fault.
+        """Notes a fault that became a hard fault.
 
         Args:
             cause: Bits of CFSR.
-            address: The address that could not be reached; None where it was the instruction itself.
+            address: The inaccessible address; None if it was that of the instruction itself.
         """
         self.enter(3)
         self._cfsr.value |= cause | (0 if address is None else _BFARVALID)
@@ -241,7 +241,7 @@ class SystemControl(Peripheral):
         self._bfar.value = address or 0
 
     def enter(self, exception: int) -> None:
-        """The number of the exception under way; 0 for none."""
+        """Sets the number of the active exception; 0 for none."""
         self._icsr.value = exception
 
     @staticmethod

@@ -22,23 +22,23 @@ _PWM_1, _MODE_MASK = 6, 7
 
 
 class Timer(KeptPeripheral):
-    """TIM2 to TIM4: counts what its inputs do."""
+    """TIM2 to TIM4: counts edges at its inputs."""
 
     def __init__(self, name: str) -> None:
         """At rest."""
         super().__init__(name, _NAMES, {0x14: Register("EGR")}, resets={_ARR: _COUNT_MASK}, zeros_clear=[_SR])
 
     def follows_encoder(self) -> bool:
-        """Whether it counts both edges of both inputs, in quadrature."""
+        """Whether it is in encoder mode, counting both edges of both inputs."""
         return self._runs(_ENCODER_BOTH) and self._get(_CCMR1) & _INPUTS == _BOTH_INPUTS
 
     def counts_input_1(self) -> bool:
-        """Whether it counts pulses at its first input."""
+        """Whether it counts pulses at input 1."""
         from_1 = self._get(_SMCR) >> 4 & 7 == _FROM_INPUT_1
         return self._runs(_EXTERNAL) and from_1 and self._get(_CCMR1) & 3 == _INPUT_1
 
     def count(self, more: int) -> None:
-        """Counts on, or back."""
+        """Counts up, or down if negative."""
         self.registers[_CNT].value = (self._get(_CNT) + more) % (self._get(_ARR) + 1)
 
     def _runs(self, mode: int) -> bool:
@@ -49,7 +49,7 @@ class Timer(KeptPeripheral):
 
 
 class MotorTimer(KeptPeripheral):
-    """TIM1: the PWM of the motors on its inverted outputs, and an update event every so many of its periods.
+    """TIM1: PWM of the motors on its complementary outputs, and an update event after a number of periods.
 
     Attributes:
         on_update: Called at each update event.
@@ -59,8 +59,8 @@ class MotorTimer(KeptPeripheral):
         """At rest.
 
         Args:
-            clock: The board's.
-            bus_hz: Gives the speed of its clock.
+            clock: The board's clock.
+            bus_hz: Returns its clock frequency, Hz.
             pend: Makes its update interrupt pending.
         """
         self._clock, self._bus_hz, self._pend = clock, bus_hz, pend
@@ -79,7 +79,7 @@ class MotorTimer(KeptPeripheral):
         self._alarm.set(NEVER)
 
     def duty(self, channel: int) -> float:
-        """How much of the time its inverted output is high, 0..1.
+        """Fraction of time for which its complementary output is high, 0..1.
 
         Args:
             channel: 1..3.
@@ -95,13 +95,13 @@ class MotorTimer(KeptPeripheral):
         return min(self._get(0x30 + 4 * channel) / (self._get(_ARR) + 1), 1.0)
 
     def break_at(self, *, low: bool) -> None:
-        """The level at its break input; it takes the current off the outputs by itself."""
+        """Sets the level at its break input, which disables the outputs in hardware."""
         if self._bdtr.value & _BREAK_ON and low != bool(self._bdtr.value & _BREAK_HIGH):
             self._bdtr.value &= ~_OUTPUTS_ON
             self.registers[_SR].value |= _BIF
 
     def period(self) -> int:
-        """From one update to the next, fs."""
+        """Time from one update event to the next, fs."""
         cycles = (self._get(_PSC) + 1) * (self._get(_ARR) + 1) * (self._get(_RCR) + 1)
         return cycles * (SECOND // self._bus_hz())
 

@@ -1,4 +1,4 @@
-"""Two emulated boards on one emulated bus: a body on its pins, and the brain that drives it."""
+"""Two emulated boards on one emulated bus: a body on pins, and the brain that drives it."""
 
 from host_sim.base.frame import Frame
 from host_sim.base.paths import image_path
@@ -15,26 +15,26 @@ _SLICE_S = 0.0005
 
 
 class TwoBoards:
-    """The boards, from power-up.
+    """The two boards, from power-up.
 
     Attributes:
         brain: The board with the image of a robot on a CAN bus.
         body: The board with the image of a body.
-        robot: What is wired to the body's pins.
-        heard: All frames on the bus, each with the time, s.
-        cut: Whether the wire between them is.
+        robot: The parts wired to the body's pins.
+        heard: All frames on the bus, each with its time, s.
+        cut: Whether the wire between the boards is cut.
     """
 
     def __init__(self, brain: str = "feather_stm32f405", body: str = "blue_pill") -> None:
-        """Flashes both.
+        """Flashes both boards.
 
         Raises:
             OctetError: An image is not built.
-            BoardError: It does what the hardware does not allow.
+            BoardError: An image did something that the hardware does not allow.
         """
         self.brain = start_board(brain)
         self.body = EmulatedBoard(CHIPS[body], image_path(body, "body"))
-        assert self.body.hardware.robot is not None  # such chips alone have such images
+        assert self.body.hardware.robot is not None  # only such chips have this image
         self.robot: RobotOnPins = self.body.hardware.robot
         self.heard: list[tuple[float, Frame]] = []
         self.cut = False
@@ -42,7 +42,7 @@ class TwoBoards:
         self._now_s, self._tick, self._eats = 0.0, 0, False
 
     def pass_time(self, span_s: float) -> None:
-        """Lets time pass on both."""
+        """Lets time pass on both boards."""
         for _ in range(round(span_s / _SLICE_S)):
             self._now_s += _SLICE_S
             for sender, other in ((self.body, self.brain), (self.brain, self.body)):

@@ -1,4 +1,4 @@
-"""Checks that the pins to which a board's signals are wired are those that the image uses for them."""
+"""Checks that a board's signals are wired to the pins that the image uses for them."""
 
 from collections.abc import Sequence
 
@@ -11,15 +11,15 @@ _ROLES_OUT = ("tx", "ch1n", "ch2n", "ch3n")
 
 
 class Wiring:
-    """The wires of a board."""
+    """The wiring of a board."""
 
     def __init__(self, pins: Pins, ports: Sequence[Port], mapr: Register | None) -> None:
-        """Follows the ports' modes and AFIO_MAPR.
+        """Takes the wiring, and tracks the ports' modes and AFIO_MAPR.
 
         Args:
-            pins: The board's.
-            ports: From A.
-            mapr: AFIO_MAPR; None for a chip whose pins choose their functions.
+            pins: The board's pins.
+            ports: The GPIO ports, from A.
+            mapr: AFIO_MAPR; None for chips whose pins select their functions.
         """
         self.pins, self._mapr, self._pins = pins, mapr, dict(pins.signals)
         self._known: dict[str, bool] = {}
@@ -30,7 +30,7 @@ class Wiring:
             mapr.on_write = self._write_mapr
 
     def port(self, signal: str) -> tuple[Port, int]:
-        """The port of a signal, and the number of its pin there."""
+        """The port and pin number of a signal."""
         port, number = place_of(self.pins.signals[signal])
         return self._ports[port], number
 
@@ -40,7 +40,7 @@ class Wiring:
         self._known.clear()
 
     def meets(self, *signals: str) -> bool:
-        """Whether the pins of signals are what the drivers use for them."""
+        """Whether signals are wired to the pins that the drivers use for them."""
         for signal in signals:
             if signal not in self._known:
                 self._known[signal] = self._meets(signal)
@@ -63,6 +63,6 @@ class Wiring:
         return port.serves(number, 0, out=out) and chip.pin_of(use, self._mapr.value) == pin
 
     def _write_mapr(self, value: int) -> None:
-        assert self._mapr is not None  # else nobody writes it
+        assert self._mapr is not None  # without AFIO it is never written
         self._mapr.value = value
         self._known.clear()
