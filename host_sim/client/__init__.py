@@ -1,1 +1,1 @@
-"""The host's side of the protocol: commands, senses, drives, and pacing."""
+"""The host side of the protocol: commands, senses, drives, and pacing."""

@@ -1,4 +1,4 @@
-"""Recent commands, to match answers with, and detection of other simulators."""
+"""Recent commands, to which answers are matched, and detection of other simulators."""
 
 from collections import deque
 
@@ -13,11 +13,11 @@ class AskedCommands:
     """The latest commands, as many as their alive counters can tell apart.
 
     Attributes:
-        answered: Whether the last one was answered, or there was none.
+        answered: Whether the last command was answered, or there was none.
     """
 
     def __init__(self) -> None:
-        """Nothing was asked yet."""
+        """Starts without any command."""
         self.answered = True
         self._asked: deque[Frame] = deque(maxlen=_KNOWN)
 
@@ -27,12 +27,12 @@ class AskedCommands:
         return self._asked[-1]
 
     def add(self, command: Frame) -> None:
-        """A command is about to be sent."""
+        """Adds a command that is about to be sent."""
         self._asked.append(command)
         self.answered = False
 
     def has(self, command: Frame) -> bool:
-        """Whether a command is one of these, byte for byte."""
+        """Whether these include a command, byte for byte."""
         return command in self._asked
 
     def judge(self, answer: Frame) -> Arrival:
@@ -47,7 +47,7 @@ class AskedCommands:
 
 
 class Rivals:
-    """Others who command the same robot.
+    """Other simulators that command the same robot.
 
     Attributes:
         heard: Second frame heard within a second from another simulator, if any.
@@ -58,7 +58,7 @@ class Rivals:
 
         Args:
             owner: Owner ID of this simulator.
-            asked: The commands that it has sent.
+            asked: The commands sent by this simulator.
         """
         self.heard: Frame | None = None
         self._owner, self._asked = owner, asked
@@ -72,6 +72,6 @@ class Rivals:
         return self.heard is frame
 
     def poses_as_us(self, frame: Frame, decoded: DecodedFrame) -> bool:
-        """Whether it is a command with our owner ID that we did not send: the robot obeys it, and it is not noise."""
+        """Whether a frame is a command with our owner ID sent by another: the robot obeys it, and it is not noise."""
         is_ours = decoded.signals.get("owner") == self._owner
         return decoded.name == "COMMAND" and is_ours and not self._asked.has(frame)

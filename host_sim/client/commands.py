@@ -19,7 +19,7 @@ def start(client: RobotClient, session: Session, memory: Sequence[int] | None = 
     Args:
         client: The robot's client.
         session: Its seed, its profile and its parameters.
-        memory: Eight bytes to write, translated to what the profile understands; None leaves the robot's as it is.
+        memory: Eight bytes to write, translated to the profile's kind of memory; None keeps the robot's memory.
 
     Raises:
         RefusedError: The robot refuses a command.
@@ -49,7 +49,7 @@ def stop(client: RobotClient) -> None:
     client.inbox.session = None
     client.dialogue.demand_reports("stop")
     if not client.inbox.holds():
-        client.dialogue.demand_reports("report")  # of the two reports, one may have been damaged on its way
+        client.dialogue.demand_reports("report")  # one of the two reports may have been damaged in transit
     client.check_held()
     client.check_settled()
     for doubt in client.punctuality.doubts():
@@ -95,7 +95,7 @@ def freeze(client: RobotClient, on: bool) -> None:
 
 
 def _write(client: RobotClient, content: Mapping[int, int]) -> None:
-    """Writes some bytes of the memory. What is all zeros is erased: no half of another memory may be left."""
+    """Writes some bytes of the memory. All zeros erase it, so that no half of another memory is left."""
     if len(content) == CELL_COUNT and not any(content.values()):
         erase_memory(client)
         return

@@ -1,4 +1,4 @@
-"""A connection to a robot: the link, and what is known about the robot behind it."""
+"""A connection to a robot: the link, and information about the robot behind it."""
 
 import time
 from collections.abc import Callable
@@ -11,7 +11,7 @@ from host_sim.transport.link import Link
 from host_sim.world.body import Body
 
 DEADLINE_S = 5.0
-"""Time for a robot to answer before it is given up, s of wall-clock time."""
+"""Time after which a robot that does not answer is given up, s of wall-clock time."""
 
 
 @dataclass(frozen=True)
@@ -23,10 +23,10 @@ class Connection:
         bus: Name of the bus, as in the summary.
         status: Describes the state of the robot's process, and raises RobotError if it has ended.
         pid: Process id of the robot; None if it was not started as a process.
-        line: What happens to the line below the frames.
-        deadline_s: Time for the robot to answer before it is given up, s of wall-clock time.
+        line: Statistics of the line below the frames.
+        deadline_s: Time after which a robot that does not answer is given up, s of wall-clock time.
         answers_at_once: Whether the robot answers within `send`, or not at all.
-        now: Gives the time of the link's timeouts, s.
+        now: Returns the time by which the link's timeouts are measured, s.
         sense: For a robot with sensors of its own: computes its senses from its body, the world's senses and
             the number of the tick; None for all others.
         pins: Reads such a robot's pins, as `RobotOnPins.figures`.

@@ -22,9 +22,9 @@ class Dialogue:
 
     Attributes:
         connection: Carries the frames.
-        inbox: Takes in what comes.
-        waiting: Waits for it.
-        commands: What was sent, each command with the number of ticks before it.
+        inbox: Processes incoming frames.
+        waiting: Waits for incoming frames.
+        commands: The commands sent, each with the number of ticks before it.
     """
 
     connection: Connection
@@ -55,8 +55,8 @@ class Dialogue:
     def ask(self, opcode: str, signals: Mapping[str, int], timeout_s: float) -> DecodedFrame | None:
         """As `command`, but None if there is no answer in time.
 
-        A command whose counter the robot refuses is sent with another one: in an earlier, interrupted session the
-        robot may have counted other commands.
+        If the robot refuses the counter, the command is sent with another one: the robot may have counted other
+        commands in an earlier, interrupted session.
         """
         answer = None
         for jump in (1, _JUMP, _JUMP):
@@ -93,7 +93,7 @@ class Dialogue:
     def await_reports(self) -> bool:
         """Waits for every report that was asked for. Returns False as soon as one is known to be missing.
 
-        It ends after the answer: what was on its way before that may be the end of an older one.
+        A whole report ends after the answer: frames before it may be the end of an older report.
         """
         reports, now = self.inbox.reports, self.connection.now
         give_up = now() + self.connection.deadline_s
@@ -114,7 +114,7 @@ class Dialogue:
         return self.inbox.reports.complete and self.inbox.rested
 
     def await_memory(self) -> None:
-        """Waits for the memory that the robot reports after a change, and asks for it if it was lost on the way.
+        """Waits for the memory that the robot reports after a change, and requests it if it was lost.
 
         Raises:
             RobotError: The robot does not report it.
@@ -129,7 +129,7 @@ class Dialogue:
             self.connection.link.send(self._next("stop", {}))
 
     def no_answer(self, to: str) -> RobotError:
-        """The error for something that the robot did not answer by the deadline."""
+        """The error for a request that the robot did not answer by the deadline."""
         return RobotError(f"the robot did not answer {to} within {self.connection.deadline_s:g} s; {self.account()}")
 
     def account(self) -> str:
@@ -140,7 +140,7 @@ class Dialogue:
         return f"last frame from it: {said}{self._damaged()}; it {self.connection.status()}{line}"
 
     def _damaged(self) -> str:
-        """The robot's last frame of this tick that was no whole one, as a continuation of a sentence."""
+        """The robot's last damaged frame in this tick, as the continuation of a sentence; empty if there is none."""
         protocol, frame = self.inbox.protocol, self.inbox.refused
         names = [name for name in MESSAGES if protocol.id_of(name) == frame.id]
         if self.inbox.refused_at != self.inbox.ticks or not names or protocol.decode(frame) is not None:
@@ -148,7 +148,7 @@ class Dialogue:
         return f"; its {names[0]} came with a wrong CRC or length: {frame.id:03X}#{frame.data.hex().upper()}"
 
     def _next(self, opcode: str, signals: Mapping[str, int], jump: int = 1) -> Frame:
-        """A command with the next counter, or one some steps ahead."""
+        """A command with the next counter, or with one some steps ahead."""
         self._counter = (self._counter + jump) % COUNTERS
         fixed = {"counter": self._counter, "opcode": Opcode[opcode.upper()], "owner": self.inbox.owner}
         return self.inbox.protocol.encode("COMMAND", {**fixed, **signals})

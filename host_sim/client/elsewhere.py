@@ -22,7 +22,7 @@ class Ticks:
 
 
 def take_ticks(client: RobotClient, ticks: Ticks) -> None:
-    """Takes over ticks, but not yet the robot's reports in them."""
+    """Takes over ticks, but not the robot's reports in them."""
     drive = client.protocol.decode_drive(ticks.drive)
     assert drive is not None
     client.inbox.catch_up(ticks.count, drive, ticks.drive)
@@ -30,7 +30,7 @@ def take_ticks(client: RobotClient, ticks: Ticks) -> None:
 
 
 def take_last_reports(client: RobotClient, reports: Sequence[Frame]) -> None:
-    """Takes over the reports of the last of such ticks, in order; those before it are not told."""
+    """Takes over the reports of the last of these ticks, in order; earlier reports are not passed on."""
     client.reports.forget()
     if reports:
         client.unsettled = None
@@ -42,7 +42,7 @@ def take_last_reports(client: RobotClient, reports: Sequence[Frame]) -> None:
 
 
 def routine_reports(client: RobotClient) -> list[tuple[str, Frame]]:
-    """The last report of each kind that needs no further handling if it is repeated with the next counter."""
+    """The last report of each kind whose repetition with the next counter needs no further handling."""
     heartbeat = client.reports.heartbeat
     names = {"FAULTS"}
     if client.inbox.holds():
@@ -56,12 +56,12 @@ def routine_reports(client: RobotClient) -> list[tuple[str, Frame]]:
 
 
 def take_routine_reports(client: RobotClient, reports: Sequence[tuple[str, Frame]]) -> None:
-    """Takes over such reports that came with the next counters; of several of a kind, the last is enough."""
+    """Takes over routine reports that came with the next counters; of several of a kind, the last is enough."""
     for kind, frame in reports:
         client.reports.go_on(kind, frame, client.frames.missing)
         client.inbox.last = frame
         is_last = frame is reports[-1][1]
-        if kind == "HEARTBEAT" or (kind == FIRST_HALF and is_last):  # of a memory, the other half is yet to come
+        if kind == "HEARTBEAT" or (kind == FIRST_HALF and is_last):  # the other half of a memory is still to come
             decoded = client.protocol.decode(frame)
             assert decoded is not None
             client.reports.take(decoded)

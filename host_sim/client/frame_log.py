@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from host_sim.base.compressed_file import CompressedFile
 
 CHANNEL = "octet"
-"""The interface name in every log, whatever the bus was."""
+"""The interface name in every log, for any bus."""
 
 _FLUSH_LINES = 4096
 _STAMP = f"({{:010d}}.{{:06d}}) {CHANNEL}"
@@ -41,14 +41,14 @@ def line_of(time_us: int, frame: Frame) -> str:
 
 
 class FrameLog:
-    """Writes a log to `PATH.part`, which replaces an old log of the same name only when it is closed, and whole.
+    """Writes a log to `PATH.part`, which replaces an old log of the same name only when closed and complete.
 
     A log whose name ends with .gz is compressed by gzip. Its digest is that of the text.
 
-    Without a path nothing is written; the digest is computed all the same.
+    Without a path, only the digest is computed.
 
     Attributes:
-        keeps: Whether frames are worth handing over.
+        keeps: Whether the log uses the frames handed over.
     """
 
     keeps = True
@@ -97,7 +97,7 @@ class FrameLog:
             self._flush()
 
     def flush(self) -> None:
-        """Writes what has been recorded.
+        """Writes all recorded lines.
 
         Raises:
             OctetError: The file cannot be written, now or before.
@@ -124,12 +124,12 @@ class FrameLog:
             SHA-256 of the log's lines without the data of BOOT, in hexadecimal.
 
         Raises:
-            OctetError: The file cannot be written; `PATH.part` holds what could be.
+            OctetError: The file cannot be written; `PATH.part` holds the part that could be.
         """
         if self._file.closed:
             return self._digest.hexdigest()
         if self._failed:
-            with suppress(OSError):  # as before
+            with suppress(OSError):  # reported before
                 self._file.close()
             return self._digest.hexdigest()
         self._flush()
@@ -170,7 +170,7 @@ class FrameLog:
 
 
 class NoLog(FrameLog):
-    """Takes frames and keeps nothing, not even a digest."""
+    """Discards frames, without even a digest."""
 
     keeps = False
 

@@ -11,25 +11,25 @@ GAP_MIN = _AHEAD_MAX + 1
 
 
 class Arrival(Enum):
-    """What a message is, compared with the last one of its kind."""
+    """Classification of a message, compared with the last one of its kind."""
 
     NEW = auto()
-    """The next one, or one of the few after it."""
+    """The next message, or one of the few after it."""
     AGAIN = auto()
-    """The last one once more, byte for byte."""
+    """The last message again, byte for byte."""
     LATE = auto()
-    """An earlier one."""
+    """An earlier message."""
     OTHER = auto()
-    """The last one's counter with other content: its sender began anew, or is another one."""
+    """The last message's counter with other content: from a restarted or another sender."""
     ELSEWHERE = auto()
-    """The second of two that follow each other, but not the last one: late ones, or those of another sender."""
+    """The second of two consecutive messages that do not follow the last one: late, or from another sender."""
 
 
 class Freshness:
     """Follows the alive counter of one kind of message.
 
     Attributes:
-        last: The last one; None before the first.
+        last: The last message; None before the first.
     """
 
     def __init__(self) -> None:
@@ -42,7 +42,7 @@ class Freshness:
 
         Args:
             frame: The message.
-            gap: Whether `GAP_MIN` or more may have been lost since the last one, so that its counter tells nothing.
+            gap: Whether `GAP_MIN` or more may have been lost since the last one, so that its counter is meaningless.
         """
         if self.last is None:
             return self._take(frame, Arrival.NEW)
@@ -56,7 +56,7 @@ class Freshness:
         return self._judge_late(frame, _AHEAD_MAX if gap else 1)
 
     def go_on(self, frame: Frame) -> None:
-        """Takes a message that is known to be the next one."""
+        """Accepts a message that is known to be the next one."""
         self._take(frame, Arrival.NEW)
 
     def _judge_late(self, frame: Frame, ahead_max: int) -> Arrival:

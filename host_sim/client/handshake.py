@@ -6,7 +6,7 @@ from host_sim.client.told import Told
 from host_sim.protocol.codec import Frame
 
 _LISTEN_S = 0.1
-"""A robot that is driven by another simulator receives senses more often than this."""
+"""A robot driven by another simulator receives senses at shorter intervals than this."""
 
 
 def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) -> None:
@@ -15,7 +15,7 @@ def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) ->
     Args:
         client: A client whose robot is not started.
         timeout_s: Time to wait for the robot, s.
-        shared: Whether others may be on the bus: they are listened for first.
+        shared: Whether other simulators may be on the bus; if so, listens for them first.
 
     Raises:
         FirmwareError: The robot was built from another layout of the messages.
@@ -36,10 +36,10 @@ def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) ->
             )
         assert client.inbox.last is not None
         held[:] = [client.inbox.asked.last, client.inbox.last]
-        client.reports.await_all()  # what came before the answer is not in the log
+        client.reports.await_all()  # reports before the answer are not in the log
         if not client.dialogue.await_reports():
             client.dialogue.demand_reports("stop")
-        if not client.inbox.holds():  # it had an owner, and was told more than this
+        if not client.inbox.holds():  # it had an owner, and received other commands
             client.dialogue.demand_reports("stop")
         client.firmware = client.firmware or client.reports.boot
     finally:

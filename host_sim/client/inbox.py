@@ -1,4 +1,4 @@
-"""Sorts all frames from a robot's side: answers, drives, reports, and what should not be there."""
+"""Sorts all frames from a robot's side: answers, drives, reports, and unexpected frames."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -21,32 +21,32 @@ _NO_FRAME = Frame(-1, b"\0\0")
 
 @dataclass
 class Inbox:
-    """Sorts the frames of one robot into what is new, what is old, and what does not belong.
+    """Sorts the frames of one robot into new, old, and foreign ones.
 
     Attributes:
         protocol: Decodes them.
         record: Called with each valid frame that is new, for the log.
-        now: Tells the time, s.
+        now: Returns the time, s.
         lockstep: Whether the robot waits for the simulator, so that only the last senses are answered.
         owner: Owner ID of this simulator.
         counts: Frame counters.
         asked: The commands that were sent.
-        told: Those that the robot has carried out.
-        rivals: Others who command it.
-        refuse: Called with each refused frame, and why.
-        reports: What the robot has reported.
+        told: The commands that the robot has carried out.
+        rivals: Other simulators that command it.
+        refuse: Called with each refused frame and the reason.
+        reports: The robot's latest reports.
         session: How the robot was started; None while it is stopped.
         last: The last valid frame from the robot.
         ticks: Number of ticks whose senses were sent.
-        sent_tick: Number of the last of them, as on the wire.
-        sent_counter: Alive counter of the last of them.
+        sent_tick: Number of the last of these ticks, as on the wire.
+        sent_counter: Alive counter of the last senses sent.
         reporting: Whether a whole report is awaited.
         rested: Whether a stopped robot has reported that its wheels rest, or need not report it.
-        silent: Whether the robot has reported silence, after which nothing earlier can still arrive.
-        owed: Number of repeated senses whose answers have not come yet.
-        answered_again: Number of answers to what was repeated, and was answered before.
+        silent: Whether the robot has reported silence, after which no earlier frame can still arrive.
+        owed: Number of repeated senses whose answers have not arrived yet.
+        answered_again: Number of repeated answers to repeated frames.
         drive: The last new drive.
-        refused: The last frame that was refused, `refused_at` the number of ticks before it.
+        refused: The last frame that was refused; `refused_at` is the number of ticks before it.
     """
 
     protocol: Protocol
@@ -76,7 +76,7 @@ class Inbox:
     _drive_frame: Frame = _NO_FRAME
 
     def __post_init__(self) -> None:
-        """Has heard nobody else."""
+        """Starts without any other simulator heard."""
         self.rivals = Rivals(self.owner, self.asked)
 
     @property
@@ -85,7 +85,7 @@ class Inbox:
         return max(self.ticks - 1, 0)
 
     def expect_drive(self, tick: int) -> int:
-        """The senses of the next tick, with this number on the wire, are about to be sent: their alive counter."""
+        """Prepares for sending the senses of a tick, with this number on the wire. Returns their alive counter."""
         self.ticks += 1
         self.sent_tick = tick
         self.sent_counter = self.ticks % COUNTERS
@@ -98,7 +98,7 @@ class Inbox:
         self.drive, self._drive_tick, self._drive_frame, self.last = drive, self.ticks, frame, frame
 
     def take(self, frame: Frame) -> None:
-        """Takes in a frame, whatever it is.
+        """Processes a frame of any kind.
 
         Raises:
             SessionLostError: The robot may no longer be the one that was started, or no longer be alone.
@@ -107,7 +107,7 @@ class Inbox:
         self.take_drive(frame)
 
     def take_drive(self, frame: Frame) -> Drive | None:
-        """The drive in a frame, if it answers senses that were not answered yet; other frames are taken in.
+        """Returns the drive in a frame if it answers senses not answered yet; processes other frames.
 
         Raises:
             SessionLostError: As in `take`.
@@ -117,7 +117,7 @@ class Inbox:
         if drive is None:
             self._take_other(frame)
             return None
-        # The usual case first: this is the way of each tick.
+        # The usual case first: it occurs in each tick.
         if drive.tick != self.sent_tick or frame.data[1] & 15 != self.sent_counter or drive.reason in _NO_ANSWER:
             return self._take_other_drive(drive, frame)
         if self.session is None or self._drive_tick == self.ticks:
@@ -130,7 +130,7 @@ class Inbox:
         return drive
 
     def take_answer(self, frame: Frame) -> DecodedFrame | None:
-        """The answer to the last command, once; other frames are taken in.
+        """Returns the answer to the last command, once; processes other frames.
 
         Raises:
             SessionLostError: As in `take`.
@@ -143,7 +143,7 @@ class Inbox:
         return self._take_any_answer(frame, decoded)
 
     def take_memory(self, frame: Frame) -> bool | None:
-        """True when a frame completes a new memory; other frames are taken in.
+        """Returns True if a frame completes a new memory; processes all frames.
 
         Raises:
             SessionLostError: As in `take`.
@@ -154,7 +154,7 @@ class Inbox:
         return self.reports.memories != before or None
 
     def _take_other_drive(self, drive: Drive, frame: Frame) -> Drive | None:
-        """A drive that does not answer the last senses: it may be late, old, or tell that the robot rests."""
+        """Handles a drive that does not answer the last senses: late, old, or a report that the robot rests."""
         if drive.reason == Reason.SILENCE:
             return self._take_silence(drive, frame)
         behind = (self.sent_tick - drive.tick) & _TICK_MASK
@@ -170,7 +170,7 @@ class Inbox:
         return drive
 
     def _take_old_drive(self, drive: Drive, frame: Frame) -> None:
-        """A drive that came twice or late."""
+        """Handles a repeated or late drive."""
         self.counts.duplicate += 1
         self.answered_again += self.owed > 0
         self.owed -= self.owed > 0
@@ -178,7 +178,7 @@ class Inbox:
             self.lose("sent two different drives for one tick", _FORGED)
 
     def _take_stop(self, drive: Drive, frame: Frame, *, is_new: bool) -> Drive | None:
-        """A stopped robot rests; so does one that should be running, where something is wrong."""
+        """Handles a drive at rest: normal for a stopped robot, a fault for one that should be running."""
         if self.session is None and not self.rested:
             self.rested = True
             self._accept(frame)
@@ -193,12 +193,12 @@ class Inbox:
         return None
 
     def _contradicts(self, drive: Drive, frame: Frame) -> bool:
-        """Whether a drive is another answer to the senses that were answered last."""
+        """Whether a drive is a different answer to the senses answered last."""
         same = drive.tick == self.drive.tick and counter_of(frame) == counter_of(self._drive_frame)
         return same and frame != self._drive_frame
 
     def _take_silence(self, drive: Drive, frame: Frame) -> Drive | None:
-        """In lockstep, silence only shows a slow host; in real time, the robot rests."""
+        """Handles reported silence: in lockstep, only the host was slow; in real time, the robot rests."""
         self.silent = True
         if self.lockstep or self.session is None:
             self.counts.duplicate += 1
@@ -222,7 +222,7 @@ class Inbox:
                 self.lose(f"was told {self.protocol.describe(frame)}", _COMMANDED)
 
     def _goes_on(self, decoded: DecodedFrame) -> bool:
-        """Whether these are senses or distances that the robot takes for those of this simulator."""
+        """Whether these are foreign senses or distances that the robot takes for those of this simulator."""
         if decoded.name not in {"SENSES", "RANGES"}:
             return False
         ahead = (decoded.signals["tick"] - self.sent_tick) & _TICK_MASK
@@ -267,19 +267,19 @@ class Inbox:
     def _arrival(self, frame: Frame, decoded: DecodedFrame) -> Arrival:
         """Compares a report with those before it.
 
-        A whole report that cuts another one short repeats the page of FAULTS that the other one ended with, counter
-        and all: after the answer, such a page is what was asked for.
+        A whole report that cuts another one short repeats the other's last page of FAULTS, including its counter:
+        after the answer, that page counts as requested.
         """
         arrival = self.reports.judge(frame, decoded, self.counts.missing)
         is_asked_for = self.reporting and self.asked.answered and self.reports.is_awaited(decoded)
         return Arrival.NEW if arrival == Arrival.AGAIN and is_asked_for else arrival
 
     def holds(self) -> bool:
-        """Whether the robot's last report says that it holds what it was told here, and nothing else."""
+        """Whether the robot's last report shows that it holds exactly the commands sent here."""
         return self.told.agrees(self.reports.held, self.reports.memory)
 
     def is_as_started(self) -> bool:
-        """Whether the robot's last heartbeat says that it runs as it was told here."""
+        """Whether the robot's last heartbeat shows that it runs as it was started here."""
         session, said = self.session, self.reports.heartbeat
         if session is None or self.told.given_up:
             return True
@@ -301,7 +301,7 @@ class Inbox:
 
         Args:
             how: The evidence.
-            doubt: Why the result is unreliable whatever is found out; empty if it is not.
+            doubt: Why the result is unreliable in any case; empty if it is not.
             booted: Whether the robot reported that it has restarted.
         """
         if self.session is not None:

@@ -1,4 +1,4 @@
-"""What goes wrong in a run: incidents that its result depends on, and frames that were refused."""
+"""Faults of a run: incidents that may affect its result, and refused frames."""
 
 from typing import NamedTuple
 
@@ -6,11 +6,11 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.protocol.codec import Frame
 
 REFUSED_MAX = 10_000
-"""Number of frames that are kept; later ones are only counted."""
+"""Maximum number of frames kept; later ones are only counted."""
 
 
 class Incident(NamedTuple):
-    """Something that should not happen in a run.
+    """An event that should not happen in a run.
 
     Attributes:
         tick: Number of the tick, from the first of the run.
@@ -27,28 +27,28 @@ class Incident(NamedTuple):
 
 
 class RefusedFrames:
-    """The refused frames of one robot, as the lines of a log with a reason behind each.
+    """The refused frames of one robot, as lines of a log, each followed by the reason.
 
     Attributes:
-        unlisted: Number of those after the first `REFUSED_MAX`.
+        unlisted: Number of frames after the first `REFUSED_MAX`.
     """
 
     def __init__(self, log: FrameLog) -> None:
-        """Keeps nothing yet.
+        """Starts without frames.
 
         Args:
-            log: The run's log, which knows the time.
+            log: The run's log, which provides the time.
         """
         self.unlisted = 0
         self._log, self._text, self._count = log, bytearray(), 0
 
     @property
     def lines(self) -> list[str]:
-        """The first `REFUSED_MAX` of them."""
+        """Lines of the first `REFUSED_MAX` frames."""
         return self._text.decode("ascii").splitlines()
 
     def add(self, frame: Frame, why: str) -> None:
-        """A frame was refused."""
+        """Adds a refused frame."""
         if self._count == REFUSED_MAX:
             self.unlisted += 1
             return

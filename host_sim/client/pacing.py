@@ -1,4 +1,4 @@
-"""The two ways to keep world and robots in step: lockstep, or the wall clock."""
+"""The two ways to keep world and robots in step: lockstep and the wall clock."""
 
 from collections import deque
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ HOLD_TICKS = 5
 """A body without a new drive continues with its last one for this many ticks (100 ms); then its wheels stop."""
 
 _TURN_S = 0.002
-"""In real time, the longest wait for one robot before the next one is listened to."""
+"""In real time, the longest wait for one robot before turning to the next."""
 
 
 class Pace(Protocol):
@@ -33,11 +33,11 @@ class Pace(Protocol):
 
 @dataclass(frozen=True)
 class BegunTick:
-    """A tick of which a part was done elsewhere, by C code on the clients' behalf.
+    """A tick partly done by C code on the clients' behalf.
 
     Attributes:
-        sent: Number of robots that have been sent their senses, the first ones.
-        drives: The drives of those that have answered, the first of these.
+        sent: Number of robots, counted from the first, that have been sent their senses.
+        drives: The drives of the first of these, which have answered.
     """
 
     sent: int
@@ -48,14 +48,14 @@ _NOTHING = BegunTick(0, ())
 
 
 class Lockstep:
-    """World and robots wait for each other: the result is the same at any speed and on any machine."""
+    """World and robots wait for each other, so the result does not depend on speed or machine."""
 
     def __init__(self, clients: Sequence[RobotClient]) -> None:
-        """Paces the robots of these clients."""
+        """Takes the clients of the robots to pace."""
         self._clients = clients
 
     def exchange(self, senses: Sequence[Senses], begun: BegunTick = _NOTHING) -> Sequence[Drive]:
-        """As in `Pace`, except for the part done elsewhere."""
+        """As in `Pace`, except for the part already done."""
         sent, drives = begun.sent, [*begun.drives]
         for client, sensed in zip(self._clients[len(drives) : sent], senses[len(drives) : sent], strict=True):
             client.note_sent(sensed)
@@ -78,7 +78,7 @@ class _Wheels:
     waited: int = 0
 
     def turn(self, fresh: Drive | None, tick: int, tick_s: float) -> Drive:
-        """The drive that the body applies.
+        """Returns the drive that the body applies.
 
         Raises:
             RobotError: There was no answer for longer than the client's deadline.
@@ -102,12 +102,12 @@ class _Wheels:
 def applied(last: Drive | None, tick: int, came: bool) -> Drive:
     """The drive that a body applies in a tick: the last one, until it is more than `HOLD_TICKS` ticks old, then rest.
 
-    Its age counts from the senses that it answers, not from when it came.
+    Its age counts from the senses that it answers, not from its arrival.
 
     Args:
         last: The last drive; None if there was none.
         tick: Number of the tick, 0..255.
-        came: Whether the last drive came in this tick; food is eaten only then.
+        came: Whether the last drive arrived in this tick; food is eaten only then.
     """
     if last is None or (tick - last.tick) % TICK_SPAN > HOLD_TICKS:
         return REST._replace(tick=tick)
@@ -121,7 +121,7 @@ class RealTime:
         """Starts with the wheels at rest; the clock begins with the first tick.
 
         Args:
-            clients: The robots' clients, which have the same time.
+            clients: The robots' clients, which share one clock.
             tick_s: Length of a tick, s.
         """
         self._tick_s = tick_s
@@ -148,7 +148,7 @@ class RealTime:
         return [wheels.turn(drive, sensed.tick, self._tick_s) for wheels, drive, sensed in both]
 
     def _listen(self, end_s: float, *, until_all_answer: bool) -> list[Drive | None]:
-        """For each robot, the last drive that comes before a time. They are listened to in turn."""
+        """The last drive of each robot that arrives before a time. Listens to the robots in turn."""
         fresh: list[Drive | None] = [None] * len(self._wheels)
         listening = deque(enumerate(wheels.client for wheels in self._wheels))
         while listening:

@@ -1,11 +1,11 @@
-"""How close a run came to real time: unanswered ticks, gaps between answers, and how fast the clock was."""
+"""Timing quality of a run in real time: unanswered ticks, gaps between answers, and clock speed."""
 
 from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True)
 class Limits:
-    """Beyond these, the result of a run in real time is doubtful.
+    """Limits beyond which the result of a run in real time is doubtful.
 
     Attributes:
         unanswered_percent: Share of the ticks without an answer.
@@ -27,14 +27,14 @@ class Punctuality:
     """Counts the ticks of one robot in real time.
 
     Attributes:
-        limits: What makes the result doubtful.
+        limits: Limits beyond which the result is doubtful.
         ticks: Number of ticks.
-        unanswered: Number of those without an answer.
-        gap_s: The longest time without an answer, s.
+        unanswered: Number of ticks without an answer.
+        gap_s: Longest time without an answer, s.
         late: Number of ticks that began late, by more than a tick.
-        latest_s: The most that one was late, s.
-        lost_s: By how much they put the world's clock behind the wall clock, s.
-        robot_s: How far the world's clock has come, s.
+        latest_s: Maximum delay of a tick, s.
+        lost_s: Total delay of the world's clock behind the wall clock, s.
+        robot_s: Time on the world's clock, s.
     """
 
     limits: Limits = field(default_factory=Limits)
@@ -49,7 +49,7 @@ class Punctuality:
     def begin(self, late_s: float, tick_s: float) -> float:
         """Notes the delay of a tick. Returns how much of it is lost, s.
 
-        A delay under a tick is caught up. A longer one is not: many ticks at once would not be real time either.
+        Delays under a tick are made up. Longer ones are not: many ticks at once would not be real time either.
         """
         lost_s = late_s if late_s > tick_s else 0.0
         self.ticks, self.robot_s, self.lost_s = self.ticks + 1, self.robot_s + tick_s, self.lost_s + lost_s
@@ -75,11 +75,11 @@ class Punctuality:
 
     @property
     def speed(self) -> float:
-        """How fast the world's clock was, as a multiple of real time: 1 if it never lost anything."""
+        """Speed of the world's clock as a multiple of real time: 1 if it lost no time."""
         return self.robot_s / (self.robot_s + self.lost_s) if self.lost_s else 1.0
 
     def doubts(self) -> list[str]:
-        """What makes the result doubtful at the end of the run."""
+        """Reasons why the result is doubtful, at the end of the run."""
         if self.ticks < _TICKS_MIN:
             return []
         share, limit = self.unanswered_percent, self.limits.unanswered_percent
@@ -89,7 +89,7 @@ class Punctuality:
         return [deaf] * (share > limit) + [slow] * (self.speed < slowest)
 
     def summary(self) -> dict[str, float] | None:
-        """For `summary.json`; None in lockstep."""
+        """The figures for `summary.json`; None in lockstep."""
         if not self.ticks:
             return None
         return {

@@ -1,4 +1,4 @@
-"""Compares a robot's reports with how it was started."""
+"""Compares a robot's reports with its session."""
 
 from typing import TYPE_CHECKING
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def check_report(inbox: "Inbox", report: DecodedFrame) -> None:
-    """Checks a report that has just been taken in.
+    """Checks a report that was just received.
 
     Raises:
         SessionLostError: The robot may no longer be the one that was started, or no longer be alone.
@@ -30,7 +30,7 @@ def check_report(inbox: "Inbox", report: DecodedFrame) -> None:
 
 
 def check_heartbeat(inbox: "Inbox", heartbeat: DecodedFrame) -> None:
-    """Checks a heartbeat, also one in silence.
+    """Checks a heartbeat, including those sent in silence.
 
     Raises:
         SessionLostError: As in `check_report`.

@@ -17,7 +17,7 @@ from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import NOTHING_NEAR, Drive, MemoryKind, Ranges, Senses
 
 INCIDENTS_MAX = 1000
-"""Number of incidents that are listed; later ones are only counted."""
+"""Maximum number of incidents listed; later ones are only counted."""
 
 _TIMED_TICKS = 16
 _NO_FRAME = Frame(-1, b"")
@@ -31,13 +31,13 @@ class RobotClient:
         protocol: Encodes and decodes them.
         log: Records every frame sent and every valid frame received, in order. Repetitions, and frames
             that a robot sends only because it waits, are left out: the log does not depend on timing.
-        round_trip: How long answers take.
-        inbox: Takes in what comes.
-        waiting: Waits for it.
+        round_trip: Estimates the answer time.
+        inbox: Processes incoming frames.
+        waiting: Waits for incoming frames.
         dialogue: Sends commands.
-        punctuality: How close the run was to real time.
+        punctuality: Timing quality in real time.
         refused: The frames that were refused.
-        incidents: What happened that makes the result of the run doubtful, the first `INCIDENTS_MAX`.
+        incidents: The first `INCIDENTS_MAX` events that make the result of the run doubtful.
         unlisted: Number of incidents after those.
         firmware: The signals of the BOOT in the handshake, which name the firmware.
         memory_kind: The kind of memory of the behaviour with which it was started.
@@ -55,7 +55,7 @@ class RobotClient:
         lockstep: bool = True,
         owner: int = 1,
     ) -> None:
-        """Sends nothing yet.
+        """Creates a client; nothing is sent yet.
 
         Args:
             connection: Carries the frames.
@@ -92,7 +92,7 @@ class RobotClient:
 
     @property
     def reports(self) -> RobotReports:
-        """What the robot has reported."""
+        """The robot's latest reports."""
         return self.inbox.reports
 
     @property
@@ -123,7 +123,7 @@ class RobotClient:
             self.unlisted += 1
 
     def check_held(self) -> None:
-        """Notes if the robot, by its last report, does not hold what it was told here."""
+        """Notes an incident if, by its last report, the robot does not hold the commands sent here."""
         if not self.inbox.holds() or not self.inbox.is_as_started():
             self.distrust("the robot does not hold what it was told here: somebody else commands it")
             self.inbox.told.given_up = True
@@ -135,7 +135,7 @@ class RobotClient:
         self._senses = frame = self.protocol.encode_senses(senses, counter)
         if self.wants_ranges:
             self._send_ranges(senses.tick, counter)
-        # On some kernels, reading the clock takes longer than all the rest.
+        # On some kernels, reading the clock takes longer than everything else here.
         self._timed = inbox.ticks % _TIMED_TICKS == 0 or not self.round_trip.is_sure
         if self._timed:
             self._sent_s = self.connection.now()
@@ -152,14 +152,14 @@ class RobotClient:
         self.inbox.counts.sent += 1
 
     def repeat_senses(self) -> None:
-        """Sends the senses of the last tick again, and the distances that went before them."""
+        """Sends the senses of the last tick again, and the distances sent before them."""
         if self.wants_ranges:
             self.waiting.repeat(self._ranges)
         self._expect_answers(self.connection.line.copies)
         self.waiting.repeat(self._senses)
 
     def await_drive(self) -> Drive:
-        """In lockstep: the answer to the last senses, which are repeated until it comes.
+        """In lockstep: waits for the answer to the last senses, which are repeated until it arrives.
 
         Raises:
             SessionLostError: The robot does not answer by the deadline, may no longer be the one that was started, or
@@ -175,7 +175,7 @@ class RobotClient:
         return drive
 
     def receive_drive(self, timeout_s: float) -> Drive | None:
-        """The next fresh drive, or None after `timeout_s`; 0 polls. Other messages are taken in too.
+        """The next fresh drive, or None after `timeout_s`; 0 polls. Other messages are processed too.
 
         Raises:
             SessionLostError: The robot may no longer be the one that was started, or no longer be alone.
@@ -184,7 +184,7 @@ class RobotClient:
         return self.waiting.receive(self.inbox.take_drive, timeout_s)
 
     def settle(self) -> None:
-        """At the end of an environment: makes sure that the reported memory is the robot's, if frames get lost.
+        """At the end of an environment: confirms the reported memory if frames may have been lost.
 
         Raises:
             SessionLostError: The robot may no longer be the one that was started, or no longer be alone.
@@ -203,7 +203,7 @@ class RobotClient:
         self._settled = self.tick, self.memory
 
     def _note_lost_answers(self, ticks: int) -> None:
-        """Answers come in order: those that are still owed from before the last answered tick are lost."""
+        """Counts answers owed from before the last answered tick as lost, since answers come in order."""
         self._lossy = self._lossy or (self.inbox.owed > 0 and self._owed_tick < ticks)
 
     def check_settled(self) -> None:
@@ -221,13 +221,13 @@ class RobotClient:
         self.inbox.record(self._ranges)
 
     def _expect_answers(self, count: int) -> None:
-        """That many repeated senses are about to be answered."""
+        """Expects answers to this many repeated senses."""
         self._note_lost_answers(self.inbox.ticks - 1)
         self.inbox.owed += count
         self._owed_tick = self.inbox.ticks
 
     def _note_copies(self) -> None:
-        """The senses of this tick have gone out several times at once."""
+        """Notes that the senses of this tick were sent in several copies at once."""
         copies = self.connection.line.copies - 1
         self._expect_answers(copies)
         self.frames.repeated += copies
@@ -247,6 +247,6 @@ class RobotClient:
         return drive
 
     def _take_owed(self, frame: Frame) -> bool | None:
-        """True when each of the repeated senses was answered."""
+        """Returns True once all repeated senses were answered."""
         self.inbox.take(frame)
         return self.inbox.owed == 0 or None

@@ -9,10 +9,10 @@ from host_sim.protocol.memory_report import MemoryReport
 from host_sim.world.memory_kinds import kinds_of
 
 REPORTS = frozenset({"EMERGENCY", "MEMORY", "HEARTBEAT", "BOOT", "FAULTS", "CRASH", "HEALTH"})
-"""The messages that a robot sends of its own accord, beside DRIVE."""
+"""The messages, other than DRIVE, that a robot sends without a request."""
 
 FIRST_HALF, LAST_HALF = "MEMORY 0", "MEMORY 1"
-"""The kinds of reports that a memory is told in."""
+"""The kinds of reports that carry a memory."""
 
 _WHOLE = frozenset({"HEARTBEAT", "BOOT", "MEMORY", "FAULTS 0", "FAULTS 1", "HEALTH"})
 _PARTS = ("half", "page")
@@ -25,17 +25,17 @@ class RobotReports:
     Attributes:
         memory: The eight cells.
         faults: The robot's fault counters, by name; each stays at 255.
-        faults_before: Each of them as it was reported the time before.
+        faults_before: Previously reported value of each counter.
         heartbeat: The signals of its HEARTBEAT; empty before the first.
         boot: The signals of its BOOT, which names the firmware; empty before the first.
-        held: HEALTH's checksum of the commands that the robot carried out.
+        held: HEALTH's checksum of the commands that the robot has carried out.
         memories: Number of whole memories so far.
-        ended: Whether the last one of a whole report has come since `await_end`.
+        ended: Whether the last frame of a whole report has arrived since `await_end`.
         gap: Number of memories that were lost on the way before the first one since this was last set to None.
     """
 
     def __init__(self) -> None:
-        """Has not heard of the robot yet."""
+        """Starts without any report."""
         self.memory: tuple[int, ...] = (0,) * CELL_COUNT
         self.faults: dict[str, int] = {}
         self.faults_before: dict[str, int] = {}
@@ -47,7 +47,7 @@ class RobotReports:
         self.forget()
 
     def forget(self) -> None:
-        """Starts over with the alive counters; what was reported stays."""
+        """Restarts the alive counters; the reports are kept."""
         self._fresh: dict[str, Freshness] = {}
         self._missing: dict[str, int] = {}
         self._joined = MemoryReport()
@@ -65,16 +65,16 @@ class RobotReports:
 
     @property
     def missing(self) -> list[str]:
-        """What has not come since `await_all`."""
+        """Kinds of reports that have not arrived since `await_all`."""
         return sorted(_WHOLE - self._heard)
 
     @property
     def complete(self) -> bool:
-        """Whether each report has come since `await_all`."""
+        """Whether every report has arrived since `await_all`."""
         return not self.missing
 
     def is_awaited(self, decoded: DecodedFrame) -> bool:
-        """Whether this is a report that has not come since `await_all`."""
+        """Whether this is a report that has not arrived since `await_all`."""
         return _kind(decoded) in _WHOLE - self._heard
 
     def judge(self, frame: Frame, decoded: DecodedFrame, missing: int) -> Arrival:
@@ -82,7 +82,7 @@ class RobotReports:
 
         Args:
             frame: The report.
-            decoded: The same, decoded.
+            decoded: The decoded report.
             missing: Number of frames so far that are known to be lost. Where they explain a jump of the counter,
                 the report is new.
         """
@@ -94,18 +94,18 @@ class RobotReports:
         return Arrival.NEW if gap and arrival in (Arrival.OTHER, Arrival.ELSEWHERE) else arrival
 
     def last_of(self, names: Collection[str]) -> list[tuple[str, Frame]]:
-        """Each kind of reports with these names that have come, and the last one of that kind."""
+        """Each received kind of report with one of these names, and the last report of that kind."""
         kinds = self._fresh.items()
         return [(kind, fresh.last) for kind, fresh in kinds if kind.split()[0] in names and fresh.last is not None]
 
     @property
     def memory_is_last(self) -> bool:
-        """Whether the last two halves of a memory are those of a whole and valid one."""
+        """Whether the last two halves of a memory form a valid memory."""
         halves = self.last_of({"MEMORY"})
         return bool(halves) and all(counter_of(half) == self._memory_counter for _, half in halves)
 
     def go_on(self, kind: str, frame: Frame, missing: int) -> None:
-        """Notes that a report came that says what the last one of its kind said; none were lost between them.
+        """Notes a report with the same content as the last one of its kind; none were lost between them.
 
         Args:
             kind: The kind, as in `last_of`.
@@ -155,6 +155,6 @@ class RobotReports:
 
 
 def _kind(decoded: DecodedFrame) -> str:
-    """The message's name, with the number of its part where it has several."""
+    """The message's name, with the part number if it has several parts."""
     parts = [f" {decoded.signals[part]}" for part in _PARTS if part in decoded.signals]
     return decoded.name + "".join(parts)

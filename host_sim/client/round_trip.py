@@ -2,7 +2,7 @@
 
 _LEAST_S, _MOST_S = 0.01, 0.25
 _FIRST_S = 0.2
-# `_MOST_S` is short for a network, where retries add to the load; on a bus, one more frame does no harm.
+# `_MOST_S` would be short for a network, where retries add load; on a bus, one more frame does no harm.
 _GAIN, _VARIATION_GAIN = 1 / 8, 1 / 4
 _VARIATIONS = 4
 
@@ -18,11 +18,11 @@ class RoundTrip:
     Attributes:
         timeout_s: Time after which an answer is considered lost, s.
         is_sure: Whether no answer was late since the last sample.
-        mean_s: Mean time from a frame to its answer lately, s; None before the first.
+        mean_s: Recent mean time from a frame to its answer, s; None before the first.
     """
 
     def __init__(self) -> None:
-        """Knows nothing yet."""
+        """Starts without samples."""
         self.timeout_s = _FIRST_S
         self.is_sure = False
         self.mean_s: float | None = None
@@ -30,7 +30,7 @@ class RoundTrip:
         self._variation_s = 0.0
 
     def sample(self, seconds: float) -> None:
-        """Adds the time of an answer to a frame that was sent once: with repetitions it would be ambiguous."""
+        """Adds the answer time of a frame that was sent once; with repetitions it would be ambiguous."""
         self.is_sure = True
         if self._smoothed_s is None:
             self._smoothed_s, self._variation_s = seconds, seconds / 2
@@ -41,7 +41,7 @@ class RoundTrip:
         self.note(seconds)
 
     def note(self, seconds: float) -> None:
-        """Adds the time of an answer to the mean, repetitions included."""
+        """Adds an answer time to the mean, repetitions included."""
         self.mean_s = seconds if self.mean_s is None else self.mean_s + _GAIN * (seconds - self.mean_s)
 
     def back_off(self) -> None:

@@ -1,4 +1,4 @@
-"""What a robot was told at its start, and the session's counters."""
+"""The settings of a robot at its start, and the session's counters."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -6,14 +6,14 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Session:
-    """How a robot was started, so that it can be started again.
+    """The settings with which a robot was started, so that it can be restarted.
 
     Attributes:
         seed: Seed for its random turns, 0..2**32 - 1.
         profile: Number of its profile.
         settings: Parameters to set, by name.
-        frozen: Whether it was told not to learn.
-        halted: Whether it has stopped because its wheels did not do what they were told.
+        frozen: Whether its learning is frozen.
+        halted: Whether it has stopped because its wheels did not follow the command.
         missing: Number of frames that were missing before it was started.
     """
 
@@ -33,7 +33,7 @@ class FrameCounts:
         sent: Number of frames sent to the robot, each counted once.
         received: Number of valid frames received from it, each counted once.
         repeated: Number of frames sent again because no answer came in time.
-        duplicate: Number of valid frames received that were old news: answers to repeated frames, late or doubled
+        duplicate: Number of valid frames received with nothing new: answers to repeated frames, late or doubled
             ones, and a waiting robot's signs of life.
         lost: Number of senses that were not answered in time.
         refused: Number of frames that were damaged or foreign.
@@ -48,5 +48,5 @@ class FrameCounts:
 
     @property
     def missing(self) -> int:
-        """Number of frames that are known not to have come, or not whole."""
+        """Number of frames known to be lost or damaged."""
         return self.lost + self.repeated + self.refused

@@ -1,4 +1,4 @@
-"""Finds out what happened to a robot that dropped out of its session, and restarts it if possible."""
+"""Determines what happened to a robot that dropped out of its session, and restarts it if possible."""
 
 from host_sim.base.errors import FirmwareError, RivalError, SessionLostError, TwinError
 from host_sim.client.commands import freeze, start
@@ -12,12 +12,12 @@ _FIRMWARE = ("commit", "modified", "version_major", "version_minor")
 _ATTEMPTS = 5
 _LAST_S = 1.0
 _LOST_MIN = 50
-"""With this many frames missing since the start, it is the line that keeps the wheels from obeying."""
+"""With this many frames missing since the start, lost drives explain wheels that do not follow."""
 _AHEAD_MAX = COUNTERS // 2
 
 
 def drive_after(client: RobotClient, lost: SessionLostError) -> Drive:
-    """In lockstep, for a robot that was lost: the answer to the last senses, once the robot takes part again.
+    """In lockstep, for a lost robot: waits for the answer to the last senses after its recovery.
 
     Raises:
         TwinError: As in `recover`.
@@ -38,7 +38,7 @@ def drive_after(client: RobotClient, lost: SessionLostError) -> Drive:
 
 
 def settle(client: RobotClient) -> None:
-    """Makes sure that the memory that was reported last is the robot's.
+    """Makes sure that the last reported memory is the robot's.
 
     Raises:
         RobotError: As in `recover`.
@@ -51,11 +51,11 @@ def settle(client: RobotClient) -> None:
 
 
 def recover(client: RobotClient, lost: SessionLostError) -> None:
-    """Asks a robot how it is. One that has started anew is started again, with the memory that it had.
+    """Queries a robot's state. If it has rebooted, starts it again with the memory that it had.
 
     Raises:
         TwinError: Two robots have this node number.
-        RivalError: Somebody else commands the robot.
+        RivalError: Another simulator commands the robot.
         FirmwareError: The robot runs another firmware than before.
         RobotError: The robot does not answer.
     """
@@ -86,7 +86,7 @@ def _find_out(client: RobotClient, lost: SessionLostError) -> None:
         return
     _check_owner(client, lost)
     client.inbox.session = session
-    client.frames.refused += lost.booted  # a BOOT, but the robot did not start anew
+    client.frames.refused += lost.booted  # a BOOT although the robot did not reboot
     client.check_held()
 
 
@@ -100,16 +100,16 @@ def _ask_how_it_is(client: RobotClient, lost: SessionLostError) -> None:
 
 
 class _State:
-    """What the robot had reported before it was lost."""
+    """The robot's reports before it was lost."""
 
     def __init__(self, client: RobotClient) -> None:
         reports = client.reports
         self.boot, self.heartbeat, self.faults = reports.boot, reports.heartbeat, dict(reports.faults)
-        self.denied = reports.faults_before.get("denied", 0)  # that it stopped for may have been reported by now
+        self.denied = reports.faults_before.get("denied", 0)  # the latest may count the cause of its stop
 
 
 def _has_restarted(client: RobotClient, before: _State, lost: SessionLostError) -> bool:
-    """A robot that starts anew is stopped, says so, and counts its time and its BOOTs from 0 again."""
+    """Whether the robot has rebooted: it is stopped, reports so, and counts time and BOOTs from 0 again."""
     after = client.reports
     if after.heartbeat["state"]:
         return False
@@ -134,7 +134,7 @@ def _start_again(client: RobotClient, session: Session, memory: tuple[int, ...])
         handshake(client, client.connection.deadline_s)
         _start_as_before(client, session, None if kept else memory)
     finally:
-        client.reports.memory = memory  # what it had learned is not lost, even if it cannot be written back
+        client.reports.memory = memory  # its knowledge is kept, even if it cannot be written back
     client.distrust(
         f"the robot restarted ({cause}) with its memory {'kept' if kept else 'restored'}, and was started again"
     )
@@ -165,12 +165,12 @@ def _check_twins(client: RobotClient, before: int) -> None:
 
 
 def _has_halted(client: RobotClient, before: _State) -> bool:
-    """Whether the robot has stopped because of its wheels: no one else's fault, and it stays where it is."""
+    """Whether the robot has stopped by itself because of its wheels; it is then left at rest."""
     return not client.reports.heartbeat["state"] and client.faults["denied"] > before.denied
 
 
 def _note_halt(client: RobotClient, session: Session) -> None:
-    """Leaves a robot at rest whose wheels do not obey; one whose drives get lost is started again."""
+    """Leaves a robot at rest if its wheels do not follow; restarts it if drives were lost."""
     if client.frames.missing - session.missing < _LOST_MIN:
         session.halted, client.inbox.session = True, session
         client.distrust("the wheels did not do what they were told, and the robot has stopped")

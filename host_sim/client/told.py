@@ -1,4 +1,4 @@
-"""Checks which commands a robot obeyed: recomputes the CRC that it reports from the commands that it answered."""
+"""Checks which commands a robot obeyed: recomputes its reported CRC from the commands that it answered."""
 
 from collections.abc import Sequence
 from zlib import crc32
@@ -11,15 +11,15 @@ _BEGINNING = (Opcode.START, Opcode.RESUME)
 
 
 class Told:
-    """The commands that a robot has carried out, as HEALTH's `held` and the answer to a stop have them.
+    """The commands that a robot has carried out, to compare with HEALTH's `held` and the answer to a stop.
 
     Attributes:
         owned: Whether one of them has made this simulator its owner.
-        given_up: Whether somebody else has commanded it: from now on everything counts as agreement.
+        given_up: Whether another simulator has commanded it; from then on everything counts as agreement.
     """
 
     def __init__(self) -> None:
-        """Begins with a robot that was stopped without having an owner."""
+        """Starts with a robot that is stopped and has no owner."""
         self.owned = self.given_up = False
         self._crc = self._opcodes = 0
         self._proved = True
@@ -39,6 +39,6 @@ class Told:
         self.owned = opcode in _BEGINNING or (self.owned and opcode != Opcode.STOP)
 
     def agrees(self, held: int, memory: Sequence[int]) -> bool:
-        """Whether the robot got these commands and no others; without an owner, also whether this is its memory."""
+        """Whether the robot got exactly these commands; without an owner, also whether this is its memory."""
         crc = self._crc if self.owned else crc32(bytes(memory), self._crc)
         return self.given_up or (self._proved and held == crc & 0xFFFF)

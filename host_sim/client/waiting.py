@@ -1,4 +1,4 @@
-"""Waits for a robot's frames; time in which this host was stalled does not count."""
+"""Waits for a robot's frames; time in which this host is stalled does not count."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -21,12 +21,12 @@ _MEANS = 4
 
 @dataclass(frozen=True)
 class Waiting:
-    """Receives frames until one is what was waited for.
+    """Receives frames until the awaited one arrives.
 
     Attributes:
         connection: Carries the frames, and raises RobotError if the robot's process has ended.
-        round_trip: How long answers take.
-        inbox: Counts what is repeated, and what is answered more than once.
+        round_trip: Estimates the answer time.
+        inbox: Counts repeated frames and repeated answers.
     """
 
     connection: Connection
@@ -34,7 +34,7 @@ class Waiting:
     inbox: Inbox
 
     def receive(self, take: Callable[[Frame], T | None], timeout_s: float) -> T | None:
-        """The first result of `take` that is not None; None after the timeout.
+        """Returns the first result of `take` that is not None; None after the timeout.
 
         Only time spent waiting counts, not that of a stalled host or a lost line.
         """
@@ -47,14 +47,14 @@ class Waiting:
             elif (result := take(frame)) is not None:
                 return result
             left_s = max(left_s - min(self.connection.now() - before_s, asked_s), 0.0)
-            spare -= left_s <= _DUST_S  # what waits already is taken in, even if this host was held up
+            spare -= left_s <= _DUST_S  # frames already waiting are processed, even if this host was stalled
             if left_s <= _DUST_S and (frame is None or not spare):
                 return None
 
     def receive_or_repeat(
         self, repeat: Callable[[], None], take: Callable[[Frame], T | None], timeout_s: float
     ) -> T | None:
-        """As `receive`, for an answer: if it takes too long, `repeat` sends the question again.
+        """As `receive`, for an answer: if it takes too long, `repeat` sends the request again.
 
         While a robot works through earlier repetitions, further ones would only delay it. So the pauses double, and
         the timeout starts over, a few times at most. On a noisy line the number of copies doubles instead of the
@@ -86,6 +86,6 @@ class Waiting:
         self.inbox.counts.repeated += self.connection.line.copies
 
     def _first_wait_s(self) -> float:
-        """On a noisy line all copies may be lost, but none is held up."""
+        """Time before the first repetition; on a noisy line, copies may be lost but are not delayed."""
         expected_s, mean_s = self.round_trip.timeout_s, self.round_trip.mean_s
         return min(expected_s, _MEANS * mean_s) if self.connection.line.noisy and mean_s else expected_s

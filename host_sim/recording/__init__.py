@@ -1,1 +1,1 @@
-"""Recorded runs: log and world file, and what can be derived from them."""
+"""Recorded runs: log and world file, and the data derived from them."""

@@ -1,4 +1,4 @@
-"""Checks a log for the protocol alone, whatever firmware wrote it: what was asked is answered."""
+"""Checks a log against the protocol alone, for any firmware: every question has an answer."""
 
 from dataclasses import dataclass, field
 
@@ -10,12 +10,12 @@ from host_sim.recording.log_reader import LogReader, check_protocol
 
 @dataclass
 class Conversation:
-    """What a log shows of one robot.
+    """One robot's exchange in a log.
 
     Attributes:
         commands: Number of commands that were answered.
         drives: Number of senses that were answered.
-        problems: What is against the protocol, each with its time, as sentences without a full stop.
+        problems: Violations of the protocol, each with its time, as sentences without a full stop.
     """
 
     commands: int = 0
@@ -62,7 +62,7 @@ class _Check:
             self._complain("HEALTH holds something else than the commands that were answered")
 
     def _is_held(self, held: int) -> bool:
-        """Whether the robot holds what it was told; unknown while it has no owner, or a command is under way."""
+        """Whether the robot holds the commands sent; true if unknown: without an owner, or during a command."""
         return not self._told.owned or self._command is not None or self._told.agrees(held, ())
 
     def _ask(self, frame: Frame, decoded: DecodedFrame) -> None:
@@ -74,7 +74,7 @@ class _Check:
     def _answer(self, frame: Frame, decoded: DecodedFrame) -> None:
         asked = self._command
         if asked is None:
-            return  # once more
+            return  # a repetition
         if asked.data[1] != frame.data[1] and decoded.signals["result"] == Result.DONE:
             self._complain("an answer has another counter or opcode than its command")
         if decoded.signals["result"] == Result.DONE:

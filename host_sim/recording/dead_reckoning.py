@@ -19,7 +19,7 @@ _MARGIN_MM = 500.0
 
 @dataclass(frozen=True)
 class _Body:
-    """A body whose pose is all that is known."""
+    """A body of which only the pose is known."""
 
     pose: Pose
     lifted: bool = False
@@ -43,14 +43,14 @@ def reckon(recording: Recording, node: int, params: SimParams) -> Trajectory:
 
 
 def record(recorder: RunRecorder, tick: Tick, pose: Pose) -> None:
-    """Adds a tick of the only robot, of whose body no more is known than where it was."""
+    """Adds a tick of the only robot, of whose body only the pose is known."""
     recorder.between(0, tick.started, tick.written)
     recorder.histories[0].frozen = tick.frozen
     recorder.add(0, _Body(pose), tick.senses, tick.drive, tick.memory)
 
 
 def _poses(senses: Sequence[Senses], params: SimParams) -> list[Pose]:
-    """The pose after each tick, that is, when the next one's odometers are read; the first heading is 0."""
+    """The pose after each tick, when the next odometers are read; the first heading is 0."""
     pose = Pose(0.0, 0.0, 0.0)
     poses = []
     for before, next_ in pairwise(senses):
@@ -60,19 +60,19 @@ def _poses(senses: Sequence[Senses], params: SimParams) -> list[Pose]:
 
 
 def after(pose: Pose, before: Senses, now: Senses, params: SimParams) -> Pose:
-    """The pose to which a body has rolled since it sensed `before`, at `pose`."""
+    """The pose of a body at `now`, having rolled from `pose` since `before`."""
     left_mm = _distance_mm(before.odometer_left, now.odometer_left)
     right_mm = _distance_mm(before.odometer_right, now.odometer_right)
     return rolled(pose, left_mm, right_mm, params.wheel_track_mm)
 
 
 def _distance_mm(before: int, now: int) -> float:
-    """The distance between two counts, which wrap, provided that it is less than half of their range."""
+    """The distance between two counts, which wrap, if it is less than half of their range."""
     return ((now - before + ODOMETER_SPAN // 2) % ODOMETER_SPAN - ODOMETER_SPAN // 2) / ODOMETER_COUNTS_PER_MM
 
 
 def _framed(poses: Sequence[Pose], params: SimParams) -> tuple[SimParams, list[Pose]]:
-    """An arena with the path in its middle."""
+    """The dimensions of an arena with the path in its middle, and the poses there."""
     left, right = min(pose.x_mm for pose in poses), max(pose.x_mm for pose in poses)
     top, bottom = min(pose.y_mm for pose in poses), max(pose.y_mm for pose in poses)
     width = max(params.width_mm, right - left + 2 * _MARGIN_MM)

@@ -22,7 +22,7 @@ COLUMNS = (
 def summarize_fleet(config: RunConfig, results: Sequence[FleetResult], tick_s: float, wall_s: float) -> Summary:
     """Summarizes a fleet's run.
 
-    - seed, profile, worlds, robots: as asked for; the seed is the first robot's, each other one has the next number.
+    - seed, profile, worlds, robots: as configured; the seed is the first robot's, each other one has the next number.
     - environments: One entry per environment: number, robots_finished, robot_s (median robot time of the robots that
       finished, s; null if there are none), and learned (for each pattern, the number of robots that know nothing,
       left and right at its end).

@@ -81,7 +81,7 @@ def _schema() -> Any:
 
 
 def _for_pandas(others: Iterable[str]) -> dict[str, Any]:
-    """What has pandas read integers as Int64, which may be missing; without it they become floating-point numbers."""
+    """Metadata that makes pandas read integers as nullable Int64 instead of floating-point numbers."""
     integers = [name for name in COLUMNS if name not in others]
     columns = [
         {"name": name, "field_name": name, "pandas_type": "int64", "numpy_type": "Int64", "metadata": None}
@@ -91,7 +91,7 @@ def _for_pandas(others: Iterable[str]) -> dict[str, Any]:
 
 
 def _batches(frames: Iterable[Recorded]) -> Iterator[Any]:
-    """The table, some rows at a time."""
+    """The table in batches of rows."""
     pyarrow, schema, every = library("pyarrow", "export"), _schema(), rows(frames)
     while chunk := list(islice(every, _CHUNK)):
         columns = [

@@ -37,11 +37,11 @@ _DAMAGED = (gzip.BadGzipFile, EOFError, zlib.error)
 
 
 def frames_in(path: Path) -> Iterator[Recorded | str]:
-    """The frames of a log file, one after the other; of a frame that the protocol does not use, only its kind.
+    """Yields the frames of a log file in order; for frames that the protocol does not use, only their kind.
 
     Raises:
         UsageError: The file cannot be read, or is not a log.
-        UsageError: It is empty or damaged; the message names file and line. A last line of text without its end is
+        UsageError: It is empty or damaged; the message names file and line. An incomplete last line of text is
             left out.
     """
     with _open(path) as file:
@@ -53,7 +53,7 @@ def frames_in(path: Path) -> Iterator[Recorded | str]:
 
 @contextmanager
 def _open(path: Path) -> Iterator[BinaryIO]:
-    """The file's content, uncompressed."""
+    """The uncompressed contents of a file."""
     with ExitStack() as stack:
         try:
             file = stack.enter_context(open_bytes(path, _SIZE_MAX))
@@ -81,7 +81,7 @@ def _text(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
             if number == 1 and line.isascii():
                 raise UsageError(f"{path} is not a frame log: no whole line, only {line[:60].decode('ascii')!r}")
             if line.isascii():
-                return  # cut short while it was written
+                return  # cut short during writing
         try:
             read = reader.read(line)
         except ValueError as error:
@@ -91,14 +91,14 @@ def _text(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
 
 
 def _lines(file: BinaryIO) -> Iterator[bytes]:
-    """The lines, up to the last whole one of a compressed file that was cut short while it was written."""
+    """Yields lines, up to the last whole one of a compressed file cut short during writing."""
     with suppress(EOFError):
         for line in iter(partial(file.readline, _LINE_MAX), b""):
             yield line.removeprefix(codecs.BOM_UTF8)
 
 
 def _has_deltas(file: BinaryIO) -> bool:
-    """Looks through the whole log, but only if its time stamps leave room for doubt."""
+    """Whether time stamps are differences; scans the whole log only if they are ambiguous."""
     first = next(dropwhile(lambda line: not line.strip(), _lines(file)), b"")
     deltas = is_relative(first) and counts_from_the_line_before(_lines(file))
     file.seek(0)
@@ -112,7 +112,7 @@ def _not_a_frame(path: Path, number: int, line: bytes, why: str) -> UsageError:
 
 
 class _NumberedLines:
-    """A text file for `can.ASCReader` that knows the number of the line that it has given last."""
+    """A text file for `can.ASCReader` that counts the lines read."""
 
     def __init__(self, file: BinaryIO) -> None:
         self._text = io.TextIOWrapper(file, encoding="cp1252", errors="replace")

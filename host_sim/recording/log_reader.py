@@ -15,13 +15,13 @@ from host_sim.recording.log_text import Recorded
 __all__ = ["LogReader", "Recorded", "check_protocol", "first_memory", "frames_of", "nodes_in", "read_log"]
 
 FOREIGN = "foreign"
-"""The kind of frames with 11-bit identifiers that belong to no message of any node."""
+"""The kind of frames with 11-bit identifiers that no message of any node uses."""
 
 WIRE_1_LAYOUTS = frozenset((0xF6D7, 0x7827))
-"""What a HEARTBEAT of wire 1 ends with: the layout's hash, and in version 1.0 that of the file octet.dbc."""
+"""Last bytes of a HEARTBEAT of wire 1: the layout's hash, or in version 1.0 that of octet.dbc."""
 
 _WIRE_1_HEARTBEATS = range(0x181, 0x181 + NODE_MAX)
-"""None of them is an identifier of today's."""
+"""Identifiers of HEARTBEAT in wire 1; the current wire uses none of them."""
 
 
 class LogReader:
@@ -33,16 +33,16 @@ class LogReader:
     """
 
     def __init__(self, path: Path) -> None:
-        """Opens nothing yet."""
+        """Takes the path; the file is opened by iteration."""
         self.path = path
         self.skipped: Counter[str] = Counter()
 
     def __iter__(self) -> Iterator[Recorded]:
-        """Yields each frame of a robot or for one, in order.
+        """Yields each frame from or to a robot, in order.
 
         Raises:
-            UsageError: The file cannot be read, is no log, is damaged, cut short or of wire 1; the message names file
-                and line, or what helps.
+            UsageError: The file cannot be read, is not a log, is damaged, cut short or of wire 1; the message names
+                file and line, or the remedy.
         """
         skipped = self.skipped = Counter()
         for read in frames_in(self.path):
@@ -72,7 +72,7 @@ def _is_of_wire_1(frame: Frame) -> bool:
 
 
 def read_log(path: Path) -> LogReader:
-    """The log in a file; see `LogReader`."""
+    """Returns a reader of the log in a file; see `LogReader`."""
     return LogReader(path)
 
 
@@ -83,7 +83,7 @@ def nodes_in(log: Iterable[Recorded]) -> list[int]:
 
 
 def frames_of(log: Iterable[Recorded], node: int) -> Iterator[Recorded]:
-    """The frames of one node, or for it."""
+    """Yields the frames from or to one node."""
     return (line for line in log if node_of(line.frame.id) == node)
 
 

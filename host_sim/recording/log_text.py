@@ -1,9 +1,9 @@
-"""Frames as text, one line each: what candump prints in its several formats, and what python-can and asc2log write.
+"""Frames as text, one line each: the formats of candump, python-can and asc2log.
 
 | written by                          | a line                                                             |
 | ----------------------------------- | ------------------------------------------------------------------ |
 | `candump -L`, `-l`; a run's own log | `(1700000000.020000) can0 041#C3110100`                            |
-| python-can, asc2log, `candump -Lx`  | the same, with ` R` or ` T` behind it                              |
+| python-can, asc2log, `candump -Lx`  | the same, followed by ` R` or ` T`                                 |
 | `candump -ta`, `log2long`           | ` (1700000000.020000)  can0  041   [4]  C3 11 01 00`               |
 | `candump -tA`                       | ` (2026-11-21 18:26:30.020000)  can0  041   [4]  C3 11 01 00`      |
 | `candump -tz`, `candump -td`        | ` (000.020000)  can0  041   [4]  C3 11 01 00`                      |
@@ -21,14 +21,14 @@ from host_sim.protocol.codec import Frame
 
 
 class Recorded(NamedTuple):
-    """One frame of a log: its time in us, which is robot time in a run's own log, and the frame."""
+    """One frame of a log, and its time in us: robot time in a run's own log."""
 
     time_us: int
     frame: Frame
 
 
 EXTENDED, REMOTE, FD, XL, ERROR = "extended", "remote", "FD", "XL", "error"
-"""The kinds of frames that the robot's protocol does not use."""
+"""Kinds of frames that the robot's protocol does not use."""
 
 _HEX2 = rb"[0-9A-Fa-f]{2}"
 _STAMP = rb"\((\d{1,12})\.(\d{6})(?:\d{3})?\)"
@@ -56,7 +56,7 @@ class LineReader:
     """Reads the lines of one log, in order.
 
     Attributes:
-        deltas: Whether each relative time stamp counts from the one before it (`candump -td`).
+        deltas: Whether relative time stamps count from the previous line (`candump -td`).
     """
 
     def __init__(self, *, deltas: bool = False) -> None:
@@ -64,12 +64,12 @@ class LineReader:
         self._time_us = 0
 
     def read(self, line: bytes) -> Recorded | str | None:
-        """The frame in a line with its line end; the kind of a frame that the protocol does not use.
+        """Reads a line with its line end. Returns a frame, or the kind of a frame that the protocol does not use.
 
-        None: the line says nothing; it is empty, or explains an error frame (`candump -e`).
+        None: the line has no frame; it is empty, or explains an error frame (`candump -e`).
 
         Raises:
-            ValueError: It is not such a line, or is cut short.
+            ValueError: The line has no known format, or is cut short.
         """
         match = _FRAME.fullmatch(line)
         if match is not None:
@@ -109,10 +109,10 @@ class LineReader:
 
 
 def time_in(stamp: bytes) -> int:
-    """The time in a stamp, us: seconds, or a date, which is read as UTC.
+    """The time of a time stamp, us. The stamp is in seconds, or a date, taken as UTC.
 
     Raises:
-        ValueError: It is neither.
+        ValueError: The stamp is neither.
     """
     if match := _SECONDS.fullmatch(stamp):
         return int(match[1]) * 1_000_000 + int(match[2])
@@ -123,7 +123,7 @@ def time_in(stamp: bytes) -> int:
 
 
 def counts_from_the_line_before(lines: Iterable[bytes]) -> bool:
-    """Whether the relative time stamps of a log are differences: if so, they go back somewhere."""
+    """Whether the relative time stamps of a log are differences: these decrease somewhere."""
     last = 0
     for line in lines:
         match = _RELATIVE.match(line)
@@ -137,7 +137,7 @@ def counts_from_the_line_before(lines: Iterable[bytes]) -> bool:
 
 
 def is_relative(line: bytes) -> bool:
-    """Whether a line has a relative time stamp: one of `candump -tz` or `-td`."""
+    """Whether a line has a relative time stamp, as written by `candump -tz` or `-td`."""
     return _RELATIVE.match(line) is not None
 
 

@@ -36,7 +36,7 @@ def check_writable(path: Path) -> None:
     """Checks that a memory file can be written, so that nothing learned is lost.
 
     Raises:
-        UsageError: It cannot.
+        UsageError: It cannot be written.
     """
     target = Path(os.path.realpath(path))
     try:
@@ -53,12 +53,12 @@ class MemorySaver:
     """Keeps a memory file up to date while a robot learns.
 
     If the new memory knows less than the file did before the run, as after a reset, the old one is kept as `FILE.1`.
-    What was learned in the same run may be forgotten without a message. The memory of a doubtful run goes to
+    Turns learned in the same run may be forgotten without a message. The memory of a doubtful run goes to
     `FILE.doubtful`, and the file is restored to its content before the run.
     """
 
     def __init__(self, path: Path, loaded: Sequence[int] | None, report: Callable[[str], object]) -> None:
-        """Saves nothing yet.
+        """Takes the file; nothing is saved yet.
 
         Args:
             path: The memory file.
@@ -101,7 +101,7 @@ class MemorySaver:
         self.save(memory, doubtful=doubtful)
 
     def _save_beside(self, memory: Memory) -> None:
-        """Saves a doubtful memory; with the first one, the file gets back what it held before the run."""
+        """Saves a doubtful memory; the first time, the file is restored to its content before the run."""
         if memory == self._set_aside:
             return
         beside = self._path.with_name(self._path.name + ".doubtful")

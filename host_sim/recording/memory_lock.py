@@ -1,4 +1,4 @@
-"""One run at a time learns into a memory file."""
+"""Locks a memory file, so that only one run at a time learns into it."""
 
 import os
 from collections.abc import Iterator
@@ -16,11 +16,11 @@ _INSTEAD = "choose another file with --memory"
 def memory_lock(path: Path) -> Iterator[None]:
     """Keeps other runs away from a memory file, whether or not it exists yet.
 
-    The lock is on an empty file beside it, for the memory file itself is replaced whenever something is learned. A
+    The lock is on an empty file beside it, since the memory file itself is replaced whenever something is learned. A
     run that is killed leaves the empty file; the next run locks it again.
 
     Raises:
-        UsageError: It cannot be locked, or another run is using it.
+        UsageError: The file cannot be locked, or another run is using it.
     """
     target = Path(os.path.realpath(path))
     beside = target.with_name(f".{target.name}.lock")
@@ -29,12 +29,12 @@ def memory_lock(path: Path) -> Iterator[None]:
         yield
     finally:
         with suppress(OSError):
-            beside.unlink()  # on Windows it stays, for it is open
+            beside.unlink()  # on Windows it stays, since it is open
         os.close(descriptor)
 
 
 def _open_locked(beside: Path, path: Path) -> int:
-    """Opens and locks the file; once more if the run that had it locked removed it in between."""
+    """Opens and locks the file; retries if the run that held the lock removed it in between."""
     while True:
         descriptor = _open(beside, path)
         try:
@@ -55,7 +55,7 @@ def _open(beside: Path, path: Path) -> int:
 
 
 def _is_still(beside: Path, descriptor: int) -> bool:
-    """Whether the open file is the one that others find."""
+    """Whether the path still leads to the open file."""
     try:
         return os.path.samestat(beside.stat(), os.fstat(descriptor))
     except FileNotFoundError:

@@ -56,7 +56,7 @@ def read_recording(log: LogReader, protocol: Protocol) -> Recording:
 
 
 class _Ticks:
-    """The ticks of one robot in a log, which stay there: a run of an hour has 180,000."""
+    """The ticks of one robot, read from the log on demand: a run of an hour has 180,000."""
 
     def __init__(self, log: LogReader, protocol: Protocol) -> None:
         self._log, self._protocol = log, protocol
@@ -73,10 +73,10 @@ class _Ticks:
 
 
 class TickReader:
-    """Groups frames into ticks. A tick ends with the next SENSES or order: drives after that are too late.
+    """Groups frames into ticks. A tick ends with the next SENSES or command: later drives do not count.
 
     Attributes:
-        recording: What is known of the recording so far, without its ticks.
+        recording: The recording so far, without its ticks.
         ticks: Number of ticks so far.
     """
 
@@ -116,17 +116,17 @@ class TickReader:
             self._accept_command(decoded.signals)
 
     def _is_question(self, decoded: DecodedFrame) -> bool:
-        """Whether a robot that has stopped by itself is asked how it is, before its drive of the tick is taken."""
+        """Whether a report is requested from a robot that has stopped by itself, before its drive in this tick."""
         return self._lockstep and self._fresh is None and decoded.signals["opcode"] == Opcode.REPORT
 
     def _begin_tick(self, senses: Senses) -> Iterator[Tick]:
-        """Begins a tick, unless its senses were only sent again."""
+        """Begins a tick, unless the senses are a repetition."""
         if senses != self._begun:
             yield from self._end_tick()
             self._begun = self._senses = senses
 
     def _end_tick(self) -> Iterator[Tick]:
-        """The tick that has ended; none if there is none, or no answer to it."""
+        """Yields the tick that has ended, if there is one and it was answered."""
         senses, fresh = self._senses, self._fresh
         if senses is not None and (fresh is not None or not self._lockstep):
             between = self._started, tuple(self._written)
@@ -137,7 +137,7 @@ class TickReader:
         self._senses, self._fresh = None, None
 
     def _applied(self, tick: int) -> Drive:
-        """The drive that the body applied: the answer, else the previous one for a while, then rest (`RealTime`)."""
+        """The drive that the body applied: the answer, or the previous one for a while, then rest (`RealTime`)."""
         came = self._fresh is not None
         self._last = self._fresh or self._last
         return applied(self._last, tick, came)

@@ -16,10 +16,10 @@ _AT_REST = (Reason.STOP, Reason.SILENCE)
 _SILENT = 1 << Fault.SILENCE
 _MISSED = _SILENT | 1 << Fault.MISSED | 1 << Fault.STALE
 _NEAR = 10
-"""A loss within a gap is assumed to begin and end among so many of its first and last senses."""
+"""A loss within a gap is assumed to begin and end within this many of its first and last senses."""
 
 _STATES_MAX = 256
-"""Maximum number of states in which the robot may be, by what it seems to have heard."""
+"""Maximum number of states of the robot to track, given the frames that it may have received."""
 
 
 @dataclass(frozen=True)
@@ -28,8 +28,8 @@ class Difference:
 
     Attributes:
         time_us: Robot time, us.
-        recorded: The frame in the log; None if the log has none.
-        replayed: That of the current firmware; None if it sends none.
+        recorded: The frame in the log; None if there is none.
+        replayed: The frame of the current firmware; None if it sends none.
     """
 
     time_us: int
@@ -44,7 +44,7 @@ class Replay:
     Attributes:
         drives: Number of equal drives.
         difference: The first difference; None if there is none.
-        stopped: Whether the log has the end of the run.
+        stopped: Whether the log contains the end of the run.
         unanswered: Number of senses that were sent in real time and never answered.
     """
 
@@ -55,12 +55,12 @@ class Replay:
 
 
 def replay(log: LogReader, protocol: Protocol, program: bytes | None = None) -> Replay:
-    """Feeds the frames to one robot from a log to the firmware, and compares drives and memories.
+    """Feeds the frames sent to one robot in a log to the firmware, and compares drives and memories.
 
     Args:
         log: The log.
         protocol: The protocol of the robot's node.
-        program: The program that was its brain; None for the firmware's own.
+        program: The program used as its brain; None for the firmware's own.
 
     Raises:
         UsageError: The log is of another protocol, has no heartbeat of this node, or holds a damaged frame.
@@ -92,7 +92,7 @@ class _Comparison:
         self._log, self._protocol = log, protocol
         node, memory = protocol.node, first_memory(log, protocol)
         self._link = ProgrammedLink(program, node, memory=memory) if program else InProcessLink(node, memory)
-        self._states: list[bytes] = []  # which the robot may be in; none: that of the link
+        self._states: list[bytes] = []  # possible states of the robot; empty: the link's state
         self._waiting: list[Frame] = []
         self._faults = 0
         self._pending: dict[int, Frame] = {}
@@ -103,7 +103,7 @@ class _Comparison:
         self._memory: tuple[int, ...] | None = None
 
     def accept(self, line: Recorded) -> Difference | None:
-        """Compares one frame of the log; None if it is as the firmware has it."""
+        """Compares one frame of the log; None if it matches the firmware's."""
         self._time_us, frame = line
         decoded = self._protocol.decode(frame)
         if decoded is None:
@@ -114,7 +114,7 @@ class _Comparison:
             return None
         if decoded.name in _TO_ROBOT:
             opcode = decoded.signals.get("opcode")
-            # What was lost on a bus is sent again, and answered again. A report is asked for in the middle of a tick.
+            # Frames lost on a bus are sent and answered again. Reports are requested in the middle of a tick.
             difference = self.end() if frame != self._sent and opcode != Opcode.REPORT else None
             self._sent = frame if opcode != Opcode.REPORT else self._sent
             self.stopped = opcode == Opcode.STOP or (self.stopped and opcode == Opcode.REPORT)
@@ -128,11 +128,11 @@ class _Comparison:
         return self._compare_memory(frame, decoded) if decoded.name == "MEMORY" else None
 
     def overhear(self, frame: Frame) -> None:
-        """The robot hears another one's memory."""
+        """Feeds another robot's memory to the robot."""
         self._feed(frame)
 
     def end(self) -> Difference | None:
-        """The drive of the firmware that the log does not have."""
+        """The firmware's drive that is missing from the log, if any."""
         if not self._pending or not self._lockstep:
             return None
         return Difference(self._time_us, None, self._pending.popitem()[1])
@@ -162,10 +162,10 @@ class _Comparison:
         reason, tick = decoded.signals["reason"], decoded.signals["tick"]
         if reason in _AT_REST and not self._lockstep:
             self._faults |= _SILENT if reason == Reason.SILENCE else 0
-            return None  # on its own clock, a robot that received nothing says so; here no time passes
+            return None  # a robot on its own clock reports silence; no time passes here
         answer = self._pending.pop(tick, None) if self._lockstep else self._answer_in_real_time(frame, tick)
         if answer is None and reason == Reason.STOP:
-            return None  # a stopped robot rests, and a stop is sent again until all its reports have come
+            return None  # a stopped robot rests; stop is repeated until all reports have arrived
         if answer is None and frame == self._drive:
             return None
         self._drive = frame
@@ -175,10 +175,10 @@ class _Comparison:
     def _answer_in_real_time(self, drive: Frame, tick: int) -> Frame | None:
         """The firmware's answer, if some number of unanswered senses explains the recorded drive.
 
-        Often several guesses do. All of them are kept, and later drives rule out the wrong ones.
+        Often several numbers do. All of them are kept, and later drives rule out the wrong ones.
         """
         numbers = [self._tick_of(frame) for frame in self._waiting]
-        end = numbers.index(tick) + 1 if tick in numbers else len(numbers)  # the host may have gone on meanwhile
+        end = numbers.index(tick) + 1 if tick in numbers else len(numbers)  # the host may have continued meanwhile
         sent = self._waiting[:end]
         senses = [i for i, number in enumerate(numbers[:end]) if number is not None]
         self.unanswered += len(senses[:-1])
@@ -200,14 +200,14 @@ class _Comparison:
         return drive
 
     def _ways(self, sent: list[Frame], senses: list[int]) -> list[list[Frame | None]]:
-        """What the robot may have heard of what was sent since its last drive; None: nothing for long.
+        """Possible sequences of frames that the robot received since its last drive; None in them is silence.
 
-        The log has all senses that were sent. Of those that it does not answer, a robot hears the first, if any, and
-        the last ones: they are lost on the way, or wait for so long that it skips to the newest.
+        The log has all senses that were sent. Of the unanswered ones, a robot receives the first ones, if any, and
+        the last ones: the others are lost, or wait for so long that the robot skips to the newest.
 
         Args:
-            sent: Senses and commands, which do arrive.
-            senses: Where the senses are among them.
+            sent: Senses and commands; commands always arrive.
+            senses: Indices of the senses in `sent`.
         """
         count = len(senses)
         near = [i for i in range(count) if i < _NEAR or i >= count - _NEAR]
@@ -221,7 +221,7 @@ class _Comparison:
         return ways or [list(sent)]
 
     def _tick_of(self, frame: Frame) -> int | None:
-        """The tick of senses."""
+        """The tick of a SENSES frame; None for other frames."""
         decoded = self._protocol.decode(frame) if frame.id == self._protocol.id_of("SENSES") else None
         return decoded and decoded.signals["tick"]
 
@@ -234,7 +234,7 @@ class _Comparison:
 
 
 def report(outcome: Replay, name: str, protocol: Protocol) -> str:
-    """The outcome as text, which begins with the name of the log."""
+    """The outcome as text, beginning with the name of the log."""
     if outcome.difference is None:
         ending = "" if outcome.stopped else "; the log ends before the run does"
         return f"{name}: {outcome.drives} drives, no difference{ending}"

@@ -33,7 +33,7 @@ class Resimulation:
     Attributes:
         trajectory: Every tick of the run.
         record: The run's world; None if it is not known.
-        stopped: Whether the log has the end of the run; if not, the log or the run was cut short.
+        stopped: Whether the log contains the end of the run; if not, the log or the run was cut short.
         note: One line about the frames of the log that were skipped; None if there were none.
     """
 
@@ -67,7 +67,7 @@ def resimulate(log: Path, node: int = 1, *, ignore_world: bool = False) -> Resim
 
     Raises:
         UsageError: A file cannot be read.
-        OctetError: The log is not one of this protocol, or was recorded in another world.
+        OctetError: The log is of another protocol, or was recorded in another world.
     """
     lines = read_log(log)
     recording = read_recording(lines, Protocol(node))
@@ -93,7 +93,7 @@ def _world_record(log: Path, lines: LogReader, recording: Recording, node: int) 
 
 
 class _Resimulator:
-    """Repeats a run in the environments of a record or, if it lists none, in one after the other as in a run."""
+    """Repeats a run in the environments of a record or, if it lists none, in the order of a default run."""
 
     def __init__(self, log: Path, record: WorldRecord, recordings: dict[int, Recording]) -> None:
         self._log, self._params, self._record = log, record.world.params, record
@@ -107,7 +107,7 @@ class _Resimulator:
         self._recorder = RunRecorder(self._params, self._recordings[0].boredom_limit, memories)
 
     def run(self) -> Trajectory:
-        """Repeats every tick that all robots' recordings have."""
+        """Repeats every tick that is in all robots' recordings."""
         for tick, robots in enumerate(zip(*(recording.ticks for recording in self._recordings), strict=False)):
             self._run_tick(tick, robots)
         for _, scene in self._recorder.trajectory.scenes:
@@ -135,7 +135,7 @@ class _Resimulator:
         return [history.node for history in self._recorder.histories]
 
     def _prepare(self, tick: int) -> Arena:
-        """The arena of a tick, after a person's changes before that tick."""
+        """The arena of a tick, with the changes made by people before that tick."""
         arena, changed = self._arena, False
         begun = self._due(tick)
         if begun is not None:

@@ -1,4 +1,4 @@
-"""The folder of a run's files: one run at a time writes to it."""
+"""The folder of a run's files, locked so that only one run at a time writes to it."""
 
 import os
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ def run_folder(path: Path) -> Iterator[None]:
     """Creates the folder if it does not exist, and keeps other runs out of it.
 
     Raises:
-        UsageError: It cannot be created or locked, or another run is using it.
+        UsageError: The folder cannot be created or locked, or another run is using it.
     """
     descriptor = _open(path)
     try:

@@ -19,10 +19,10 @@ T = TypeVar("T")
 Memory = Sequence[int]
 
 TICKS_MAX = 450_000
-"""Length that a trajectory may have: 26 MB, and some 2 MB as a page. Longer runs retain their last environments."""
+"""Maximum length of a trajectory: 26 MB, and some 2 MB as a page. Longer runs retain their last environments."""
 
 _SLACK = 8
-"""A trajectory gets longer by this part of its length before it is cut: cutting moves all that is retained."""
+"""A trajectory grows by this fraction before it is cut, since cutting moves all retained data."""
 
 _FOOD_EATEN = attrgetter("food_eaten")
 _EVENTS = (Reason.TRIAL, Reason.BOREDOM)
@@ -42,7 +42,7 @@ class BodyState(Protocol):
 
 
 class RunRecorder:
-    """Records each tick, either called after each tick of a simulation or through `enter` and `add`.
+    """Records each tick: called after each tick of a simulation, or fed through `enter` and `add`.
 
     Attributes:
         trajectory: The trajectory so far: about `TICKS_MAX` ticks before the current environment.
@@ -68,7 +68,7 @@ class RunRecorder:
 
     @classmethod
     def of(cls, simulation: Simulation, boredom_limit: int) -> "RunRecorder":
-        """A recorder for a simulation that has not begun yet, called after each of its ticks."""
+        """Creates a recorder for a simulation that has not begun yet; call it after each tick."""
         memories = {client.node: client.memory for client in simulation.clients}
         simulation.watch = recorder = cls(simulation.params, boredom_limit, memories)
         return recorder
@@ -113,7 +113,7 @@ class RunRecorder:
         self.trajectory.tracks[robot].poses_flat.extend(body.pose)
 
     def between(self, robot: int, started: Memory | None, written: Sequence[Memory]) -> None:
-        """Records what happened to one robot between the last tick and the next one.
+        """Records starts and memory changes of one robot between the last tick and the next one.
 
         Args:
             robot: Index of the robot.
@@ -133,7 +133,7 @@ class RunRecorder:
         _note(track.memories, track.ticks, list(history.memory))
 
     def add_block(self, robot: int, block: RobotBlock, memory: Memory) -> None:
-        """Adds one robot's ticks of a block: what a robot eats or reports belongs to the last one, and ended it.
+        """Adds one robot's ticks of a block. Food eaten and reports belong to its last tick, which they ended.
 
         Args:
             robot: Index of the robot; each robot is added once per block.
@@ -161,7 +161,7 @@ class RunRecorder:
                 track.meals.append(trajectory.ticks - 1)
 
     def _take(self, robot: int, rows: Any, memory: Memory) -> None:
-        """Adds the rows of ticks; what the robot reports belongs to the last one."""
+        """Adds the rows of ticks; the robot's report belongs to the last one."""
         history, track = self.histories[robot], self.trajectory.tracks[robot]
         for tick, reason, cell, trial in history.take(rows):
             _note(track.trials, tick, trial)
@@ -195,5 +195,5 @@ def _note(changes: Changes[T], tick: int, value: T) -> None:
 
 
 def _name(scene: EnvironmentScene) -> tuple[int, int, int]:
-    """What identifies an environment."""
+    """The key that identifies an environment."""
     return scene["seed"], scene["number"], scene["first_tick"]

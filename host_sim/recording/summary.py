@@ -1,4 +1,4 @@
-"""The results of a run, as `summary.json` and as a few lines of text."""
+"""The results of a run as `summary.json` and as a few lines of text."""
 
 import json
 from collections.abc import Sequence
@@ -57,19 +57,19 @@ def summarize(
 ) -> Summary:
     """Summarizes a run that has ended.
 
-    - seed, profile, world, bus: as asked for; the bus of an emulated robot is qemu, or its board.
+    - seed, profile, world, bus: as configured; the bus of an emulated robot is qemu, or its board.
     - environments: One entry per environment: finished, food_eaten, ticks, robot_s, and robots, with each robot's
       node, food_eaten, trials, remembered_turns, boredom_turns, collisions, stuck_sensors (the number of them at the
       end) and memory (the eight cells at the end of the environment).
     - robots: One entry per robot: node, memory (the eight cells at the end), frames (sent, received, repeated,
-      duplicate, lost, refused), faults (the robot's own fault counters), saturated (those of them that stand at 255,
-      their limit, and may be more), round_trip_ms (mean time of an answer), real_time (ticks, how
+      duplicate, lost, refused), faults (the robot's own fault counters), saturated (those at their limit of 255,
+      whose true counts may be higher), round_trip_ms (mean time of an answer), real_time (ticks, how
       fast the clock was, share of ticks without an answer, longest gap, share that began late by more than a tick,
       the most that one was late; null in lockstep), line (outages and unsent frames).
-    - changes: The scheduled changes: those that happened, those refused as impossible, and those missed because the
+    - changes: The scheduled changes: those made, those refused as impossible, and those missed because the
       run or their environment was too short.
-    - incidents: What happened that makes the result doubtful, each with tick and node; empty for a sound run. Of very
-      many, the last entry of a robot says how many are left out.
+    - incidents: Events that make the result doubtful, each with tick and node; empty for a sound run. If there are
+      too many, the last entry of a robot is the number left out.
     - log_sha256: SHA-256 of the lines of the log without the data of BOOT, in hexadecimal.
     - wall_s: Duration of the run, s of wall-clock time.
     - real_time_factor: Robot time divided by wall-clock time.
@@ -101,7 +101,7 @@ def summarize(
 
 
 def text_of(content: dict[str, Any]) -> str:
-    """A summary in a few lines of text: what each robot has learned, what changed, and the speed."""
+    """A summary in a few lines of text: the robots' memories, the changes, and the speed."""
     robots, changed = content["robots"], content["changes"]
     whose = [f"robot {robot['node']}: " if len(robots) > 1 else "" for robot in robots]
     words = {"happened": "happened", "refused": "could not happen", "missed": "came after the end"}
@@ -163,7 +163,7 @@ def _robot(client: RobotClient) -> dict[str, Any]:
 
 
 def _link(robot: dict[str, Any]) -> str:
-    """What went wrong between simulator and robot; empty if nothing did."""
+    """The faults between simulator and robot, in words; empty if there were none."""
     frames, faults, saturated = robot["frames"], robot["faults"], robot["saturated"]
     counts = {
         "repeated": frames["repeated"],

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 Changes = list[tuple[int, T]]
-"""A value that changes seldom: pairs of the tick from which it holds, and the value."""
+"""The history of a value that changes rarely: pairs of (first tick, value)."""
 
 AXES = len(Pose._fields)
 
@@ -35,7 +35,7 @@ class Event(NamedTuple):
 
 
 NEW_CELLS = [Cell(0, cell, uses=0, learned=-1, by_hand=0) for cell in range(CELL_COUNT)]
-"""What is known of the cells of a robot that has just been started."""
+"""State of the cells of a robot that has just been started."""
 
 
 @dataclass
@@ -47,12 +47,12 @@ class RobotTrack:
         first_tick: The first tick that is retained.
         memories: The eight cells.
         trials: The last trial, current or ended.
-        lessons: Changes of cells, learned or made by hand: before `first_tick` only the last of each cell.
-        meals: The ticks in which it ate.
+        lessons: Changes of cells, learned or by hand; before `first_tick`, only the last of each cell.
+        meals: Ticks in which it ate.
         poses_flat: x and y in mm, heading in rad, tick after tick.
         rows_flat: The fields of `ROW`, 16 bits each, tick after tick.
-        begun: The ticks in which trials and about-faces began, each with the reason.
-        cells: What is known of the cells: each change, in order.
+        begun: Ticks in which trials and about-faces began, each with the reason.
+        cells: History of the cells: each change, in order.
     """
 
     node: int
@@ -92,21 +92,21 @@ class RobotTrack:
         return self.rows_flat[ROW.index(name) :: len(ROW)]
 
     def trail(self, first: int, end: int) -> list[tuple[float, float, int]]:
-        """For each tick from `first` to before `end`, x and y in mm after it, and the reason of its drive."""
+        """For each tick from `first` up to, excluding, `end`: x and y in mm after it, and the reason of its drive."""
         begin, stop = (AXES * (tick - self.first_tick) for tick in (first, end))
         reasons = self.column("reason")[begin // AXES : stop // AXES]
         return list(zip(*(self.poses_flat[begin + axis : stop : AXES] for axis in (0, 1)), reasons, strict=True))
 
     def ticks_of(self, reason: Reason) -> list[int]:
-        """The retained ticks in which turns with a reason began."""
+        """The retained ticks in which turns of a reason began."""
         return [tick for tick, why in self.begun if why == reason]
 
     def cells_at(self, tick: int) -> list[Cell]:
-        """What was known of each cell after a retained tick."""
+        """State of each cell after a retained tick."""
         return list({it.cell: it for it in self.cells[: bisect_right(self.cells, tick, key=itemgetter(0))]}.values())
 
     def forget(self, first: int) -> None:
-        """Drops everything before a tick but what is known of the cells; lessons are not dropped here."""
+        """Drops everything before a tick, except for the state of the cells; lessons are not dropped here."""
         del self.poses_flat[: (first - self.first_tick) * AXES]
         del self.rows_flat[: (first - self.first_tick) * len(ROW)]
         self.memories, self.trials = since(self.memories, first), since(self.trials, first)
@@ -117,7 +117,7 @@ class RobotTrack:
         self.first_tick = first
 
     def known(self, tick: int) -> Learned:
-        """What the robot knew after a retained tick."""
+        """The robot's knowledge after a retained tick."""
         cells = self.cells_at(tick)
         return Learned(
             memory=at(self.memories, tick),
@@ -137,8 +137,8 @@ class Trajectory:
         params: The dimensions of the world.
         boredom_limit: Number of remembered turns in a row at which a robot is bored.
         tracks: The robots, in the order of their nodes.
-        scenes: The environments, each again after every change by a person.
-        news: What changed in the world and the bodies, in sentences.
+        scenes: The environments, each repeated after every change by a person.
+        news: Changes of the world and the bodies, in sentences.
         meals: For each piece of the scene's food, 1 if it was eaten, else 0.
         environments: Number of environments so far, including those that are no longer retained.
     """
@@ -207,5 +207,5 @@ def at(changes: Sequence[tuple[int, T]], tick: int) -> T:
 
 
 def since(changes: Changes[T], first: int) -> Changes[T]:
-    """The changes from a tick on, beginning with the value at that tick."""
+    """The changes from a tick on, starting with the value at that tick."""
     return [(first, at(changes, first)), *(change for change in changes if change[0] > first)]

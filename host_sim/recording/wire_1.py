@@ -1,7 +1,7 @@
-"""Logs of wire 1, the layout of the messages before today's: each frame is written anew as one or more of today's.
+"""Logs of wire 1, the previous message layout: each frame is converted to one or more frames of the current layout.
 
-What wire 1 did not have is filled in: alive counters that go on, an owner, the reason of a rest in silence. A damaged
-frame, or one whose command does not exist, has no place in today's wire and is left out.
+Fields missing from wire 1 are filled in: running alive counters, an owner, the reason for a rest in silence. Damaged
+frames, and those with an unknown command, cannot be converted and are left out.
 """
 
 import re
@@ -18,15 +18,15 @@ from host_sim.recording.log_reader import FOREIGN, WIRE_1_LAYOUTS, LogReader
 from host_sim.recording.log_text import Recorded
 
 DAMAGED = "damaged"
-"""The kind of damaged frames, and of those whose layout is not that of wire 1."""
+"""The kind of damaged frames, and of those with another layout than wire 1."""
 
 _TICKS = 4096
 _OWNER = 1
 _HALF = CELL_COUNT // 2
 _SIDE_BITS = 2
 
-# A line: identifier of node 1, length, message, then for each signal its name, @ the opcode with which it is there,
-# its first bit and its length, below 0 if it is signed.
+# Each line: identifier for node 1, length, message, then for each signal its name, @ the opcode that selects it,
+# its first bit and its length, negative if it is signed.
 _TABLE = """
 041 8 COMMAND crc:0:8 counter:8:4 opcode:12:4 lockstep:16:1 profile@2:24:8 seed@2:32:32 parameter@4:24:8 \
 value@4:32:16 mask@5:24:8 cells@5:32:16 freeze@7:24:1
@@ -65,10 +65,10 @@ _LAYOUTS = {message.name: MessageLayout(message) for message in _MESSAGES}
 
 
 class OldLog(LogReader):
-    """A log of wire 1, as if it had been recorded with today's messages."""
+    """A log of wire 1, as if recorded with the current messages."""
 
     def __iter__(self) -> Iterator[Recorded]:
-        """Yields today's frames, in order.
+        """Yields frames of the current wire, in order.
 
         Raises:
             UsageError: The file cannot be read, or is not a log.
@@ -90,10 +90,10 @@ class OldLog(LogReader):
 
 
 class Transcoder:
-    """Writes the frames of one log of wire 1 anew, in their order.
+    """Converts the frames of one log of wire 1, in order.
 
     Attributes:
-        is_recognised: Whether a HEARTBEAT has said that they are of wire 1.
+        is_recognised: Whether a HEARTBEAT has identified the log as wire 1.
     """
 
     def __init__(self) -> None:
@@ -101,7 +101,7 @@ class Transcoder:
         self._robots = {node: _Robot(node) for node in range(1, NODE_MAX + 1)}
 
     def transcode(self, recorded: Recorded) -> list[Recorded] | None:
-        """The frames of today that say what a frame of wire 1 said; None if it is damaged or no frame of wire 1."""
+        """The current frames equivalent to a frame of wire 1; None if it is damaged or not of wire 1."""
         signals = _decode(recorded.frame)
         if signals is None:
             return None
@@ -115,14 +115,14 @@ def _decode(frame: Frame) -> dict[str, int] | None:
     if owner is None or len(frame.data) != owner[1].length:
         return None
     name = owner[1].name
-    # CRC-8 SAE J1850: a start of 0xFF is the same as turning all bits of the first byte.
+    # CRC-8 SAE J1850: an initial value of 0xFF is equivalent to inverting the first byte.
     if name in _PROTECTED and frame.data[0] != crc8(frame.id ^ 0xFF, frame.data) ^ 0xFF:
         return None
     return _LAYOUTS[name].unpack(frame.data)
 
 
 class _Robot:
-    """One robot's frames, with what has to be remembered from one to the next."""
+    """Converts one robot's frames, and holds the state from one to the next."""
 
     def __init__(self, node: int) -> None:
         self._protocol = Protocol(node)
@@ -133,13 +133,13 @@ class _Robot:
         self._boot: dict[str, int] = {}
 
     def frames(self, name: str, signals: dict[str, int]) -> Iterator[Frame]:
-        """Today's frames for a message of wire 1."""
+        """Yields the current frames for a message of wire 1."""
         kept = {signal: number for signal, number in signals.items() if signal not in ("crc", "counter")}
         method: Any = getattr(self, f"_{name.lower()}")
         yield from method(kept)
 
     def _counted(self, name: str, /, **signals: int) -> Frame:
-        """A message with a counter of its own that goes on."""
+        """A message with the next value of its own counter."""
         counter = self._counters[name] = (self._counters.get(name, -1) + 1) % COUNTERS
         return self._protocol.encode(name, {"counter": counter, **signals})
 
@@ -154,7 +154,7 @@ class _Robot:
             yield self._counted("COMMAND", owner=_OWNER, **signals)
 
     def _write(self, mask: int, cells: int) -> Iterator[Frame]:
-        """One WRITE for each half of the memory."""
+        """Yields a WRITE for each half of the memory."""
         sides = [cells >> _SIDE_BITS * cell & 3 for cell in range(CELL_COUNT)]
         for half in range(2):
             content = {f"byte_{i}": side for i, side in enumerate(sides[half * _HALF : (half + 1) * _HALF])}
@@ -176,7 +176,7 @@ class _Robot:
         yield self._of_tick("DRIVE", answered, signals)
 
     def _of_tick(self, name: str, tick: int, signals: dict[str, int]) -> Frame:
-        """A message whose counter goes on with the tick."""
+        """A message whose counter advances with the tick."""
         counted = {"counter": tick % COUNTERS, "tick": tick % TICK_SPAN}
         return self._protocol.encode(name, {**signals, **counted})
 

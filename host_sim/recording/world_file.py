@@ -1,7 +1,7 @@
-"""`run.world.json` beside a run's log: the environments of the run and what a person changed in them, by tick.
+"""`run.world.json` beside a run's log: the environments of the run and the changes made by people, by tick.
 
-The log holds the robot's senses, drives and commands, this file the world around it. Together they are enough to
-reconstruct the whole run.
+The log holds the robot's senses, drives and commands; this file holds the world around it. Together they are enough
+to reconstruct the whole run.
 """
 
 import json
@@ -65,7 +65,7 @@ def read_world(path: Path) -> WorldRecord:
 
     Raises:
         UsageError: The file cannot be read.
-        UsageError: The file is not a world file of this format; the message says why.
+        UsageError: The file is not a world file of this format; the message gives the reason.
     """
     try:
         content = json.loads(read_bytes(path, _SIZE_MAX))
@@ -105,7 +105,7 @@ def _program(text: Any) -> bytes | None:
 
 
 def _kind(body: Any) -> BodyKind | None:
-    """What the bodies are like; the page of the laboratory calls the kit by its name."""
+    """Properties of the bodies; the laboratory page identifies the kit by name."""
     return body_kind(body) if body in (IDEAL, KIT) else kind_from(body)
 
 
@@ -117,7 +117,7 @@ def _refused(entry: dict[str, Any]) -> Refused:
 
 
 def _world_content(world: World) -> dict[str, Any]:
-    """The field that names a world, or has all of it if a person wrote it; it is left out for the random one."""
+    """The field with a world's name, or with a written world in full; omitted for the random world."""
     if isinstance(world.draw, WrittenLayout):
         return {"world": {"name": world.name, **content_of(world.draw, world.params)}}
     return {} if world.name == RANDOM else {"world": world.name}
@@ -135,7 +135,7 @@ def _world(content: dict[str, Any]) -> World:
 
 
 def _front_extra_mm(content: dict[str, Any]) -> float:
-    """A file that does not say is of a world with five equal cones."""
+    """Extra reach of the front cone; 0 if the file has no value, as its five cones are equal."""
     extra_mm = content.get("front_extra_mm", 0.0)
     if not isinstance(extra_mm, float) or not 0.0 <= extra_mm <= _FRONT_EXTRA_MAX_MM:
         raise ValueError(f"front_extra_mm must be a decimal number from 0.0 to {_FRONT_EXTRA_MAX_MM}")

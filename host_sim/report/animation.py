@@ -1,4 +1,4 @@
-"""An animated GIF of a run: the arena with the robot's senses, its reason in words, and its memory."""
+"""An animated GIF of a run: the arena with the robot's senses, the reason for its action, and its memory."""
 
 from dataclasses import dataclass
 from io import BytesIO
@@ -92,7 +92,7 @@ def draw_frame(trajectory: Trajectory, tick: int, width_px: int) -> Image.Image:
 
 
 def _fitting_px(words: str, room_px: int) -> int:
-    """The size at which a line fits."""
+    """The font size at which a line fits."""
     return min(_TEXT_PX, int(_TEXT_PX * room_px / ImageFont.load_default(_TEXT_PX).getlength(words)))
 
 

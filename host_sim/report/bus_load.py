@@ -1,4 +1,4 @@
-"""Bus load of the robots: the worst case by octet.dbc, and as measured in a log. The tables are Markdown."""
+"""Bus load of the robots: worst case from octet.dbc, and measured from a log. The tables are in Markdown."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -11,17 +11,17 @@ from host_sim.recording.log_text import Recorded
 from host_sim.transport.bit_rates import BIT_RATES
 
 COMFORTABLE = 0.7
-"""The share of a bus that its regular traffic may take, so that every frame comes in time."""
+"""The bus load up to which every regular frame arrives in time."""
 
 
 @dataclass
 class Share:
-    """What was seen of one message.
+    """The measured traffic of one message.
 
     Attributes:
         frames: Number of frames.
         bits: Bits on the bus, stuff bits included.
-        worst: The most that frames of these lengths can take.
+        worst: Maximum number of bits of frames of these lengths.
     """
 
     frames: int = 0
@@ -31,12 +31,12 @@ class Share:
 
 @dataclass
 class MeasuredLoad:
-    """What was seen in a log.
+    """The measured traffic of a log.
 
     Attributes:
         seconds: Time from the first frame to the last.
-        nodes: The robots.
-        messages: What was seen of each message, all robots together.
+        nodes: Node numbers of the robots.
+        messages: Traffic of each message, all robots together.
     """
 
     seconds: float = 0.0
@@ -45,7 +45,7 @@ class MeasuredLoad:
 
     @property
     def bits_a_second(self) -> float:
-        """All messages together."""
+        """Bits per second of all messages together."""
         return sum(share.bits for share in self.messages.values()) / self.seconds if self.seconds else 0.0
 
 
@@ -67,7 +67,7 @@ def measure(log: Iterable[Recorded]) -> MeasuredLoad:
 
 
 def load_tables() -> str:
-    """What robots take at worst: each message, how many robots fit, and the share of the bus by number of robots."""
+    """Worst-case tables: each message, the number of robots that fit, and the bus load by number of robots."""
     return f"{_message_table()}\n{_fit_table()}\n{_share_table()}"
 
 
@@ -78,7 +78,7 @@ def _fit_table() -> str:
 
 
 def _fitting(bits_a_second: float) -> str:
-    """How many robots fit, and how many of those that ask for all messages."""
+    """How many robots fit, in general and if they use all messages."""
     counts = [min(NODE_MAX, int(bits_a_second / bits)) for bits in _robot_bits()]
     return _with_brackets([str(count) for count in counts])
 
@@ -118,7 +118,7 @@ def _regular(message: Message) -> list[str]:
 
 
 def measured_text(load: MeasuredLoad) -> str:
-    """What was seen in a log: each message as a table, and the share of the bus in a sentence."""
+    """Measured traffic: a table of the messages, and a sentence with the bus load."""
     table = _table([_MEASURED_HEAD, *(_measured_row(load, name) for name in MESSAGES if name in load.messages)])
     if not load.seconds:
         return f"{table}\nThe log has no times.\n"

@@ -1,8 +1,8 @@
-"""DBC and KCD files for any nodes, made of octet.dbc.
+"""DBC and KCD files for any nodes, derived from octet.dbc.
 
 Each node has its own messages: `N3_SENSES` for node 3, with signals such as `N3_SENSES_feel`, so that the signals of
-several messages and robots stay apart in tools that list them by their names alone. To what octet.dbc says, start
-values and the parameters of the end-to-end protection are added.
+several messages and robots stay distinct in tools that list them by name alone. Start values and the parameters of
+the end-to-end protection are added to the contents of octet.dbc.
 """
 
 from collections import OrderedDict
@@ -43,21 +43,21 @@ _E2E = {
         _number("E2ECounterOffset", 63),
     )
 }
-"""Attributes with the words of AUTOSAR's E2E profile 1; lengths and offsets are in bits."""
+"""Attributes named as in AUTOSAR's E2E profile 1; lengths and offsets are in bits."""
 
 
 def dbc_text(nodes: Iterable[int]) -> str:
-    """A DBC file for nodes."""
+    """The text of a DBC file for nodes."""
     return database(nodes).as_dbc_string(sort_signals=sort_signals_by_start_bit)
 
 
 def kcd_text(nodes: Iterable[int]) -> str:
-    """A KCD file for nodes. KCD has no place for send types, start values and the end-to-end protection."""
+    """The text of a KCD file for nodes. KCD cannot hold send types, start values or end-to-end protection."""
     return database(nodes).as_kcd_string(sort_signals=sort_signals_by_start_bit)
 
 
 def database(nodes: Iterable[int]) -> Database:
-    """The messages of nodes, as cantools has them."""
+    """The messages of nodes, as a database of cantools."""
     octet = cantools.database.load_file(DBC)
     assert isinstance(octet, Database)
     assert octet.dbc is not None
@@ -92,7 +92,7 @@ def _sender(name: str, node: int) -> str:
 
 
 def _with_protection(original: Message, data_id: int) -> DbcSpecifics:
-    """The attributes of a message, with those of its end-to-end protection if it has one."""
+    """The attributes of a message, including those of its end-to-end protection if it has one."""
     attributes = OrderedDict(original.dbc.attributes if original.dbc else {})
     places = {signal.name: signal.start for signal in original.signals}
     if CRC in places:

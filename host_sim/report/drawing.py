@@ -1,4 +1,4 @@
-"""What all pictures share: a plan in mm with its colours, and how to draw robot, food, cones and cells on it."""
+"""Common drawing functions: a plan in mm with its colours, and robot, food, cones and cells on it."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -21,10 +21,10 @@ PAPER, INK, FLOOR, OBSTACLE = "#ffffff", "#20262e", "#f6f5f1", "#4b535d"
 CONE_LIT, CONE_DARK = "#e69f00", "#e1e4e8"
 FOOD_MM = 100.0
 FRONT_BITS = (FEEL["FRONT_RIGHT"], FEEL["FRONT"], FEEL["FRONT_LEFT"])
-"""The bits of feel that make the pattern: front-right, front, front-left."""
+"""The bits of feel that form the pattern: front-right, front, front-left."""
 
-# Everything but text is drawn this many times too large and then shrunk, for smooth edges. What is wide is smooth
-# with less, and would take much memory.
+# Everything but text is drawn this many times too large and then shrunk, for smooth edges. Wide images need less
+# and would take much memory.
 _OVERSIZE, _WIDE_OVERSIZE, _WIDE_PX = 3, 2, 1000
 _LEAF, _POT, _LEAVES = "#5b7f2b", "#8c564b", 8
 _FOOD, _FRAME_MM = "#009e73", 16.0
@@ -53,10 +53,10 @@ MARKS = {
     Reason.AVOID: Mark("avoids", "#4b535d", 44.0, 5),
     Reason.PROGRAM: Mark("as its program says", "#4b535d", 36.0, 3),
 }
-"""By reason; colours after Okabe and Ito, which colour-blind people can tell apart."""
+"""Marks by reason; the colours are those of Okabe and Ito, which colour-blind people can tell apart."""
 
 PATHS = (Reason.WANDER, Reason.TOWARD_FOOD)
-"""The reasons for which the robot drives rather than turns."""
+"""Reasons with which the robot drives instead of turning."""
 
 
 class Plan:
@@ -136,7 +136,7 @@ def draw_obstacles(plan: Plan, bars: Iterable[Sequence[Point]], params: SimParam
 
 
 def draw_scene(plan: Plan, scene: EnvironmentScene, eaten: Sequence[int], params: SimParams) -> None:
-    """Draws what stands in an arena: walls, bars, plants and food; for each piece, 1 if it was eaten, else 0."""
+    """Draws the contents of an arena: walls, bars, plants and food; `eaten` is 1 for each piece eaten, else 0."""
     draw_obstacles(plan, (((ax, ay), (bx, by)) for _, ax, ay, bx, by in scene["bars"]), params)
     _draw_plants(plan, scene.get("plants", []))
     for (x, y), is_eaten in zip(scene["food"], eaten, strict=True):
@@ -144,7 +144,7 @@ def draw_scene(plan: Plan, scene: EnvironmentScene, eaten: Sequence[int], params
 
 
 def _draw_plants(plan: Plan, plants: Iterable[Sequence[float]]) -> None:
-    """Draws plants, given by id, centre and radius in mm: leaves around a pot, as large as they are."""
+    """Draws plants, given by id, centre and radius in mm: leaves around a pot, to scale."""
     for _, x, y, radius in plants:
         plan.disc((x, y), 2 * radius, _LEAF)
         for leaf in range(_LEAVES):

@@ -1,4 +1,4 @@
-"""`fleet.html`: the robots of a fleet on the move, to play and scrub, in one page without a server.
+"""`fleet.html`: the motion of a fleet's robots, with playback controls, in one page without a server.
 
 The page's element `fleet` has one object, with lengths in mm and headings in mrad:
 
@@ -43,7 +43,7 @@ def write_fleet_page(path: Path, config: RunConfig, film: FleetFilm, params: Sim
     Args:
         path: The file to write; an existing one is replaced.
         config: The run.
-        film: What it shows, with at least one sample.
+        film: The samples, at least one.
         params: The dimensions of its worlds.
 
     Raises:

@@ -1,4 +1,4 @@
-"""The picture of a fleet: when each robot finished, one square each; what they learned; their common world."""
+"""The picture of a fleet: each robot's finishing time as a square, what they learned, and their common world."""
 
 from collections.abc import Sequence
 from io import BytesIO
@@ -74,7 +74,7 @@ def _shade(part: float) -> str:
 
 
 def _curves(groups: dict[int, list[FleetResult]], tick_s: float, longest_s: float) -> Image.Image:
-    """The share of the robots that have finished by a time, a curve for each environment."""
+    """The share of robots that have finished by a time: a curve for each environment."""
     image = Image.new("RGB", (WIDTH_PX, _CURVE_PX + _AXIS_PX), PAPER)
     draw, width = ImageDraw.Draw(image), WIDTH_PX - _AXIS_PX * 3
     _axes(image, width, longest_s)
@@ -105,7 +105,7 @@ def _axes(image: Image.Image, width: int, longest_s: float) -> None:
 
 
 def _mosaics(groups: dict[int, list[FleetResult]], tick_s: float, longest_s: float) -> Image.Image:
-    """For each environment, a square for each robot, row by row: how soon it finished."""
+    """For each environment, a square for each robot, row by row, coloured by its finishing time."""
     gaps = (len(groups) - 1) * GAP_PX
     side_px = (WIDTH_PX - gaps) // max(2, len(groups))
     panels = [

@@ -1,4 +1,4 @@
-"""The laboratory in the page of a recorded run: octet.html, and what the robots of the run were told.
+"""The laboratory in the page of a recorded run: octet.html, and the commands to the robots of the run.
 
 The page's element `laboratory` has one object, with
 
@@ -31,12 +31,12 @@ _WORLD_MAX = 16_000_000
 def laboratory(
     log: Path, trajectory: Trajectory, record: WorldRecord | None, commands: Iterable[tuple[int, Frame]]
 ) -> dict[str, Any]:
-    """What the page of a run needs to ask "What if?", or why it cannot.
+    """The data with which the page of a run answers "What if?", or the reason why it cannot.
 
     Args:
         log: The run's log, beside its world file.
         trajectory: The run.
-        record: Its world; None if that is not known.
+        record: Its world; None if unknown.
         commands: Each command in the order of their ticks, with the number of ticks before it.
 
     Raises:
@@ -59,7 +59,7 @@ def laboratory(
 
 
 def commands_in(log: LogReader) -> Iterator[tuple[int, Frame]]:
-    """The frames of a log that may be commands, each with the number of ticks before it."""
+    """The possible command frames of a log, each with the number of ticks before it."""
     senses, tick = Protocol(1).id_of("SENSES"), 0
     for line in log:
         tick += line.frame.id == senses

@@ -18,7 +18,7 @@ _TEMPLATE, _WORKER = "octet.html", "sim/page_worker.js"
 
 
 def write_octet_page(path: Path) -> int:
-    """Writes the page; the same sources give the same bytes.
+    """Writes the page; equal sources give equal bytes.
 
     Args:
         path: The file to write; an existing one is replaced.
@@ -38,7 +38,7 @@ def octet_page() -> str:
     """The page's HTML.
 
     Its element `parts` has the WebAssembly and the worker's script, packed, the dimensions of all named worlds and
-    the programs to begin with; `speakers` those who can be talked to.
+    the sample programs; `speakers` has the scripts to talk with.
 
     Raises:
         OctetError: The WebAssembly is not built.
@@ -57,7 +57,7 @@ def octet_page() -> str:
 
 
 def world_dimensions() -> dict[str, dict[str, Any]]:
-    """The dimensions of each world with a name, what a drawing needs of them, and what its layouts are drawn from."""
+    """For each named world: its dimensions, those needed for drawing, and the parameters of its layouts."""
     boredom = PARAMETERS["boredom_limit"].default
     return {
         world.name: {**asdict(world.params), "style": world.style, "measures": measures(world.params, boredom)}
@@ -66,6 +66,6 @@ def world_dimensions() -> dict[str, dict[str, Any]]:
 
 
 def programs() -> dict[str, str]:
-    """The programs that a person can begin with, by name."""
+    """The sample programs by name."""
     files = sorted((PACKAGE / "program" / "examples").glob("*.bas"))
     return {path.stem: path.read_text(encoding="utf-8") for path in files}

@@ -1,12 +1,12 @@
 """Pages as single files: a template of `web/` with the files that it refers to inserted.
 
-So that a template can be opened as it is:
+Templates can be opened as they are; in the bundled page:
 - `<link rel="stylesheet" href="X">` becomes the style sheet;
 - `<script type="module" src="X"></script>` becomes that module, after all modules that it imports, directly or not,
   each in its own function. An import must be one line, `import { a, b } from "./y.js";`, an export the word before a
   declaration. A module in a folder of `web/` is known by its path from there, `folder/y.js`.
 
-Comments that have lines of their own, types in a line, indentation and empty lines are left out: a third of a page.
+Comments on lines of their own, inline types, indentation and empty lines are removed: a third of a page.
 """
 
 import base64
@@ -57,7 +57,7 @@ def modules_of(*names: str) -> list[str]:
 
 
 def _as_function(name: str, places: Mapping[str, int]) -> str:
-    """A module as a function that is called once and returns the module's exports, which go to its place."""
+    """A module as a function that is called once and returns its exports, which are stored at its index."""
     text = _read(name)
     exported = ", ".join(match[2] for match in _EXPORT.finditer(text))
     body = _IMPORT.sub(lambda match: f"const {match[1]} = modules[{places[_place(name, match[2])]}];", text)
@@ -75,7 +75,7 @@ def _in_order(name: str, seen: set[str]) -> Iterator[str]:
 
 
 def _place(name: str, needed: str) -> str:
-    """The path from `web/` of a module that another one imports."""
+    """The path, relative to `web/`, of a module that another one imports."""
     return posixpath.normpath(posixpath.join(posixpath.dirname(name), needed))
 
 

@@ -18,7 +18,7 @@ def in_palette(image: Image.Image) -> Image.Image:
 
 @cache
 def _palette() -> Image.Image:
-    """The colours that are drawn with, each with its blends into paper and floor and half-way into every other."""
+    """The drawing colours, with their blends into paper and floor, and halfway into each other."""
     bases = dict.fromkeys(
         ImageColor.getrgb(colour) for colour in (*_COLOURS, *(mark.colour for mark in MARKS.values()))
     )

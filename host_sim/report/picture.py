@@ -53,7 +53,7 @@ class Panel:
         trails: For each robot and control tick, the position at its end (x and y in mm) and the reason of its drive.
         starts: Each robot's pose after the first tick.
         nodes: Each robot's node number on the bus.
-        news: What changed in it, each with the time since its start, s of robot time.
+        news: The changes in it, each with the time since its start, s of robot time.
     """
 
     scene: EnvironmentScene
@@ -84,7 +84,7 @@ def write_picture(path: Path, trajectory: Trajectory) -> None:
 
 
 class _Panels:
-    """The panels of a run's last environments, each made when it is drawn: many thousand points take much memory."""
+    """The panels of a run's last environments, created on demand: many thousand points take much memory."""
 
     def __init__(self, trajectory: Trajectory) -> None:
         self._trajectory = trajectory
@@ -111,7 +111,7 @@ def _panel(trajectory: Trajectory, first: int, end: int) -> Panel:
 
 
 class Panels(Protocol):
-    """Panels in their order."""
+    """An ordered collection of panels."""
 
     def __len__(self) -> int: ...
 
@@ -142,7 +142,7 @@ def draw_run(
 
 
 def omissions(environments: int, robots: int) -> list[str]:
-    """What a picture of a number of environments and robots leaves out, in words.
+    """Describes what a picture of a number of environments and robots leaves out.
 
     >>> omissions(environments=20, robots=1)
     ['the last 9 of 20 environments']
@@ -156,7 +156,7 @@ def omissions(environments: int, robots: int) -> list[str]:
 
 
 def _news(panel: Panel) -> list[str]:
-    """What changed in an environment, a line each."""
+    """The changes in an environment, one per line."""
     name = f"environment {panel.scene['number']}"
     return [f"{name}, after {seconds:.0f} s: {sentence}" for seconds, sentence in panel.news]
 
@@ -175,7 +175,7 @@ def _line(text: str) -> Image.Image:
 
 
 def _environment_rows(panels: Panels, params: SimParams) -> list[Image.Image]:
-    """The last environments, side by side, each under its caption; then what changed in them."""
+    """The last environments, side by side, each under its caption; then the changes in them."""
     columns = min(_COLUMNS, len(panels))
     width_px = (WIDTH_PX - (columns - 1) * GAP_PX) // columns
     shown = islice(panels, max(0, len(panels) - _MOST_ENVIRONMENTS), None)
@@ -196,7 +196,7 @@ def _caption(panel: Panel) -> str:
 
 
 def _environment(panel: Panel, params: SimParams, width_px: int) -> Image.Image:
-    """The arena from above, with what the robots did in it."""
+    """The arena from above, with the robots' paths."""
     plan = Plan(params.width_mm, params.height_mm, width_px, FLOOR)
     for start, trail in zip(panel.starts, panel.trails, strict=True):
         draw_trail(plan, start[:2], trail)
@@ -230,7 +230,7 @@ def _end(start: Pose, trail: Sequence[tuple[float, float, int]]) -> Pose:
 
 
 def _legend(params: SimParams) -> Image.Image:
-    """What the colours and signs mean."""
+    """The legend of colours and signs."""
     words = [mark.words for mark in MARKS.values()] + ["start", "end", "food left", "food eaten"]
     column_px = WIDTH_PX // _LEGEND_COLUMNS
     places = [(i % _LEGEND_COLUMNS * column_px, i // _LEGEND_COLUMNS * LINE_PX) for i in range(len(words))]

@@ -191,7 +191,7 @@ def _signal_row(signal: Signal) -> str:
 
 
 def _range(signal: Signal) -> str:
-    """The range of a signal. cantools reads a range of 0..0 as none: the value table gives it then."""
+    """The range of a signal. cantools reads a range of 0..0 as none: the value table is used then."""
     if signal.minimum is None:
         return f"{min(signal.choices or [0])}..{max(signal.choices or [0])}"
     return f"{signal.minimum}..{signal.maximum}"

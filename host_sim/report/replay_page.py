@@ -1,7 +1,7 @@
 """A run as one HTML page that needs no server.
 
 The page is `web/replay.html` as `page_bundle` puts it together; its element `run` has the run, its element
-`laboratory` what laboratory.py has for it, and `speakers` those who can be talked to: see speakers.py.
+`laboratory` the data of laboratory.py, and `speakers` the scripts to talk with: see speakers.py.
 
 The run is one object. Measures, EnvironmentScene, State, Trial and Lesson are as in view/state_types.py. The value in
 a pair holds from the pair's tick until that of the next pair; the first pair is that of tick `first_tick`.
@@ -12,14 +12,14 @@ a pair holds from the pair's tick until that of the next pair; the first pair is
     first_tick   the first tick on the page; 0 except for very long runs, of which it shows the last part
     ticks        number of ticks
     scenes       [[tick, EnvironmentScene], ...]: one for each environment and for each change of it by a person
-    news         [[tick, sentence], ...]: what changed in the world and the bodies
+    news         [[tick, sentence], ...]: changes of the world and the bodies
     eaten        [[tick, [0 or 1 for each piece of the scene's food]], ...]
     robots       one object per robot, in the order of their nodes:
         node         its node number on the bus
         memory       [[tick, [8 cells]], ...]
         trials       [[tick, Trial or null], ...]: State.trial
         lessons      [Lesson, ...]: before first_tick the last one of each cell, and none after the last tick
-        cells        [[tick, cell, uses, learned, by_hand], ...]: what State has of a cell, from that tick on
+        cells        [[tick, cell, uses, learned, by_hand], ...]: State of a cell, from that tick on
         events       [[tick, kind], ...], in order: kind is "environment", "change", "trial", "lesson", "boredom" or
                      "eat"
         columns      the names of the columns, in the order of the data
@@ -68,7 +68,7 @@ def write_page(path: Path, trajectory: Trajectory, title: str, laboratory: Mappi
         path: The file to write; an existing one is replaced.
         trajectory: The run, of at least one tick.
         title: Title of the page.
-        laboratory: What laboratory.py has for the page; None if it has nothing.
+        laboratory: The data of laboratory.py; None if there is none.
 
     Raises:
         OctetError: The file cannot be written.
@@ -92,7 +92,7 @@ def run_data(trajectory: Trajectory, title: str) -> dict[str, Any]:
 
 
 def omissions(trajectory: Trajectory) -> list[str]:
-    """What the page of a very long run leaves out, in words."""
+    """Describes what the page of a very long run leaves out."""
     kept = len(trajectory.begun())
     return [f"the last {kept} of {trajectory.environments} environments"] if kept < trajectory.environments else []
 
@@ -112,12 +112,12 @@ def _robot_data(trajectory: Trajectory, robot: int) -> dict[str, Any]:
 
 
 def _shown(changes: Iterable[T], end: int) -> list[T]:
-    """The changes before a tick: what people changed after the last one shows in none."""
+    """The changes before a tick: those made after the last tick are not visible in any."""
     return [change for change in changes if change[0] < end]
 
 
 def pack(columns: Iterable[Sequence[int]]) -> str:
-    """Encodes columns as text, one at a time, for all of a long run's take much memory; see above.
+    """Encodes columns as text, one at a time, since all columns of a long run take much memory; see above.
 
     Args:
         columns: A number for each tick; differences from tick to tick must fit in 31 bits.
@@ -128,7 +128,7 @@ def pack(columns: Iterable[Sequence[int]]) -> str:
 
 
 def _planes(column: Sequence[int]) -> bytes:
-    """A column's differences, byte by byte."""
+    """A column's differences as byte planes."""
     zigzag = [step << 1 ^ step >> 31 for step in map(sub, column, (0, *column))]
     packed = struct.pack(f"<{len(zigzag)}I", *zigzag)
     return b"".join(packed[byte::4] for byte in range(4))
@@ -141,7 +141,7 @@ def page(run: dict[str, Any], laboratory: Mapping[str, Any] | None = None) -> st
 
 
 def _column(track: RobotTrack, name: str) -> Sequence[int]:
-    """A column, as whole numbers."""
+    """A column as integers."""
     if name not in _POSE:
         return track.column(ROW[COLUMNS[name]])
     axis, scale = _POSE[name]

@@ -1,4 +1,4 @@
-"""Those who can be talked to in a page: their scripts as they were read, and the words of their facts."""
+"""The conversation partners in a page: their parsed scripts, and the texts of their facts."""
 
 from functools import cache
 from typing import Any
@@ -9,12 +9,12 @@ from host_sim.view.languages import as_script
 
 
 def speakers() -> dict[str, Any]:
-    """Each speaker by its name: `script`, of `host_sim.talk.script`, and `texts`, of `host_sim.talk.texts`."""
+    """The speakers by name: `script` from `host_sim.talk.script`, and `texts` from `host_sim.talk.texts`."""
     return {name: {"script": script_named(name), "texts": texts_of(name)} for name in SPEAKERS}
 
 
 def with_speakers(page: str) -> str:
-    """A page whose empty element `speakers` holds them, packed."""
+    """Fills the empty element `speakers` of a page with the packed speakers."""
     return with_data(page, "speakers", _packed())
 
 

@@ -1,4 +1,4 @@
-"""When the changes of a run are due."""
+"""The schedule of a run's changes."""
 
 import sys
 from collections.abc import Sequence
@@ -10,14 +10,14 @@ class ChangeSchedule:
     """Changes, each due before the senses of a tick.
 
     Attributes:
-        next_tick: The tick of the next one; far away if no more is due.
+        next_tick: Tick of the next change; far away if no more are due.
     """
 
     def __init__(self, changes: Sequence[Change], tick_s: float) -> None:
-        """Takes the changes; none is due before `enter`.
+        """Takes the changes; none are due before `enter`.
 
         Args:
-            changes: The changes. Those of one tick keep their order.
+            changes: The changes. Those due in the same tick keep their order.
             tick_s: Length of a tick, s.
         """
         self._changes, self._tick_s = changes, tick_s
@@ -25,7 +25,7 @@ class ChangeSchedule:
         self.next_tick = sys.maxsize
 
     def enter(self, number: int, tick: int) -> None:
-        """Begins an environment; the first one begins the run anew. What was due in the one before comes no more.
+        """Begins an environment; the first one restarts the run. Changes still due in the previous one are dropped.
 
         Args:
             number: Number of the environment.
@@ -39,7 +39,7 @@ class ChangeSchedule:
         self._look_ahead()
 
     def due(self, tick: int) -> list[Change]:
-        """The changes that are due by a tick; they are so only once."""
+        """Returns the changes that are due by a tick, each only once."""
         count = sum(at <= tick for at, _ in self._coming)
         due = [change for _, change in self._coming[:count]]
         del self._coming[:count]

@@ -1,4 +1,4 @@
-"""What happened in one environment of a run."""
+"""The result of one environment of a run."""
 
 from dataclasses import dataclass, field
 
@@ -7,13 +7,13 @@ from host_sim.protocol.generated import CELL_COUNT
 
 @dataclass
 class RobotResult:
-    """What one robot did in one environment.
+    """The result of one robot in one environment.
 
     Attributes:
         node: Its node number on the bus.
         begun: Number of actions begun, by reason.
         food_eaten: Number of pieces of food that it ate.
-        collisions: Number of times that its body began to touch something.
+        collisions: Number of collisions: times that its body began to touch something.
         stuck_sensors: Number of proximity sensors that are stuck at the end.
         memory: The eight cells at the end.
     """
@@ -28,11 +28,11 @@ class RobotResult:
 
 @dataclass
 class EpisodeResult:
-    """What happened in one environment.
+    """The result of one environment.
 
     Attributes:
         tick_s: Length of a tick, s.
-        robots: What each robot did.
+        robots: The result of each robot.
         ticks: Number of ticks.
         eaten: For each piece of food, whether it was eaten.
     """

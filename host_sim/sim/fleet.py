@@ -18,28 +18,28 @@ from host_sim.world.worlds import world_of
 
 _SEED_SPAN = 2**32
 _BLOCK_TICKS = 1000
-_SHARING_MAX = 10_000  # room for who touches whom grows with the square
+_SHARING_MAX = 10_000  # memory for contacts between robots grows with the square
 
 
 @dataclass(frozen=True)
 class FleetResult:
-    """What one robot of a fleet did in one environment.
+    """The result of one robot of a fleet in one environment.
 
     Attributes:
         robot: Number of the robot, from 1.
-        seed: Its seed. In its own world it does, tick by tick, what it does alone in a run with this seed.
+        seed: Its seed. In a world of its own, it behaves tick by tick as alone in a run with this seed.
         environment: Number of the environment, from 1.
         eaten: For each piece of food in its world, whether it was eaten.
         food_eaten: Number of pieces of food that it ate.
         ticks: Number of ticks.
         begun: Number of actions begun, by reason.
-        collisions: Number of times that its body began to touch something.
-        denied: Number of times that its wheels did not do what they were told.
+        collisions: Number of collisions: times that its body began to touch something.
+        denied: Number of times that its wheels did not follow the command.
         known_ticks: Number of ticks of all environments until it knew a turn for patterns 1, 3, 4 and 6; None if it
             does not yet.
-        contacts: The times that it was blocked.
+        contacts: Its contacts: times that it was blocked.
         memory: Its eight cells at the end.
-        pose: Where it was at the end.
+        pose: Its pose at the end.
     """
 
     robot: int
@@ -76,8 +76,8 @@ def run_fleet(
     Args:
         config: The run, without any options for buses and boards.
         progress: Called now and then with the number of ticks that all robots have run so far.
-        film: Gets a sample at the start, and one every `SAMPLE_TICKS` until it is full.
-        company: How many robots hear each other if their parameter `share` is on: up to `NODE_MAX`.
+        film: Receives a sample at the start, and one every `SAMPLE_TICKS` until it is full.
+        company: Number of robots that hear each other if their parameter `share` is on, up to `NODE_MAX`.
 
     Yields:
         The result of each robot in each environment, once it has ended.
@@ -90,7 +90,7 @@ def run_fleet(
 
 
 class _Run:
-    """A fleet under way."""
+    """The run of a fleet."""
 
     def __init__(self, config: RunConfig, film: FleetFilm | None, company: int) -> None:
         self._config, self._world = config, world_of(config.world)
@@ -139,7 +139,7 @@ class _Run:
         return (world,) if self._own else range(self._fleet.robots)
 
     def _enter(self, worlds: list[int]) -> None:
-        """Begins the next environments of some worlds; world 0 is the only one, or the first robot's."""
+        """Begins the next environments of some worlds; world 0 is the shared one, or the first robot's."""
         layouts = chain.from_iterable(on_all_processors(self._layouts, worlds))
         for world, layout in zip(worlds, layouts, strict=True):
             self._fleet.enter(world, layout, round(self._config.limit_s / self._world.params.tick_s))

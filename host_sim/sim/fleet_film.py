@@ -1,4 +1,4 @@
-"""What fleet.html shows of a fleet, sample by sample: where its robots are, what they know, what is left to eat."""
+"""The samples of a fleet for fleet.html: positions and memories of its robots, and the food left."""
 
 from dataclasses import dataclass, field
 
@@ -10,7 +10,7 @@ from host_sim.world.layouts import Layout
 from host_sim.world.memory_kinds import sides_of
 
 SAMPLE_TICKS = 50
-"""From one sample to the next."""
+"""Ticks from one sample to the next."""
 
 _SAMPLES_MAX, _POSITIONS_MAX = 600, 600_000
 _SIDE_BITS = 2
@@ -18,13 +18,13 @@ _SIDE_BITS = 2
 
 @dataclass
 class FleetFilm:
-    """A fleet for ten minutes; one of more than 1,000 robots for less.
+    """Samples of a fleet for up to ten minutes; less for more than 1,000 robots.
 
     Attributes:
-        poses: For each sample an array of shape (robots, 3), as `NativeFleet.positions` has it.
-        sides: For each sample and robot the turns that it knows, two bits for each pattern, the lowest for pattern 0.
+        poses: For each sample, an array of shape (robots, 3), as returned by `NativeFleet.positions`.
+        sides: For each sample and robot, the turns that it knows: two bits per pattern, the lowest for pattern 0.
         eaten: For each sample and world, whether each piece of food was eaten.
-        scenes: The environments: the world, the sample from which on it is there, and how it begins.
+        scenes: The environments: world, first sample, and layout.
     """
 
     poses: list[NDArray[np.int64]] = field(default_factory=list)
@@ -35,11 +35,11 @@ class FleetFilm:
     _meals: NDArray[np.uint32] | None = None
 
     def is_full(self, robots: int) -> bool:
-        """Whether there are enough samples of so many robots."""
+        """Whether there are enough samples for this number of robots."""
         return len(self.poses) >= min(_SAMPLES_MAX, _POSITIONS_MAX // robots)
 
     def enter(self, world: int, layout: Layout, robots: int) -> None:
-        """Another environment begins in a world."""
+        """Begins another environment in a world."""
         if not self.is_full(robots):
             self.scenes.append((world, len(self.poses), layout))
 

@@ -13,10 +13,10 @@ from host_sim.protocol.codec import MEMORY_IDS, Frame
 from host_sim.transport.link import FrameSocket, SocketLink
 
 WAIT_MS = 5
-"""Time for which C code waits for a frame over a link, ms; Python waits for what takes longer."""
+"""Time for which C code waits for a frame over a link, ms; Python handles longer waits."""
 
 _TIMED_EVERY = 4096
-"""One in this many ticks over a link is left to Python, which measures how long an answer takes."""
+"""One in this many ticks over a link is left to Python, which measures the answer time."""
 
 _BLOCK_S, _FIRST_TICKS = 0.05, 64
 """Longest time of a block over a link, s of wall-clock time, since people can interfere only between blocks; and the
@@ -32,8 +32,8 @@ class Native(NamedTuple):
     """The C side of a robot.
 
     Attributes:
-        ffi: Has the declarations.
-        library: Has the functions.
+        ffi: The declarations.
+        library: The functions.
         loop: The `struct loop *`.
         robot: The robot's `struct loop_robot`.
     """
@@ -48,20 +48,20 @@ class LoopRobot(Protocol):
     """One robot of the loop."""
 
     def prepare(self) -> int:
-        """Takes over what has happened since the last block. Returns for how many ticks the loop may run."""
+        """Takes over all changes since the last block. Returns the number of ticks for which the loop may run."""
 
     def catch_up(self, ticks: int) -> None:
-        """Tells the client about a block.
+        """Updates the client with a block.
 
         Args:
-            ticks: Number of ticks that the robot has answered, a tick that was handed over among them.
+            ticks: Number of ticks that the robot has answered, including a tick that was handed over.
         """
 
     def go_on(self) -> None:
         """Lets the client continue the tick that was handed over: this robot's answer comes next.
 
         Raises:
-            RobotError: The answer cannot come any more.
+            RobotError: The answer can no longer arrive.
         """
 
 
@@ -72,14 +72,14 @@ class RobotInProcess:
         """Lets C code call the robot."""
         self._native, self._client, self._link = native, client, link
         self._sent = -1
-        self._waiting: Any = None  # what C code points to, and Python must not free
+        self._waiting: Any = None  # referenced by C code, so Python must not free it
         ffi, loop, pointers = native.ffi, native.loop, link.pointers
         native.robot.octet = ffi.cast("struct octet *", pointers.octet)
         loop.exchange = ffi.cast(ffi.typeof(loop.exchange), pointers.exchange)
         loop.answers = ffi.cast(ffi.typeof(loop.answers), pointers.answers)
 
     def prepare(self) -> int:
-        """As in `LoopRobot`. After a command, even what the robot reported long ago may be news."""
+        """As in `LoopRobot`. After a command, even an old report may be news."""
         robot = self._native.robot
         self._link.hear_others()
         if self._client.frames.sent != self._sent:
@@ -101,7 +101,7 @@ class RobotInProcess:
         self._sent = client.frames.sent
 
     def go_on(self) -> None:
-        """As in `LoopRobot`: what it has answered is received again. It answers at once or not at all."""
+        """As in `LoopRobot`: the answer is received again. The robot answers at once or not at all."""
         robot = self._native.robot
         if not robot.answer_count:
             raise self._client.dialogue.no_answer(f"tick {self._native.loop.tick}")
@@ -114,18 +114,18 @@ class RobotBehindLink:
     """A robot whose frames C code sends and receives itself, over the socket of a link."""
 
     def __init__(self, native: Native, client: RobotClient, link: SocketLink) -> None:
-        """The socket may yet come and go."""
+        """Takes a link whose socket may still close and reopen."""
         self._native, self._client, self._link = native, client, link
         self._socket: FrameSocket | None = None
-        self._opened: Any = None  # what C code points to, and Python must not free
-        self._kinds: list[str] = []  # of the reports that C code knows
+        self._opened: Any = None  # referenced by C code, so Python must not free it
+        self._kinds: list[str] = []  # kinds of the reports known to C code
         self._counts: tuple[int, ...] = ()
         self._began_s, self._ticks_max = 0.0, _FIRST_TICKS
         native.loop.take_turns = native.library.turns_over_links
         native.loop.wait_ms = WAIT_MS
 
     def prepare(self) -> int:
-        """As in `LoopRobot`. None, where the robot or its line is not as usual."""
+        """As in `LoopRobot`. Returns 0 ticks if the robot or its line needs special handling."""
         client, socket = self._client, self._link.frame_socket()
         session = client.inbox.session
         if socket is None or session is None or not client.round_trip.is_sure:
@@ -151,17 +151,17 @@ class RobotBehindLink:
         self._counts = self._count()
 
     def go_on(self) -> None:
-        """As in `LoopRobot`: what was received is received again."""
+        """As in `LoopRobot`: the frames received are received again."""
         loop, library, socket = self._native.loop, self._native.library, self._socket
         assert socket is not None
         if loop.received == 1:
             frame = loop.in_hand
             socket.put_back(_frame(frame) if frame.id <= _ID_MAX else _NO_FRAME)
         socket.garbled += loop.received == library.LINK_E_GARBLED
-        loop.received = 0  # which was this robot's
+        loop.received = 0  # these frames were this robot's
 
     def _open(self, socket: FrameSocket) -> bool:
-        """Has C code use another socket, if there is a number left by which it can."""
+        """Lets C code use another socket, if a file descriptor is free for it."""
         ffi, library = self._native.ffi, self._native.library
         try:
             number = os.dup(socket.fileno())
@@ -176,7 +176,7 @@ class RobotBehindLink:
         return True
 
     def _close(self) -> None:
-        """Ends the use of the socket, and closes that number."""
+        """Ends the use of the socket, and closes its file descriptor."""
         assert self._socket is not None
         self._socket.closing = lambda: None
         self._native.ffi.release(self._opened)
@@ -193,7 +193,7 @@ class RobotBehindLink:
             robot.known[i] = _to_c(frame)
 
     def _count(self) -> tuple[int, ...]:
-        """Changes with each frame that the client takes in."""
+        """Counters that change with each frame that the client processes."""
         frames = self._client.frames
         return frames.sent, frames.received, frames.refused
 

@@ -47,7 +47,7 @@ def make(
     ...         print(episode.ticks, episode.eaten)
     100 [False, False, False]
 
-    Tick by tick, with what the robot senses and does:
+    Tick by tick, with the robot's senses and drives:
 
     >>> with make(RunConfig(seed=1, environments=1)) as simulation:
     ...     simulation.enter(1)
@@ -151,17 +151,17 @@ def _check_change(change: Change, config: RunConfig) -> None:
 
 
 def connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, log: FrameLog) -> RobotClient:
-    """Connects to a robot as the run says. It is stopped and identified, but not started; the stack ends it.
+    """Connects to a robot of a run. It is stopped and identified, but not started; the stack ends it.
 
     Raises:
         UsageError: The configuration is invalid.
-        RobotError: It does not answer.
+        RobotError: The robot does not answer.
     """
     connection = connect(stack, config.bus, config.robot, node, config.board, lines, pins=config.body == PINS)
     if config.faults:
         connection = _with_faults(connection, config, node)
     external = config.robot == "external"
-    # Drawn from the seed: two who share a bus rarely have the same number, and the same run has the same log again.
+    # Drawn from the seed: simulators on one bus rarely share an ID, and a repeated run has the same log.
     owner = config.owner or (Random(config.seed).randint(1, _OWNER_MAX) if external else 1)
     client = RobotClient(connection, Protocol(node), log, lockstep=not config.real_time, owner=owner)
     client.punctuality.limits = Limits(config.unanswered_max, config.gap_max_s, config.late_max)
@@ -170,11 +170,11 @@ def connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, l
 
 
 def _with_faults(connection: Connection, config: RunConfig, node: int) -> Connection:
-    """The connection with the faults that were asked for.
+    """Adds the requested faults to a connection.
 
     For a robot in this process, delays are simulated on a virtual clock and cost no wall time.
     """
-    # A run without faults, as most are, begins without loading them.
+    # Most runs have no faults and start without loading this module.
     from host_sim.faults.faulty_link import FaultyLink  # noqa: PLC0415 - see above
     from host_sim.faults.rule import Rule  # noqa: PLC0415 - see above
     from host_sim.faults.schedule import Schedule  # noqa: PLC0415 - see above

@@ -1,4 +1,4 @@
-"""Robots by the thousand in C (`native/fleet.h`): each with its own core, without a wire."""
+"""Thousands of robots in C (`native/fleet.h`): each has its own core, without a bus."""
 
 import os
 from collections.abc import Callable, Mapping, Sequence
@@ -38,17 +38,17 @@ HEADERS = (*(_WORLD / f"{name}.h" for name in _NAMES), PACKAGE / "sim" / "native
 
 _Done = TypeVar("_Done")
 _CELL_MM, _GRID_FROM = 500.0, 8
-_SLICE, _SLICES = 20, 16  # things that a thread takes at a time: few enough for all threads to be busy to the end
+_SLICE, _SLICES = 20, 16  # work items that a thread takes at a time: few enough for all threads to be busy to the end
 
 
 class Contacts(NamedTuple):
-    """The times that a robot was blocked in an environment.
+    """The contacts of a robot in an environment: times that it was blocked.
 
     Attributes:
-        number: How often.
-        ticks: How long, in all.
-        longest_ticks: How long once, at most.
-        goes_on: Whether the last one had not ended when the environment did.
+        number: Number of contacts.
+        ticks: Total duration, ticks.
+        longest_ticks: Longest duration, ticks.
+        goes_on: Whether the last contact had not ended when the environment did.
     """
 
     number: int
@@ -58,36 +58,36 @@ class Contacts(NamedTuple):
 
 
 class NativeFleet:
-    """Robots, and one or several worlds that they are in.
+    """Robots in one or several worlds.
 
     Attributes:
-        robots: Their number.
-        worlds: The number of worlds: 1, or as many as there are robots.
-        ticks_max: Number of ticks that may be run at a time; None for any.
+        robots: Number of robots.
+        worlds: Number of worlds: 1, or as many as there are robots.
+        ticks_max: Maximum number of ticks per run; None for any.
     """
 
     def __init__(
         self, robots: int, worlds: int, params: SimParams, kind: BodyKind | None = None, company: int = 1
     ) -> None:
-        """Makes room.
+        """Allocates the robots and worlds.
 
         Args:
             robots: Number of robots.
             worlds: 1, or as many as there are robots.
             params: The dimensions of the worlds.
-            kind: What the bodies are like; None: ideal.
-            company: How many robots hear each other: the first ones, the next ones, and so on.
+            kind: Properties of the bodies; None: ideal.
+            company: Number of consecutive robots that hear each other.
 
         Raises:
             NoNativeError: The library cannot be used.
         """
         self.robots, self.worlds = robots, worlds
         self._params = params
-        world_library()  # before threads ask for it, who would load one each
+        world_library()  # before the threads need it: each would load its own
         self._ffi, self._library = loaded()
         ffi = self._ffi
-        self._each = robots // worlds  # in one world
-        # cffi frees what no name holds any more.
+        self._each = robots // worlds  # robots per world
+        # cffi frees memory once no name refers to it.
         self._things: list[tuple[Any, ...]] = [()] * worlds
         self._grids: list[tuple[Any, ...]] = [()] * worlds
         self._kind, reach = kind, params if kind is None else kind.reach(params)
@@ -115,7 +115,7 @@ class NativeFleet:
         """Starts a robot with an empty memory.
 
         Raises:
-            UsageError: It refuses, or wants what a fleet does not have.
+            UsageError: The robot refuses its configuration, or needs a feature that a fleet lacks.
         """
         robot = self._robots[index]
         if self._kind is not None:
@@ -129,7 +129,7 @@ class NativeFleet:
             self._command(robot, Opcode.SET, PARAMETERS[name].number, value)
 
     def enter(self, world: int, layout: Layout, ticks_max: int) -> None:
-        """Puts the robots of a world into another environment, their odometers as they are.
+        """Puts the robots of a world into another environment; their odometers keep their values.
 
         Args:
             world: Index of the world.
@@ -151,18 +151,18 @@ class NativeFleet:
     def run(self, ticks: int, worlds: Sequence[int] | None = None) -> int:
         """Runs all robots for a number of ticks, or to the ends of their environments.
 
-        Robots in worlds of their own run on all processors: those that hear each other hear what was known before.
+        Robots in worlds of their own run on all processors; those that hear each other hear the state before the run.
 
         Args:
             ticks: At most `ticks_max`.
-            worlds: In ascending order, those that have not ended, for less to be looked at; None: not known.
+            worlds: The worlds that have not ended, in ascending order, to save time; None: not known.
 
         Returns:
             The number of robots whose environment has not ended.
         """
         if second := self.ticks_max:
             self._library.fleet_memories(self._robots, self.robots, self._company)
-            if self.worlds < self.robots:  # to the end of their second
+            if self.worlds < self.robots:  # to the end of their current second
                 ticks = min(ticks, second - self._robots[0].tick % second)
         if self.worlds < self.robots:
             return int(self._library.fleet_run_together(self._robots, self.robots, ticks))
@@ -187,7 +187,7 @@ class NativeFleet:
         return int(self._robots[index].ticks)
 
     def told(self, index: int) -> dict[str, Any]:
-        """What a robot has done in its environment so far, by the fields of a `FleetResult`."""
+        """A robot's results in its environment so far, by the fields of a `FleetResult`."""
         robot, body = self._robots[index], self._bodies[index]
         return {
             "food_eaten": int(robot.food_eaten),
@@ -225,7 +225,7 @@ class NativeFleet:
         return np.asarray(robots[:, at : at + 4].copy().view(np.uint32)[:, 0])
 
     def positions(self) -> NDArray[np.int64]:
-        """Where all robots are: shape (robots, 3), x and y in mm and heading in mrad."""
+        """Positions of all robots: shape (robots, 3), x and y in mm and heading in mrad."""
         bodies = np.frombuffer(self._ffi.buffer(self._bodies), np.uint8).reshape(self.robots, -1)
         poses = bodies[:, : 3 * 8].copy().view(np.float64) * (1.0, 1.0, 1000.0)
         return np.asarray(np.rint(poses), np.int64)
@@ -264,7 +264,7 @@ class NativeFleet:
         space.capsules, space.capsule_count, space.touching, space.words = capsules, count, touching, words
 
     def _lay_grid(self, world: int, boxes: Sequence[tuple[Any, Any]]) -> None:
-        """Lays a grid over a world: in each of its cells, the capsules that can be felt from there."""
+        """Builds the grid of a world: each cell lists the capsules that can be felt from there."""
         ffi, params, reach_mm = self._ffi, self._params, self._cones.reach_mm
         columns, rows = ceil(params.width_mm / _CELL_MM), ceil(params.height_mm / _CELL_MM)
         cells: list[list[int]] = [[] for _ in range(columns * rows)]
@@ -292,11 +292,11 @@ class NativeFleet:
 
 
 def on_all_processors(work: Callable[[Sequence[int]], _Done], numbers: Sequence[int]) -> list[_Done]:
-    """What C code makes of numbers, some of them at a time and in their order; it must not share what it changes."""
+    """Maps batches of numbers through C code, results in order; calls must not share data that they change."""
     size = min(_SLICE, len(numbers) // _SLICES + 1)
     slices = [numbers[at : at + size] for at in range(0, len(numbers), size)]
     with ThreadPoolExecutor(os.cpu_count()) as threads:
-        return list(threads.map(work, slices))  # one who interrupts it need not wait for the rest
+        return list(threads.map(work, slices))  # after an interruption, the rest is not waited for
 
 
 def _address(pointer: Any) -> int:
@@ -304,7 +304,7 @@ def _address(pointer: Any) -> int:
 
 
 def _cells(low_mm: float, high_mm: float, count: int) -> range:
-    """The columns, or the rows, that a stretch touches; places outside belong to the nearest."""
+    """The grid columns or rows that an interval touches; positions outside belong to the nearest."""
     return range(max(0, min(count - 1, int(low_mm / _CELL_MM))), max(0, min(count - 1, int(high_mm / _CELL_MM))) + 1)
 
 
@@ -313,6 +313,6 @@ def loaded() -> tuple[Any, Any]:
     """The library.
 
     Raises:
-        NoNativeError: It cannot be used.
+        NoNativeError: The library cannot be used.
     """
     return load_native(LIBRARY, "fleet_", HEADERS)

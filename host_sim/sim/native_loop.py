@@ -1,4 +1,4 @@
-"""The tick loop in C (`native/`): a block of ticks a call, with the same frames."""
+"""The tick loop in C (`native/`): runs a block of ticks per call, with the same frames."""
 
 from collections.abc import Sequence
 from functools import cache
@@ -33,7 +33,7 @@ class RobotBlock(NamedTuple):
     """One robot's part of a block.
 
     Attributes:
-        rows: 16-bit numbers, tick after tick, those of `ROW`; `pattern` and `frozen` are yet to be filled in.
+        rows: 16-bit fields of `ROW`, tick after tick; `pattern` and `frozen` are not filled in yet.
         poses: Doubles, tick after tick: x and y in mm and heading in rad, after the tick.
         memory: The robot's eight cells before the block.
     """
@@ -54,14 +54,14 @@ class NativeLoop:
     """The robots of a run, and buffers for a block of their ticks.
 
     Attributes:
-        handed_over: Whether the tick after those of the last `run` is to be done in Python: `take_over`, `record`.
+        handed_over: Whether Python must do the tick after the last `run`: `take_over`, then `record`.
     """
 
     def __init__(self, clients: Sequence[RobotClient], log: FrameLog) -> None:
-        """Finds the robots.
+        """Connects the loop to the robots.
 
         Args:
-            clients: The robots' clients, which suit a loop.
+            clients: The robots' clients, for which `suits` is true.
             log: Records every frame.
 
         Raises:
@@ -71,7 +71,7 @@ class NativeLoop:
         self.handed_over = False
         self._clients, self._log = clients, log
         self._memories = [client.memory for client in clients]
-        self._kept: list[Any] = []  # what C code points to, and Python must not free
+        self._kept: list[Any] = []  # referenced by C code, so Python must not free it
         self._text: Any = None
         self._robots: Any = self._ffi.new("struct loop_robot[]", len(clients))
         self._loop: Any = self._ffi.new("struct loop *")
@@ -113,10 +113,10 @@ class NativeLoop:
         return int(self._loop.ticks)
 
     def take_over(self) -> BegunTick:
-        """What has been done of the tick that is handed over.
+        """The part already done of the tick that is handed over.
 
         Raises:
-            RobotError: A robot will not answer.
+            RobotError: A robot can no longer answer.
         """
         loop = self._loop
         if not loop.handed_over:
@@ -195,7 +195,7 @@ class NativeLoop:
         return RobotBehindLink(native, client, link)
 
     def _make_room(self, waiting: int) -> None:
-        """Makes room for the log of a block in which some ticks have reports, and one has all there can be."""
+        """Allocates the log of a block in which some ticks have reports, and one has the maximum."""
         library, robots = self._library, len(self._clients)
         lines = waiting + robots * (_LINES_A_TICK * BLOCK_TICKS + 1 + library.LOOP_FRAMES_MAX)
         if self._loop.log_size < lines * library.LOG_LINE_MAX:
@@ -203,7 +203,7 @@ class NativeLoop:
             self._loop.log.text, self._loop.log_size = self._text, self._ffi.sizeof(self._text)
 
     def _look_up(self, index: int, client: RobotClient) -> None:
-        """Takes over what commands and people may have changed."""
+        """Takes over changes made by commands and people."""
         robot = self._robots[index]
         robot.senses_counter, self._memories[index] = client.inbox.sent_counter, client.memory
 

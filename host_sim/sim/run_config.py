@@ -1,4 +1,4 @@
-"""The options of a run as a table, from which command line, help text, checks and `RunConfig` are made."""
+"""The options of a run as a table: the source of command line, help text, checks and `RunConfig`."""
 
 import shlex
 from dataclasses import dataclass, field, fields
@@ -31,7 +31,7 @@ class Option:
     """A row of the table: the properties of an option besides its name, type and default.
 
     Attributes:
-        text: What it is, for people.
+        text: Description for people.
         limits: Its minimum and maximum; None if it is not a number, or has choices.
         choices: The permitted values; empty if any.
         metavar: The placeholder of its value in the help text.
@@ -60,7 +60,7 @@ class Option:
 
     @property
     def range(self) -> str:
-        """The values that it may have, for people; empty if any."""
+        """The permitted values, for people; empty if any."""
         return "{:.10g}..{:.10g}".format(*self.limits) if self.limits else ", ".join(map(str, self.choices))
 
 
@@ -77,7 +77,7 @@ def options_of(config: Any) -> dict[str, tuple[Any, Option]]:
 
 
 def flag_of(name: str, row: Option) -> str:
-    """What an option is called on the command line."""
+    """The name of an option on the command line."""
     return row.flag or f"--{name.replace('_', '-')}"
 
 
@@ -237,7 +237,7 @@ class RunConfig:
             )
 
     def command(self) -> str:
-        """The command that makes this run."""
+        """The command line of this run."""
         words = ["tools/run", "--bus", self.bus]
         for name, (it, row) in options_of(RunConfig).items():
             value, flag = getattr(self, name), flag_of(name, row)
@@ -258,7 +258,7 @@ class RunConfig:
 
     @property
     def chosen_physics(self) -> str:
-        """One of `PHYSICS`."""
+        """The physics to use, one of `PHYSICS`."""
         return self.physics or (PYMUNK if ":" in self.bus or self.world == CRATES else FAST)
 
     @property

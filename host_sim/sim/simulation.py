@@ -45,9 +45,9 @@ class Simulation:
     `make` builds one.
 
     Attributes:
-        world: What the environments are drawn from.
+        world: The world from which the environments are drawn.
         clients: The robots, at least one, in the order of their start poses.
-        pace: How world and robots keep time.
+        pace: Keeps world and robots in step.
         seed: Seed for the environments.
         environments: Number of environments.
         limit_s: Robot time after which an environment ends, finished or not, s.
@@ -55,15 +55,15 @@ class Simulation:
         changes: The scheduled changes of world and bodies.
         block_ticks: Maximum number of ticks per step at full speed with the loop in C; `watch` finds them in
             `loop`. Set it to 1 to have `watch` called for each tick.
-        physics: What finds overlaps: one of `PHYSICS`.
+        physics: The physics that finds overlaps, one of `PHYSICS`.
         native: Whether to use the loop in C if possible: in lockstep, with robots in this process or behind a
             socket that need no distances.
-        kind: What the robots' bodies are like; None: ideal.
+        kind: Properties of the robots' bodies; None: ideal.
         params: The dimensions of the world.
-        record: The environments so far, and what a person changed in them.
+        record: The environments so far, and the changes made by people.
         tick: Number of the next tick.
         arena: The arena of the current environment.
-        episode: What has happened in it so far.
+        episode: Result of the current environment so far.
         loop: The loop in C; None where it cannot be used.
         senses: Each robot's senses at the last tick.
         drives: Each robot's drive at the last tick.
@@ -157,7 +157,7 @@ class Simulation:
 
     def _enter_loop(self) -> None:
         if self._measuring or self._crates is not None:
-            self.loop = None  # it knows no distances, and pushes nothing
+            self.loop = None  # the loop in C supports neither distances nor pushing
             return
         if not (self.native and isinstance(self.pace, Lockstep) and suits(self.clients)):
             return
@@ -240,7 +240,7 @@ class Simulation:
         self.clients[index].distrust(f"the robot told its wheels {told}; it may do {WHEEL_MM_S_MAX} at most")
 
     def _go_on(self, tick: BegunTick) -> Sequence[Drive]:
-        assert isinstance(self.pace, Lockstep)  # there is no loop otherwise
+        assert isinstance(self.pace, Lockstep)  # the loop exists only in lockstep
         return self.pace.exchange(self.senses, tick)
 
     def leave(self) -> EpisodeResult:
@@ -268,7 +268,7 @@ class Simulation:
 
     def _push(self, crates: "Crates") -> None:
         for edit in crates.push(self.drives):
-            with suppress(EditError):  # one that a person has put into a wall, or made very short, stays there
+            with suppress(EditError):  # a thing that a person has put into a wall, or made very short, stays there
                 self.edit(edit)
 
     def _surprise(self) -> None:
@@ -276,7 +276,7 @@ class Simulation:
             self._happen(change)
 
     def _happen(self, change: Change) -> None:
-        """Applies a change; if that is impossible, records why and continues."""
+        """Applies a change; if it is impossible, records the reason and continues."""
         try:
             for edit in edits_of(change, self.arena, self.params, self.seed):
                 self.edit(edit)

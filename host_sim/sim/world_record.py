@@ -1,4 +1,4 @@
-"""The environments of a run and what a person changed in them, by tick."""
+"""The environments of a run and the changes made by people, by tick."""
 
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -11,7 +11,7 @@ from host_sim.world.worlds import world_of
 
 
 class Begun(NamedTuple):
-    """An environment and its first tick, where the previous one ended, finished or not."""
+    """An environment and its first tick, at which the previous one ended, finished or not."""
 
     seed: int
     number: int
@@ -19,7 +19,7 @@ class Begun(NamedTuple):
 
 
 class Refused(NamedTuple):
-    """A change that a schedule asked for and that could not be made, with the tick before which it was due."""
+    """A scheduled change that could not be made, with the tick before which it was due."""
 
     tick: int
     what: str
@@ -43,12 +43,12 @@ class WorldRecord:
         limit_ticks: Number of ticks after which an environment ends, finished or not.
         robots: Number of robots in each environment.
         begun: The environments, in the order in which they began.
-        edits: What a person changed, in order.
-        refused: The changes of a schedule that could not be made, in order.
-        world: What the environments were drawn from.
-        kind: What the robots' bodies are like; None: ideal.
+        edits: The changes made by people, in order.
+        refused: Scheduled changes that could not be made, in order.
+        world: The world from which the environments were drawn.
+        kind: Properties of the robots' bodies; None: ideal.
         program: The program that is each robot's brain; None for the firmware's own.
-        happened: The changes of a schedule that were made, in order; they are among the edits, too.
+        happened: Scheduled changes that were made, in order; they are also among the edits.
     """
 
     seed: int
@@ -70,12 +70,12 @@ class WorldRecord:
 
     @property
     def changes(self) -> int:
-        """Number of changes of a schedule that were due."""
+        """Number of scheduled changes that were due."""
         return len(self.happened) + len(self.refused)
 
     @property
     def edits_tried(self) -> int:
-        """Number of changes of the world that were made or could not be."""
+        """Number of changes of the world that were attempted, made or not."""
         return len(self.edits) + len(self.refused)
 
     def begin(self, begun: Begun) -> None:

@@ -1,4 +1,4 @@
-"""A conversation with a robot about a run, with ELIZA, or by any script; it marks what is known."""
+"""A conversation with a robot about a run, with ELIZA, or by any script; answers are marked with their source."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,25 +16,25 @@ from host_sim.talk.texts import POINT, Texts, read_texts
 from host_sim.world.memory_kinds import sides_of
 
 SCRIPTS = Path(__file__).with_name("scripts")
-"""Our own scripts, `NAME.script`, and the texts of the facts that they ask for, `NAME.toml`."""
+"""Folder of the built-in scripts, `NAME.script`, and the texts of their facts, `NAME.toml`."""
 
 SPEAKERS = ("robot", "robot-de", "eliza", "eliza-de")
-"""The names of our own scripts, in the order in which pages offer them."""
+"""Names of the built-in scripts, in the order in which pages offer them."""
 
 _SIZE_MAX = 1_000_000
 _LINES_SHOWN = 3
 
 NO_FACTS: Facts = dict.fromkeys((name.upper() for name in FACTS), lambda _: None)
-"""Nothing is known."""
+"""The facts when nothing is known."""
 
 
 class Said(NamedTuple):
     """An answer.
 
     Attributes:
-        mark: `log` or `memory` if each fact in it is known from there, else `words`.
-        text: What is said.
-        rests: What the facts in it rest on and speak of.
+        mark: Source of its facts: `log` or `memory`; `words` if it has none.
+        text: Text of the answer.
+        rests: The evidence for its facts: ticks, cells and pieces of food.
     """
 
     mark: str
@@ -43,30 +43,30 @@ class Said(NamedTuple):
 
 
 class Conversation:
-    """Answers sentence by sentence.
+    """Answers a person sentence by sentence.
 
     Attributes:
         script: The script that it follows.
     """
 
     def __init__(self, script: Script, facts: Facts, texts: Texts, mark: str = "log") -> None:
-        """Begins a conversation.
+        """Starts a conversation.
 
         Args:
             script: The script.
             facts: The facts that it may ask for.
-            texts: The language in which it hears and tells them.
-            mark: What marks an answer of facts.
+            texts: The language of questions and answers.
+            mark: The mark of answers with facts.
         """
         self.script, self._texts, self._mark = script, texts, mark
         self._eliza = Eliza(script, facts)
 
     def ask_about(self, facts: Facts) -> None:
-        """What is asked next is asked about these facts."""
+        """Uses these facts for all further answers."""
         self._eliza.facts = facts
 
     def answer(self, sentence: str) -> Said:
-        """The answer to a sentence; if the script loops for ever, words that say so."""
+        """Answers a sentence; if the script loops for ever, the answer says so."""
         try:
             said, evidence = self._eliza.answer(self._texts.heard(sentence))
         except OctetError as error:
@@ -76,11 +76,11 @@ class Conversation:
 
 
 class Source(NamedTuple):
-    """Where facts come from.
+    """The source of facts.
 
     Attributes:
         path: The log or the memory file.
-        log: The log's lines; None if it is none.
+        log: Index of the log; None for a memory file.
     """
 
     path: Path
@@ -98,10 +98,10 @@ class Source(NamedTuple):
 
 
 def about_nothing(script: str) -> Conversation:
-    """A conversation in which nothing is known.
+    """Starts a conversation without facts.
 
     Raises:
-        UsageError: As `script_named` does.
+        UsageError: As for `script_named`.
     """
     return Conversation(script_named(script), NO_FACTS, texts_of(script))
 
@@ -109,17 +109,17 @@ def about_nothing(script: str) -> Conversation:
 def about_run(
     script: str, trajectory: Trajectory, log: Path, node: int, at_s: float | None = None
 ) -> tuple[Conversation, Source]:
-    """A conversation about a run.
+    """Starts a conversation about a run.
 
     Args:
         script: As for `script_named`.
         trajectory: The run.
-        log: Its log.
+        log: Path of its log.
         node: The robot's node number.
-        at_s: The robot time that is asked about, s; by default, the end of the run.
+        at_s: Robot time to talk about, s; by default, the end of the run.
 
     Raises:
-        UsageError: That time is not in the log, or as `script_named` does.
+        UsageError: The time is not in the log, or as for `script_named`.
     """
     tick_s, last = trajectory.params.tick_s, trajectory.ticks - 1
     tick = last if at_s is None else round(at_s / tick_s)
@@ -132,10 +132,10 @@ def about_run(
 
 
 def about_memory(script: str, path: Path) -> tuple[Conversation, Source]:
-    """A conversation with a robot of which only the memory is known.
+    """Starts a conversation with a robot of which only the memory is known.
 
     Raises:
-        UsageError: It is no memory file, or as `script_named` does.
+        UsageError: The file is not a memory file, or as for `script_named`.
     """
     memory, texts = load_memory(path), texts_of(script)
     if memory is None:
@@ -156,10 +156,10 @@ def about_memory(script: str, path: Path) -> tuple[Conversation, Source]:
 
 
 def script_named(name: str) -> Script:
-    """One of our own scripts, or that of a file.
+    """Reads a built-in script, or a script file.
 
     Raises:
-        UsageError: It cannot be read, or is wrong; the message has the line.
+        UsageError: The script cannot be read or has an error; the message names the line.
     """
     try:
         return read_script(read_text(_path_of(name), _SIZE_MAX), name, NO_FACTS)
@@ -171,7 +171,7 @@ def script_named(name: str) -> Script:
 
 
 def texts_of(script: str) -> Texts:
-    """The texts of the language of one of our own scripts; for any other, the English ones."""
+    """The texts in the language of a built-in script; English texts for any other."""
     path = _path_of(script).with_suffix(".toml")
     return read_texts(path if path.parent == SCRIPTS and path.exists() else SCRIPTS / "robot.toml")
 

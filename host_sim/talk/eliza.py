@@ -1,4 +1,4 @@
-"""ELIZA: answers sentences by a script, as the program of 1966 did."""
+"""ELIZA: answers sentences according to a script, as the program of 1966 did."""
 
 import re
 from collections import deque
@@ -10,7 +10,7 @@ from host_sim.talk.script import AnyOf, Fact, Part, Pieces, Rule, Script, Tagged
 from host_sim.talk.slip_hash import slip_hash
 
 STEPS_MAX = 100_000
-"""Keywords of one sentence, and words that it grows by, after which a script is taken to loop for ever."""
+"""Limits of keywords per sentence and of its growth in words, beyond which a script is taken to loop for ever."""
 
 _LIMIT = 4
 _NOTHING_MATCHES = ("PLEASE CONTINUE", "HMMM", "GO ON , PLEASE", "I SEE")
@@ -21,21 +21,21 @@ _WORDS = re.compile(r"[,.]|[^,.\x00-\x20\x7f-\xa0\u1680\u2000-\u200a\u2028\u2029
 
 
 class Known(NamedTuple):
-    """What a fact says, and what that rests on."""
+    """A fact as text, and its evidence."""
 
     text: str
     evidence: Any
 
 
 class Answer(NamedTuple):
-    """An answer: what is said, and what each fact in it rests on; no evidence: it is only words."""
+    """An answer: its text, and the evidence for each of its facts; empty if it has none."""
 
     text: str
     evidence: tuple[Any, ...] = ()
 
 
 Facts = Mapping[str, Callable[[Sequence[str]], Known | None]]
-"""By name: a function of the words of a part; None where it is not known."""
+"""Facts by name: each is a function of the words of a part that returns None if the fact is not known."""
 
 Found = list[list[str]]
 """The words of each part of a decomposition."""
@@ -51,7 +51,7 @@ def words_of(sentence: str) -> list[str]:
 
 
 class Eliza:
-    """A conversation. It remembers sentences, and changes the turns of its script.
+    """A conversation. It remembers sentences, and cycles through the reassemblies of its script.
 
     Attributes:
         facts: The facts that the script may ask for.
@@ -84,7 +84,7 @@ class Eliza:
         raise OctetError(f"the script loops for ever at {rule.key}: stopped after {STEPS_MAX} steps")
 
     def _scan(self, words: list[str]) -> tuple[list[str], deque[str]]:
-        """The part that is answered, its words replaced; and its keywords, the first to try in front."""
+        """The clause to answer, with substitutions made, and its keywords in the order to try."""
         keys: deque[str] = deque()
         begin, highest = 0, -1
         for i, word in enumerate(words):
@@ -103,7 +103,7 @@ class Eliza:
         return words[begin:], keys
 
     def _apply(self, rule: Rule, words: list[str], keys: deque[str]) -> Answer | list[str]:
-        """Applies a rule: an answer; or the words to go on with, by the keywords."""
+        """Applies a rule. Returns an answer, or the words to continue with by the remaining keywords."""
         if rule.key == self._script.memory.key:
             self._remember(words)
         for transformation in rule.transformations:
@@ -120,7 +120,7 @@ class Eliza:
         return words
 
     def _say(self, pieces: Pieces, found: Found) -> Answer | None:
-        """An answer; None if a fact in it is not known."""
+        """Assembles an answer; None if a fact in it is not known."""
         texts, evidence = [], []
         for piece in pieces:
             if isinstance(piece, Fact):
@@ -140,10 +140,10 @@ class Eliza:
             self._memories.append(" ".join(_put_together(way.reassemblies[0].pieces or (), found)))
 
     def _match(self, parts: Sequence[Part], words: Sequence[str]) -> Found | None:
-        """The words of each part, where every 0 takes as few as it can from left to right; None without a match.
+        """The words of each part, each 0 taking as few as possible from left to right; None without a match.
 
-        Between two zeros stands a run of parts of a fixed length: the first run begins the sentence, the last one
-        ends it, and each of the others takes the first place where it fits.
+        Zeros separate runs of parts of fixed length: the first run begins the sentence, the last one ends it, and
+        each of the others takes the first place where it fits.
         """
         runs: list[list[Part]] = [[]]
         for part in parts:

@@ -1,4 +1,4 @@
-"""What a robot knows: facts that are computed from its log, up to one tick. None of them guesses."""
+"""A robot's facts, computed from its log up to one tick. None of them is a guess."""
 
 import math
 import re
@@ -21,7 +21,7 @@ _LAST = 3
 
 
 class Rests(NamedTuple):
-    """The ticks on which a fact rests, in order, and the cells and pieces of food that it speaks of."""
+    """The evidence for a fact: ticks in order, and the cells and pieces of food concerned."""
 
     ticks: list[int]
     cells: list[int]
@@ -29,16 +29,16 @@ class Rests(NamedTuple):
 
 
 class RobotFacts:
-    """The facts of one robot up to a tick. Each method of `FACTS` is one; their evidence is a `Rests`."""
+    """The facts of one robot up to a tick. Each method in `FACTS` is one; their evidence is a `Rests`."""
 
     def __init__(self, trajectory: Trajectory, index: LogIndex, tick: int, texts: Texts, robot: int = 0) -> None:
-        """Takes a run.
+        """Takes the facts from a run.
 
         Args:
             trajectory: The run.
             index: The other frames of the run's log.
-            tick: The tick that is asked about; what came later is not known.
-            texts: The words in which facts are told.
+            tick: The tick up to which the run is known.
+            texts: The texts of the facts.
             robot: Index of the robot in the trajectory.
         """
         self._run, self._index, self._tick, self._texts, self._robot = trajectory, index, tick, texts, robot
@@ -46,19 +46,19 @@ class RobotFacts:
         self._now = self._run.at(tick, robot)
 
     def by_name(self) -> dict[str, Callable[[Sequence[str]], Known | None]]:
-        """The facts by the names that scripts know them by: each method of `FACTS`, in capitals."""
+        """The facts by their names in scripts: the methods in `FACTS`, in capitals."""
         return {name.upper(): getattr(self, name) for name in FACTS}
 
     def learned(self, _: Sequence[str]) -> Known:
-        """What the cells hold."""
+        """Contents of the cells."""
         return self._each_cell("learned")
 
     def sure(self, _: Sequence[str]) -> Known:
-        """How often it used what each cell holds."""
+        """Number of uses of each cell."""
         return self._each_cell("sure")
 
     def cell(self, words: Sequence[str]) -> Known | None:
-        """What it does at the pattern that is spoken of, since when, and how often it did."""
+        """The turn for the pattern in a question, since when it is known, and its number of uses."""
         cell, now = self._texts.cell_in(words), self._now
         if not cell:
             return None
@@ -68,27 +68,27 @@ class RobotFacts:
         return self._known(text, [now["learned"][cell]], [cell])
 
     def why(self, words: Sequence[str]) -> Known | None:
-        """Why it did what it did: at a time, or at its last move."""
+        """The reason for an action: at a given time, or the last one."""
         return self._reason(words, self._begun(*_MOVES))
 
     def turn(self, words: Sequence[str]) -> Known | None:
-        """Why it turned: at a time, or at its last turn, to the side that is spoken of."""
+        """The reason for a turn: at a given time, or the last one, to the side in a question if it names one."""
         return self._reason(words, self._begun(*_TURNS, side=self._texts.side_in(words)))
 
     def bored(self, _: Sequence[str]) -> Known:
-        """How often it was bored, and how near it is to it."""
+        """Number of times that it was bored, and the current count towards boredom."""
         count, limit = self._now["repeat_count"], self._run.boredom_limit
         return self._counted("bored", self._begun(Reason.BOREDOM), count=count, limit=limit)
 
     def food(self, _: Sequence[str]) -> Known:
-        """What was eaten of this environment's food, and when it ate last."""
+        """The food eaten in this environment, and the time of the last meal."""
         eaten = self._now["eaten"]
         pieces = [piece for piece, gone in enumerate(eaten) if gone] or range(len(eaten))
         known = self._counted("food", self._until(self._track.meals), eaten=sum(eaten), pieces=len(eaten))
         return known._replace(evidence=known.evidence._replace(food=[*pieces]))
 
     def where(self, _: Sequence[str]) -> Known:
-        """Where it is, and how long its way was."""
+        """Its position, and the length of its path."""
         trail = self._track.trail(self._track.first_tick, self._tick + 1)
         places = [(round(x, 1), round(y, 1)) for x, y, _ in trail]
         steps = (math.dist(*both) for both in pairwise(places))
@@ -97,26 +97,26 @@ class RobotFacts:
         return self._known(self._texts.say("where", x=x, y=y, way=way))
 
     def touched(self, _: Sequence[str]) -> Known:
-        """How often it touched something."""
+        """Number of collisions."""
         bumps = self._track.column("bump")
         begun = (tick for tick, (before, bump) in enumerate(zip((0, *bumps), bumps, strict=False)) if bump > before)
         return self._counted("touched", self._until(tick + self._track.first_tick for tick in begun))
 
     def forgotten(self, _: Sequence[str]) -> Known:
-        """What it forgot by itself."""
+        """Turns that it forgot by itself."""
         return self._noted("forgotten", [it for it in self._lessons() if not it["side"] and not it["by_hand"]])
 
     def told(self, _: Sequence[str]) -> Known:
-        """What others wrote into its memory."""
+        """Changes of its memory made by others."""
         return self._noted("told", [it for it in self._lessons() if it["by_hand"]])
 
     def tried(self, _: Sequence[str]) -> Known:
-        """How often it tried a random turn, and what came of the last one, if that has ended."""
+        """Number of trials, and the outcome of the last one if it has ended."""
         said = verdict(self._now["trial"], self._texts.words)
         return self._counted("tried", self._begun(Reason.TRIAL), verdict=said)
 
     def sees(self, _: Sequence[str]) -> Known:
-        """What its sensors say."""
+        """Current sensor readings."""
         now, say = self._now, self._texts.say
         cell = now["feel"] >> 1 & 7
         food = say("sees_food", beacon=self._metres(now["beacon"], 2)) if now["beacon"] else say("sees_none")
@@ -124,18 +124,18 @@ class RobotFacts:
         return self._known(text, cells=[cell] if cell else [], food=self._ahead() if now["beacon"] else [])
 
     def changed(self, _: Sequence[str]) -> Known:
-        """What happened to the world and the bodies."""
+        """Changes of the world and the bodies."""
         news = [it for it in self._run.news if it[0] <= self._tick and "could not happen:" not in it[1]]
         told = [self._texts.say("changed_item", at=self._seconds(tick), news=said) for tick, said in news[-_LAST:]]
         return self._counted("changed", [tick for tick, _ in news], last=" ".join(told))
 
     def behaviour(self, _: Sequence[str]) -> Known | None:
-        """Which behaviour it was started with."""
+        """The behaviour with which it was started."""
         started = [it for it in self._index.starts if it[0] <= self._tick]
         return self._known(self._texts.say("behaviour", name=started[-1][1]), [started[-1][0]]) if started else None
 
     def bus(self, _: Sequence[str]) -> Known | None:
-        """What its last report on the bus says."""
+        """Contents of its last HEALTH report on the bus."""
         reports = [it for it in self._index.health if it[0] <= self._tick]
         if not reports:
             return None
@@ -145,12 +145,12 @@ class RobotFacts:
     def _known(
         self, text: str, ticks: Iterable[int] = (), cells: Iterable[int] = (), food: Iterable[int] = ()
     ) -> Known:
-        """A fact that rests on ticks; where on none, on the one that is asked about."""
+        """A fact with its evidence; without ticks, the evidence is the current tick."""
         rests = sorted({tick for tick in ticks if tick >= 0}) or [self._tick]
         return Known(text.upper(), Rests(rests, sorted(set(cells)), [*food]))
 
     def _counted(self, name: str, ticks: Sequence[int], cells: Iterable[int] = (), **values: object) -> Known:
-        """How often something has happened, and when last."""
+        """A fact about the number of events and the time of the last one."""
         if not ticks:
             return self._known(self._texts.say(f"{name}_none", **values))
         times, last = self._texts.times(len(ticks)), self._seconds(ticks[-1])
@@ -172,7 +172,7 @@ class RobotFacts:
         return self._texts.say(name, **self._texts.of_cell(cell, side), times=times, **values)
 
     def _reason(self, words: Sequence[str], begun: Sequence[int]) -> Known | None:
-        """Why it did what it did at the time in a question; where none is in it, in the last of some ticks."""
+        """The reason for the action at the time in a question; without a time, in the last of some ticks."""
         asked = _SECONDS.search(" ".join(words))
         tick = self._tick_at(asked[0]) if asked else max(begun, default=-1)
         if not self._track.first_tick <= tick <= self._tick:
@@ -192,7 +192,7 @@ class RobotFacts:
         return decimal(length_mm / 1000, digits, self._texts.words)
 
     def _begun(self, *reasons: int, side: int = Side.NOTHING) -> list[int]:
-        """The ticks up to now in which actions with one of the reasons began; to a side, if one is given."""
+        """The ticks so far in which actions with one of the reasons began, to a side if one is given."""
         names = ("action", "reason", "left_mm_s", "right_mm_s")
         actions, why, left, right = (self._track.column(name) for name in names)
         news = (tick for tick, both in enumerate(zip((-1, *actions), actions, strict=False)) if both[0] != both[1])
@@ -204,12 +204,12 @@ class RobotFacts:
         return [tick for tick in ticks if tick <= self._tick]
 
     def _lessons(self) -> list[Lesson]:
-        """Those since the run was started over."""
+        """The lessons since the run was started over."""
         start = at(self._run.scenes, self._tick)["start_tick"]
         return [it for it in self._track.lessons if start <= it["tick"] <= self._tick]
 
     def _ahead(self) -> list[int]:
-        """The piece of food nearest to where the robot sees one."""
+        """The piece of food nearest to the point at which the robot sees food."""
         now, scene = self._now, at(self._run.scenes, self._tick)
         x = now["x"] + now["beacon"] * math.cos(now["heading"] / 1000)
         y = now["y"] + now["beacon"] * math.sin(now["heading"] / 1000)

@@ -1,4 +1,4 @@
-"""What a log says of a robot besides its ticks, and the lines of the log on which a tick rests."""
+"""A robot's starts and health reports in a log, and the line of the log for each tick."""
 
 from array import array
 from collections.abc import Iterable
@@ -18,9 +18,9 @@ class LogIndex:
     """An index of one robot's frames.
 
     Attributes:
-        lines: For each tick the line, or number of the frame, of its SENSES, from 1.
-        starts: The tick before which the robot was started, and its behaviour.
-        health: The tick of each HEALTH frame, and its signals.
+        lines: For each tick, the line (or frame number) of its SENSES, from 1.
+        starts: For each start of the robot, the tick that follows it, and the behaviour.
+        health: For each HEALTH frame, its tick and its signals.
     """
 
     lines: "array[int]" = field(default_factory=lambda: array("L"))
@@ -28,7 +28,7 @@ class LogIndex:
     health: list[tuple[int, dict[str, int]]] = field(default_factory=list)
 
     def lines_of(self, ticks: Iterable[int]) -> list[int]:
-        """The lines of ticks; of a tick that is not in the log, none."""
+        """The log lines of ticks; ticks that are not in the log are left out."""
         return [self.lines[tick] for tick in ticks if tick < len(self.lines)]
 
 
@@ -38,7 +38,7 @@ def index_log(path: Path, node: int, tick_us: int) -> LogIndex:
     Args:
         path: The log.
         node: The robot's node number.
-        tick_us: The length of a tick, us.
+        tick_us: Length of a tick, us.
 
     Raises:
         UsageError: The log cannot be read, or is damaged.

@@ -1,6 +1,6 @@
 """Scripts in the language of ELIZA (Weizenbaum, CACM 9/1, 1966), read and checked.
 
-Two things are not of 1966: `;` begins a comment, and a reassembly may ask for facts, `(* NAME 1)`.
+Two extensions: `;` begins a comment, and a reassembly may ask for facts, `(* NAME 1)`.
 """
 
 from collections.abc import Collection, Sequence
@@ -18,38 +18,38 @@ MEMORIES = 4
 
 @dataclass(frozen=True)
 class AnyOf:
-    """One word out of several: `(*A B)`."""
+    """Matches one of several words: `(*A B)`."""
 
     words: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class Tagged:
-    """A word that carries one of several tags: `(/A B)`."""
+    """Matches a word that has one of several tags: `(/A B)`."""
 
     tags: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class Fact:
-    """A fact, asked about a part: `(* NAME 1)`; or about nothing: `(* NAME)`."""
+    """A request for a fact, about a part: `(* NAME 1)`, or in general: `(* NAME)`."""
 
     fact: str
     part: int | None
 
 
 Part = str | int | AnyOf | Tagged
-"""A piece of a decomposition; a number of words, 0 for any number."""
+"""A part of a decomposition; a number matches that many words, 0 any number."""
 
 Pieces = tuple[str | int | Fact, ...]
-"""Words, numbers of parts, and facts."""
+"""Pieces of a reassembly: words, part numbers, and facts."""
 
 
 class Reassembly(NamedTuple):
-    """What is said, and the keyword to go on with, if any.
+    """A text to assemble, and the keyword to continue with, if any.
 
-    With pieces alone it is an answer; with a key alone, `(=KEY)`; with both, `(PRE (...) (=KEY))`: the pieces become
-    the sentence. With neither, `(NEWKEY)`: go on with the sentence's next keyword.
+    Pieces alone are an answer; a key alone is `(=KEY)`; both are `(PRE (...) (=KEY))`: the pieces replace the
+    sentence. Neither is `(NEWKEY)`: continue with the sentence's next keyword.
     """
 
     pieces: Pieces | None = None
@@ -58,30 +58,30 @@ class Reassembly(NamedTuple):
 
 @dataclass
 class Transformation:
-    """A decomposition and its reassemblies, which take turns; `turn` is the number of the next one."""
+    """A decomposition and its reassemblies, used in rotation; `turn` is the number of the next one."""
 
     parts: tuple[Part, ...]
     reassemblies: tuple[Reassembly, ...]
     turn: int = 0
 
     def next(self) -> Reassembly:
-        """The reassembly whose turn it is."""
+        """The next reassembly in rotation."""
         turn, self.turn = self.turn, (self.turn + 1) % len(self.reassemblies)
         return self.reassemblies[turn]
 
 
 @dataclass
 class Rule:
-    """What is done about a keyword.
+    """The rule for a keyword.
 
     Attributes:
         key: The keyword.
         line: Its line in the script.
-        substitute: The word that takes its place in the sentence.
-        tags: What decompositions know it by.
+        substitute: The word that replaces it in the sentence.
+        tags: Tags by which decompositions match it.
         rank: Its rank among the keywords of a sentence.
-        transformations: In their order; the first whose decomposition matches is taken.
-        link: The keyword to go on with where none matches.
+        transformations: Tried in order; the first whose decomposition matches is used.
+        link: The keyword to continue with if none matches.
     """
 
     key: str
@@ -94,7 +94,7 @@ class Rule:
 
     @property
     def can_answer(self) -> bool:
-        """Whether it does more than change words and carry tags."""
+        """Whether it does more than substitute words and carry tags."""
         return bool(self.transformations or self.link)
 
 
@@ -103,11 +103,11 @@ class Script:
     """A script.
 
     Attributes:
-        greeting: What is said first.
-        rules: By keyword.
+        greeting: The opening sentence.
+        rules: Rules by keyword.
         none: The rule for sentences without a keyword.
-        memory: Its keyword's sentences are remembered, by one of four transformations.
-        facts: The names of the facts that it asks for.
+        memory: The rule that remembers sentences with its keyword, by one of four transformations.
+        facts: Names of the facts that it uses.
     """
 
     greeting: str
@@ -122,11 +122,11 @@ def read_script(text: str, name: str, facts: Collection[str] = ()) -> Script:
 
     Args:
         text: The script.
-        name: What errors call it.
-        facts: The names of the facts that it may ask for.
+        name: Name of the script for error messages.
+        facts: Names of the facts that it may use.
 
     Raises:
-        UsageError: Something in it is wrong; the message has the line.
+        UsageError: The script has an error; the message names the line.
     """
     return _Reader(name, facts).read(text)
 
@@ -257,7 +257,7 @@ class _Reader:
         return key
 
     def _listed(self, group: Group) -> list[Word]:
-        """The words of a list after its sign, which may be joined to the first."""
+        """The words of a list after its sign, which may be attached to the first word."""
         first = Word.at(group.line, self._word(group[0])[1:])
         return [self._word(it) for it in ([first] if first else []) + group[1:]] or self._fail(
             group, "no word follows"
@@ -275,6 +275,6 @@ def _is_number(word: str) -> bool:
 
 
 def _always_speaks(it: Transformation) -> bool:
-    """Whether it has an answer to any sentence that rests on no fact."""
+    """Whether it has an answer without facts to any sentence."""
     answers = [one.pieces for one in it.reassemblies if one.pieces and one.key is None]
     return it.parts == (0,) and any(not isinstance(piece, Fact) for pieces in answers for piece in pieces)

@@ -1,4 +1,4 @@
-"""The text of a script: words in nested lists, each of which knows its line."""
+"""The text of a script: words in nested lists, each with its line number."""
 
 import re
 from typing import Any
@@ -16,7 +16,7 @@ class Word(str):
 
     @classmethod
     def at(cls, line: int, text: str) -> "Word":
-        """A word of a line."""
+        """Creates a word in a line."""
         word = cls(text)
         word.line = line
         return word
@@ -29,7 +29,7 @@ class Group(list[Any]):
 
     @classmethod
     def at(cls, line: int) -> "Group":
-        """An empty list that begins in a line."""
+        """Creates an empty list that begins in a line."""
         group = cls()
         group.line = line
         return group
@@ -43,14 +43,14 @@ Node = Word | Group
 
 
 def read_groups(text: str, name: str) -> list[Group]:
-    """The lists of a script, without those that are empty.
+    """Reads the lists of a script; empty ones are left out.
 
     Args:
         text: The script.
-        name: What errors call it.
+        name: Name of the script for error messages.
 
     Raises:
-        UsageError: Brackets do not match, or something other than START stands outside them.
+        UsageError: Parentheses do not match, or a word other than START is outside them.
     """
     line, nested = 1, [Group()]
     for token in _TOKEN.finditer(_COMMENT.sub("", text)):

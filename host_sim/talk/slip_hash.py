@@ -1,4 +1,4 @@
-"""The hash function of SLIP, by which ELIZA of 1966 chose how to remember a sentence."""
+"""The hash function of SLIP, with which ELIZA of 1966 chose how to remember a sentence."""
 
 _CHARACTERS = 6
 _BITS = 36
@@ -16,11 +16,11 @@ _CODES = {character: first + i for first, row in _ROWS for i, character in enume
 
 
 def slip_hash(word: str, bits: int) -> int:
-    """The hash of a word, from the last six of its characters that stood in one cell of an IBM 7094.
+    """The hash of a word, from its last machine word of six characters on an IBM 7094.
 
     Args:
-        word: The word; a character that the machine did not have counts by its low six bits.
-        bits: The number of bits of the result, 0..15.
+        word: The word; a character that the machine did not have is taken by its low six bits.
+        bits: Number of bits of the result, 0..15.
 
     >>> slip_hash("ALWAYS", 7), slip_hash("HERE", 2)
     (14, 3)

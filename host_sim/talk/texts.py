@@ -1,4 +1,4 @@
-"""In which words a robot tells its facts: a file beside the script, one for each language."""
+"""The texts in which a robot states its facts: a file beside the script, one for each language."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -12,7 +12,7 @@ from host_sim.view.languages import languages
 from host_sim.view.phrases import ENGLISH, Words
 
 POINT = "\u00b7"
-"""The decimal point in a question: ELIZA takes a full stop for the end of a sentence."""
+"""Stands for the decimal point in a question, since ELIZA takes a full stop for the end of a sentence."""
 
 _BITS = {"turns": 0, "all": 7, "right": 1, "left": 4, "front": 2}
 _DECIMAL = re.compile(r"(?<=[0-9])[.,](?=[0-9])")
@@ -23,10 +23,10 @@ class Texts:
     """The words of one language.
 
     Attributes:
-        words: Those of the robot's own sentences.
-        facts: For each fact, and for the case that there is nothing to tell, a text with gaps in braces.
-        spoken: How questions speak of turns, which are no place, and of the front sensors; longer names first.
-        joined: A comma before one of these words does not cut a sentence.
+        words: Words used in the robot's sentences.
+        facts: A text with placeholders in braces for each fact, and for each case without anything to report.
+        spoken: Phrases in questions for turns, and for the front sensors; longer phrases first.
+        joined: Words before which a comma does not split a sentence.
     """
 
     words: Words
@@ -35,19 +35,19 @@ class Texts:
     joined: Sequence[str]
 
     def say(self, name: str, /, **values: object) -> str:
-        """A text with its gaps filled."""
+        """A text with its placeholders filled in."""
         return self.facts[name].format(**values)
 
     def times(self, count: int) -> str:
-        """How often something happened."""
+        """A number of times, in words."""
         return self.say("once" if count == 1 else "times", count=count)
 
     def of_cell(self, cell: int, side: int) -> dict[str, str]:
-        """What a text may say of a cell."""
+        """The placeholders of a text about a cell."""
         return {"pattern": self.words.patterns[cell], "side": self.words.sides[side]}
 
     def cell_in(self, words: Sequence[str]) -> int:
-        """The number of the pattern of front sensors that is spoken of; 0 if there is none."""
+        """The pattern of front sensors named in a question; 0 if there is none."""
         said, cell = f" {' '.join(words)} ".replace("-", " "), 0
         for where, names in self.spoken.items():
             for name in names:
@@ -57,12 +57,12 @@ class Texts:
         return cell
 
     def side_in(self, words: Sequence[str]) -> int:
-        """The side that is spoken of; 0 if there is none."""
+        """The side named in a question; 0 if there is none."""
         sides = (Side.LEFT, "left"), (Side.RIGHT, "right")
         return next((side for side, name in sides if not set(self.spoken[name]).isdisjoint(words)), Side.NOTHING)
 
     def heard(self, sentence: str) -> str:
-        """A question as the script is to read it: with decimal points, and without commas that do not cut."""
+        """Prepares a question for the script: replaces decimal points, and drops commas that do not split it."""
         joined = rf",(?=\s+(?:{'|'.join(self.joined)})\s)" if self.joined else "(?!)"
         return re.sub(joined, " ", _DECIMAL.sub(POINT, sentence), flags=re.IGNORECASE)
 
@@ -71,7 +71,7 @@ def read_texts(path: Path) -> Texts:
     """Reads the texts of a language.
 
     Raises:
-        OSError, ValueError, KeyError: It is not such a file; those of the project are.
+        OSError, ValueError, KeyError: The file is not a valid text file; those of the project are.
     """
     read = parse_toml(path.read_text(encoding="utf-8"))
     own: dict[str, Any] = languages()[read["language"]]["robot"]
