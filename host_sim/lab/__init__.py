@@ -1,1 +1,1 @@
-"""What is built above `host_sim.api`: each folder is an island, and nothing in host_sim imports it."""
+"""Tools built on `host_sim.api`: the folders are independent, and nothing else in host_sim imports them."""

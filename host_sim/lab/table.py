@@ -1,17 +1,17 @@
-"""Tables of text."""
+"""Text tables."""
 
 from collections.abc import Collection, Sequence
 
 
 def aligned(rows: Sequence[Sequence[str]], right: Collection[int] = ()) -> list[str]:
-    """The lines of a table whose columns stand below each other.
+    """The lines of a table with aligned columns.
 
     >>> aligned([("node", "lost"), ("1", "0")], right=[1])
     ['node  lost', '1        0']
 
     Args:
-        rows: The cells; all rows have as many.
-        right: The columns whose cells stand at the right.
+        rows: The cells; all rows have the same number.
+        right: Indices of the right-aligned columns.
     """
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = (

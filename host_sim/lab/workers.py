@@ -1,4 +1,4 @@
-"""Runs work in other processes, on all cores of this machine or on a cluster. Work of dead workers is done again."""
+"""Runs work in other processes, on all cores of this machine or on a cluster. Work of dead workers is repeated."""
 
 import ctypes
 import signal
@@ -27,9 +27,9 @@ class Workers(NamedTuple):
     """The processes that do the work.
 
     Attributes:
-        open: Makes an executor.
-        chunk: Number of items to hand over at once, given the number of all.
-        check: Raises OctetError if they are out of reach.
+        open: Creates an executor.
+        chunk: Returns the number of items to hand over at once, given the total number.
+        check: Raises OctetError if the workers are unreachable.
     """
 
     open: Callable[[], Executor]
@@ -38,7 +38,7 @@ class Workers(NamedTuple):
 
 
 def processes(count: int) -> Workers:
-    """Processes of this machine."""
+    """Creates workers on this machine."""
     return Workers(
         open=lambda: ProcessPoolExecutor(count, initializer=_begin),
         chunk=lambda items: max(1, min(_CHUNK_MAX, items // (count * _CHUNKS_A_PROCESS))),
@@ -49,7 +49,7 @@ def cluster(address: str) -> Workers:
     """The workers of a Dask cluster.
 
     Args:
-        address: Its scheduler's address.
+        address: Address of its scheduler.
 
     Raises:
         UsageError: Dask is not installed, or the scheduler does not answer.
@@ -69,7 +69,7 @@ def cluster(address: str) -> Workers:
 
 
 class _Cluster(Executor):
-    """Dask's own executor, with its errors as those of other executors."""
+    """Dask's executor, with its errors converted to those of other executors."""
 
     def __init__(self, client: Any) -> None:
         self._executor = client.get_executor(retries=_RETRIES, pure=False)
@@ -81,7 +81,7 @@ class _Cluster(Executor):
             raise BrokenExecutor from error
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        with suppress(Exception):  # a cluster that is gone cannot be told
+        with suppress(Exception):  # a lost cluster cannot be notified
             self._executor.shutdown(wait=wait and not cancel_futures)
 
 
@@ -91,13 +91,13 @@ def run_all(
     """Runs work items, in any order.
 
     Args:
-        work: Does some items.
+        work: Processes some items.
         items: The items; `str` of each describes it.
-        workers: Who does it.
+        workers: The workers.
         chunk: Number of items to hand over at once; 0 leaves it to the workers.
 
     Yields:
-        What came of some items, as soon as they are done.
+        The results of some items, as soon as they are done.
 
     Raises:
         OctetError: Workers die repeatedly.
@@ -116,7 +116,7 @@ def run_all(
 def _run_until_broken(
     work: Callable[[Sequence[Item]], Done], left: list[Sequence[Item]], workers: Workers
 ) -> Iterator[Done]:
-    """Does what is left, and takes it off the list, until all is done or a worker has died."""
+    """Processes the remaining items, removing them from the list, until all are done or a worker has died."""
     workers.check()
     executor = workers.open()
     try:
@@ -134,6 +134,6 @@ def _run_until_broken(
 
 
 def _begin() -> None:
-    """Prepares a process of the pool: it ignores Ctrl-C, and ends with its parent."""
+    """Prepares a pool process: it ignores Ctrl-C, and ends with its parent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)

@@ -26,7 +26,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def judge(arguments: Sequence[str]) -> Sequence[str]:
-    """The stages of tools/setup that a command line needs; ends the process if it is wrong or asks for help."""
+    """The stages of tools/setup that a command line needs; exits if it is invalid or asks for help."""
     _parse(arguments)
     return ["tests", "web", "vcan"]
 

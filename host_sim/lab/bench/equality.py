@@ -14,7 +14,7 @@ REFERENCE = "host"
 """The firmware built for the host, in this process: the reference for the images."""
 
 IMAGES = ("qemu", *BOARDS)
-"""Where the flash images run."""
+"""The machines on which the flash images run."""
 
 
 class Verdict(NamedTuple):
@@ -74,7 +74,7 @@ def compare(seeds: Sequence[int], ticks: int, folder: Path, images: Sequence[str
         A verdict for each seed and image.
 
     Raises:
-        OctetError: As `record`.
+        OctetError: As for `record`.
     """
     for seed in seeds:
         reference = folder / f"{REFERENCE}-{seed}.log"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from host_sim.lab.table import aligned
 
 ROUNDS = 3
-"""Number of measurements of each figure. The best counts: the others were disturbed by other work of the machine."""
+"""Number of measurements of each figure. The best counts: the others were disturbed by other load."""
 
 
 @dataclass(frozen=True)
@@ -14,12 +14,12 @@ class Figure:
     """One measured figure.
 
     Attributes:
-        name: What was measured.
+        name: The measured quantity.
         value: Measured value.
         unit: Unit of the value.
         bar: Target for the value, such as ">= 5000"; empty if there is none.
         reached: Whether value and ratio reach their targets.
-        bound: What limits it.
+        bound: The limiting factor.
         reference: Name and value of the reference; empty if there is none.
         ratio: Value divided by that of the reference; None without one.
         ratio_bar: Target for the ratio; empty if there is none.

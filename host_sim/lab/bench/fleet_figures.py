@@ -1,4 +1,4 @@
-"""Fleets, arenas of learners, worlds without a log, layouts: in processor time unless noted."""
+"""Speed of fleets, arenas of learners, worlds without a log, and layouts, in processor time unless noted."""
 
 import os
 import time
@@ -26,7 +26,7 @@ _LAYOUTS, _DRAWN_MIN = 40, 4000
 
 
 def fleet_figures() -> list[Figure]:
-    """All figures. What is compared is measured in turn."""
+    """All figures. Quantities that are compared are measured in turn."""
     params = SimParams()
     alone = [generate(seed, 1, params) for seed in range(1, _FLEET + 1)]
     together, hall = hall_of(world_of("random"), 1, 1, _FLEET)
@@ -72,7 +72,7 @@ def fleet_figures() -> list[Figure]:
 
 
 def _processors_figure() -> Figure:
-    """The same fleet on all processors and on one, in turn, from drawing its worlds to its last result."""
+    """The same fleet on all processors and on one in turn, from drawing its worlds to its last result."""
     processors = len(os.sched_getaffinity(0))
     all_of_them, one = [], []
     for _ in range(ROUNDS):
@@ -87,7 +87,7 @@ def _processors_figure() -> Figure:
 
 
 def _whole_fleet() -> float:
-    """Ticks per second, of a clock on the wall, of all robots together."""
+    """Ticks per second of wall-clock time, all robots together."""
     began = time.perf_counter()
     done = sum(result.ticks for result in run_fleet(RunConfig(robots=_FLEET, worlds="own", environments=1)))
     return done / (time.perf_counter() - began)
@@ -111,7 +111,7 @@ def robot_ticks_per_second(layouts: list[Layout], params: SimParams, kind: BodyK
 
 
 def _ticks_without_log() -> float:
-    """Ticks per second of one robot, once it is in its environment."""
+    """Ticks per second of one robot within its environment."""
     with make(RunConfig(environments=1)) as simulation:
         simulation.enter(1)
 
@@ -138,7 +138,7 @@ _ARENAS, _STEPS, _DEEDS = 1000, 200, 3
 
 
 def vector_figure() -> Figure:
-    """Steps per second of a thousand arenas in all, each a control tick with the senses of the wire."""
+    """Total steps per second of a thousand arenas; each step is a control tick with the senses as on the wire."""
     return rate_figure(
         Rate("vector environment of 1,000, a tick a step", best(lambda: _steps_per_second(1)), 1_000_000),
         Rate("the same, an action a step", best(lambda: _steps_per_second(None))),

@@ -1,4 +1,4 @@
-"""The speed of the flash images in emulators, and their comparison with the host."""
+"""Speed of the flash images in emulators, and comparison of their frames with the host's."""
 
 import time
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The speed of lockstep: over a socket pair, over vcan, and in one process."""
+"""Speed of lockstep over a socket pair, over vcan, and in one process."""
 
 import json
 import os
@@ -31,7 +31,7 @@ _SEED = 1
 
 
 def lockstep_figures() -> list[Figure]:
-    """All figures for lockstep, for the core alone and for the start of a run."""
+    """All figures for lockstep and for the start of a run."""
     return [
         _socket_pair_figure(),
         *_vcan_figures(),
@@ -45,7 +45,7 @@ def lockstep_figures() -> list[Figure]:
 
 
 def _socket_pair_figure() -> Figure:
-    """In turn, and both on one processor: from one to another, a frame takes as long as the machine is idle."""
+    """Both measured in turn on one processor: across processors, idle states would dominate a frame's time."""
     with on_one_processor():
         pairs = [(_c_turns_per_second(), _ticks_per_second("fd", _WHOLE_S)) for _ in range(ROUNDS)]
     return rate_figure(
@@ -67,7 +67,7 @@ def on_one_processor() -> Iterator[None]:
 
 
 def measure_vcan() -> dict[str, float]:
-    """Ticks per second on vcan0, of python-can and of ours with each physics: the best of `ROUNDS`, in turn."""
+    """Ticks per second on vcan0 of python-can and of our loop with each physics: the best of `ROUNDS`, in turn."""
     rounds = [
         {
             "reference": _python_can_turns_per_second(),
@@ -79,7 +79,7 @@ def measure_vcan() -> dict[str, float]:
 
 
 def _in_process_figure() -> Figure:
-    """The loop in C beside the readable one, in turn."""
+    """The loop in C compared with the one in Python, measured in turn."""
     pairs = [
         [_ticks_per_second("none", _WHOLE_S, _recorded(native)) for native in (True, False)] for _ in range(ROUNDS)
     ]
@@ -127,7 +127,7 @@ def _ticks_per_second(
 
 
 def _seconds_in(simulation: Simulation, number: int) -> float:
-    """The time that the ticks of an environment take."""
+    """The time taken by the ticks of an environment, s."""
     simulation.enter(number)
     began = time.perf_counter()
     while not simulation.over:
@@ -138,7 +138,7 @@ def _seconds_in(simulation: Simulation, number: int) -> float:
 
 
 def _c_turns_per_second() -> float:
-    """Two C processes taking turns on a socket pair."""
+    """Turns per second of two C processes on a socket pair."""
     ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     program = os.fspath(_REFERENCE / "octet-pingpong")
     with ours, theirs:
@@ -152,7 +152,7 @@ def _c_turns_per_second() -> float:
 
 
 def _python_can_turns_per_second() -> float:
-    """python-can and a C echo taking turns on vcan0."""
+    """Turns per second of python-can and a C echo on vcan0."""
     command = [os.fspath(_REFERENCE / "octet-pingpong"), "echo", _VCAN]
     message = can.Message(arbitration_id=0x0C1, data=bytes(8), is_extended_id=False)
     with subprocess.Popen(command, stdout=subprocess.PIPE) as echo, can.Bus("vcan0", "socketcan") as bus:
@@ -173,7 +173,7 @@ def _core_tick_ns() -> float:
 
 
 def _setup_s() -> float:
-    """Wall time of the fastest of several calls of `tools/setup`."""
+    """Wall-clock time of the fastest of several calls of `tools/setup`, s."""
     return min(_one_setup_s() for _ in range(ROUNDS))
 
 
@@ -184,7 +184,7 @@ def _one_setup_s() -> float:
 
 
 def _start_s() -> float:
-    """The shortest of `ROUNDS` whole runs of `tools/run` with one robot second."""
+    """Time of the shortest of `ROUNDS` whole runs of `tools/run` with one second of robot time."""
     return min(_one_start_s() for _ in range(ROUNDS))
 
 

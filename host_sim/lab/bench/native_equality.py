@@ -1,6 +1,6 @@
 """Compares the tick loop in C, with its own geometry, with the one in Python, with pymunk.
 
-What is compared is the log, the trajectory and the results of runs in which people meddle.
+Logs, trajectories and results are compared, of runs in which people intervene.
 """
 
 import random
@@ -39,8 +39,8 @@ class LoopVerdict(NamedTuple):
 
     Attributes:
         seed: The run's seed.
-        ticks: Its ticks, all robots together.
-        difference: What differs; None if nothing does.
+        ticks: Number of ticks, all robots together.
+        difference: The difference in words; None if there is none.
     """
 
     seed: int
@@ -104,7 +104,7 @@ def _run_on(simulation: Simulation, tick: int) -> None:
 
 
 def _meddle(simulation: Simulation, draws: random.Random) -> None:
-    """Does what a person may do between two ticks; what cannot be done is left."""
+    """Makes random interventions of a person between two ticks; impossible ones are skipped."""
     client = simulation.clients[draws.randrange(len(simulation.clients))]
     simulation.set_clock()
     if draws.random() < 0.1:  # noqa: PLR2004 - seldom

@@ -1,4 +1,4 @@
-"""The speed of the pages in a real browser: drawing, lag, the cost of watching, the start of a recorded page, frames.
+"""Speed of the pages in a real browser: drawing, lag, cost of watching, start of a recorded page, frame rate.
 
 `tools/setup tests` installs the browser.
 """
@@ -25,9 +25,9 @@ _CHROMIUM = "/usr/bin/chromium-headless-shell"
 _READY = "window.octet?.scene?.state"
 _WIDTH, _HEIGHT = 1280, 800
 _FRAMES, _LAGS, _LAG_PAUSE_MS = 200, 40, 50.0
-_WATCHED_ENVIRONMENTS = 150  # some 5 s at full speed: the opening of the page counts for little
+_WATCHED_ENVIRONMENTS = 150  # some 5 s at full speed, so that opening the page matters little
 _TIMEOUT_S = 30.0
-_LOOK_PAUSE_S = 0.01  # asking without a pause takes half a core from what is measured
+_LOOK_PAUSE_S = 0.01  # polling without a pause would take half a core from the measured run
 _ROBOTS, _FLEET, _SPEED, _FRAMES_PER_S = 4, 1000, 4, 60
 # Reading a pixel makes the browser finish the drawing.
 TIME_DRAWING = """() => {
@@ -41,7 +41,7 @@ TIME_DRAWING = """() => {
     };
 }"""
 
-# Each frame of a page: when it began, and how long all of it took.
+# Each frame of a page: its start time and total duration.
 _TIME_FRAMES = """() => {
     const frame = octet.frame.bind(octet);
     [octet.begun, octet.times] = [[], []];
@@ -93,7 +93,7 @@ def _figures(browser: Browser, folder: Path) -> list[Figure]:
 
 @contextmanager
 def _watched_run(folder: Path, *words: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """A run that serves a page: its process, and the page's address."""
+    """Starts a run that serves a page; yields its process and the page's address."""
     command = [sys.executable, "-m", "host_sim", *words, "--bus", "none", "--port", "0", "--out", os.fspath(folder)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
@@ -105,7 +105,7 @@ def _watched_run(folder: Path, *words: str) -> Iterator[tuple[subprocess.Popen[s
 
 
 def _wait_for(page: Page, expression: str) -> None:
-    """Waits for an expression by polling: the page's content security policy forbids evaluating within the page."""
+    """Waits for an expression by polling, since the page's content security policy forbids evaluation in the page."""
     give_up = time.monotonic() + _TIMEOUT_S
     while not page.evaluate(f"Boolean({expression})"):
         if time.monotonic() > give_up:
@@ -135,7 +135,7 @@ def _drawing_and_lag_ms(browser: Browser, folder: Path) -> tuple[float, float]:
 
 
 def _watched_ticks_per_second(browser: Browser | None, folder: Path) -> float:
-    """Ticks per second of a run at full speed that serves a page, which is open in the browser, if there is one."""
+    """Ticks per second of a run at full speed that serves a page, open in the browser if one is given."""
     words = ("run", "--watch", "--environments", str(_WATCHED_ENVIRONMENTS))
     with _watched_run(folder, *words) as (process, address):
         page = None if browser is None else _open(browser, address)
@@ -159,7 +159,7 @@ def _first_picture(what: str, browser: Browser, path: Path, most_ms: float) -> F
 
 
 def _frame_figures(browser: Browser, folder: Path) -> list[Figure]:
-    """How smoothly octet.html plays a run of four robots, and fleet.html a thousand."""
+    """Frame rates of octet.html with a run of four robots, and of fleet.html with a thousand."""
     few, many = _frames(_few_robots(browser, folder)), _frames(_fleet(browser, folder))
     return [
         *_smooth(f"octet.html, {_ROBOTS} robots at {_SPEED} x", *few),
@@ -182,7 +182,7 @@ def _smooth(what: str, frame_ms: float, frames_per_s: float) -> list[Figure]:
 
 
 def _few_robots(browser: Browser, folder: Path) -> Page:
-    """octet.html with a run of four robots."""
+    """Opens octet.html with a run of four robots."""
     page = _open(browser, (folder / "octet.html").as_uri())
     page.fill("#robot-count", str(_ROBOTS))
     page.click("#new-run button")
@@ -191,14 +191,14 @@ def _few_robots(browser: Browser, folder: Path) -> Page:
 
 
 def _fleet(browser: Browser, folder: Path) -> Page:
-    """fleet.html."""
+    """Opens fleet.html."""
     words = ("run", "--robots", str(_FLEET), "--bus", "none", "--environments", "1", "--limit-s", "60", "--quiet")
     subprocess.run([sys.executable, "-m", "host_sim", *words, "--out", os.fspath(folder / "fleet")], check=False)
     return _open(browser, (folder / "fleet" / "fleet.html").as_uri(), "window.octet?.picture")
 
 
 def _frames(page: Page) -> tuple[float, float]:
-    """The median time of a frame while a page plays, ms, and the frames per second."""
+    """Median frame time during playback, ms, and frames per second."""
     page.select_option("#speed", str(_SPEED))
     page.evaluate(_TIME_FRAMES)
     page.click("#play")

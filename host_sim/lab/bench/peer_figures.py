@@ -1,4 +1,4 @@
-"""Our speed beside that of Enki, a fast simulator of robots in C++, at the same work. Processor time."""
+"""Our speed compared with Enki, a fast robot simulator in C++, at the same work, in processor time."""
 
 import os
 import subprocess
@@ -21,7 +21,7 @@ _PEER = "Enki, without firmware and food"
 
 
 def peer_figures() -> list[Figure]:
-    """All of them, measured in turn.
+    """All figures, measured in turn.
 
     Raises:
         OctetError: Enki is not installed.
@@ -46,7 +46,7 @@ def peer_figures() -> list[Figure]:
 
 
 def _built(program: Path) -> Path:
-    """Builds Enki's side of the comparison."""
+    """Builds the Enki program of the comparison."""
     command = ["g++", "-std=c++14", "-O3", "-o", os.fspath(program), os.fspath(_SOURCE), "-lenki"]
     try:
         subprocess.run(command, check=True, capture_output=True)
@@ -67,7 +67,7 @@ def _enki_s(program: Path, layout: Layout, params: SimParams) -> float:
 
 
 def _ours() -> float:
-    """Ticks per second of the firmware and its world without a log, while it is in its environments."""
+    """Ticks per second of the firmware and its world without a log, within its environments."""
     seconds, ticks = 0.0, 0
     for seed in range(1, _ARENAS + 1):
         with make(RunConfig(seed=seed, environments=1)) as simulation:

@@ -1,4 +1,4 @@
-"""How long the start of a run takes, and how much memory a long one."""
+"""Start time of a run, and memory of a long run."""
 
 import os
 import subprocess
@@ -14,9 +14,9 @@ _NUMPY = "import time, numpy; print(1000 * time.process_time())"
 
 
 def start_figure() -> Figure:
-    """The processor time until a run in this process has made its first tick, beside that of Python with numpy."""
+    """Processor time up to the first tick of a run in one process, compared with starting Python with numpy."""
     with TemporaryDirectory() as folder:
-        # In turn, so that both meet the same machine.
+        # In turn, so that both run under the same load.
         pairs = [(_ms("-m", "host_sim.lab.bench.first_tick", folder), _ms("-c", _NUMPY)) for _ in range(_STARTS)]
     ours, numpy = (min(column) for column in zip(*pairs, strict=True))
     return Figure(
@@ -42,7 +42,7 @@ _MB_MAX = 150.0
 
 
 def memory_figure() -> Figure:
-    """The greatest memory of a run of a thousand environments, its page and its picture included."""
+    """Peak memory of a run of a thousand environments, including its page and picture."""
     with TemporaryDirectory() as folder:
         options = ["run", "--bus", "none", "--environments", str(_ENVIRONMENTS), "--quiet", "--out", folder]
         process = os.spawnv(os.P_NOWAIT, sys.executable, [sys.executable, "-m", "host_sim", *options])

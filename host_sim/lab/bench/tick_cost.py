@@ -1,6 +1,6 @@
-"""What a tick costs: instructions from the senses that are seen in the FIFO to the drive in the mailbox.
+"""The cost of a tick: instructions from seeing the senses in the FIFO to the drive in the mailbox.
 
-What the robot spends on waiting until its other frames have left is not counted: that is the wire's time.
+Waiting for earlier frames to be sent is not counted: that time is spent on the wire.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -19,25 +19,25 @@ from host_sim.sim.run_config import RunConfig
 
 _READY_S = 5.0
 _TXBAR = 0x0CC
-"""Of FDCAN alone."""
+"""Offset of TXBAR, which only FDCAN has."""
 
 
 class _Layout(NamedTuple):
-    """What to watch of a CAN controller: offsets of registers, and what they tell."""
+    """The registers of a CAN controller to watch: their offsets, and how to interpret them."""
 
     transmit: int
     is_taken: Callable[[int], bool]
-    """Whether a mailbox is, by that register."""
+    """Whether a mailbox is in use, given the value of `transmit`."""
     received: int
     level: int
-    """Bits of that register: how many frames wait."""
+    """Mask in `received` of the number of frames waiting."""
     release: int
     releases: Callable[[int], bool]
     requests: Sequence[int]
     received_id: Callable[[int], int]
-    """Of the next frame, by `received`."""
+    """Identifier of the next frame, given the value of `received`."""
     requested_id: Callable[[int], int | None]
-    """Of the frame that a write to one of `requests` sends."""
+    """Identifier of the frame sent by a write to one of `requests`."""
 
 
 def _layout_of(registers: Mapping[int, Register]) -> _Layout:
@@ -91,7 +91,7 @@ class TickCost:
             self._begun = self._core.instructions
 
     def _note_waiting(self, status: int) -> None:
-        """Takes off what has passed since the last look, if mailboxes were taken then and nothing has changed."""
+        """Subtracts the time since the last poll if mailboxes were in use then and nothing has changed."""
         now = self._core.instructions
         if status == self._transmit_status and self._layout.is_taken(status) and self._begun is not None:
             self._begun += now - self._seen
@@ -108,7 +108,7 @@ class TickCost:
 
 
 def _watch(register: Register, on_read: Callable[[int], None], on_write: Callable[[int], None]) -> None:
-    """Has two functions called with every value that is read from a register, and written to it."""
+    """Calls functions with every value read from a register, and every value written to it."""
     read, write = register.on_read, register.on_write
     assert read is not None
     assert write is not None

@@ -1,1 +1,1 @@
-"""Robots of their own that measure themselves."""
+"""Calibration of robots with bodies on pins."""

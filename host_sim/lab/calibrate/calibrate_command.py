@@ -119,7 +119,7 @@ def _reached(stack: ExitStack, arguments: argparse.Namespace) -> "tuple[Calibrat
     from host_sim.lab.calibrate.places import Places
 
     board = client.connection.link
-    assert isinstance(board, PinsBoard)  # as the configuration has it
+    assert isinstance(board, PinsBoard)  # by the configuration
     places = Places(board, arguments.body, arguments.seed)
     return Calibration(client, places.wait), places
 

@@ -11,7 +11,7 @@ STEPS = ("light", "motors", "track")
 """The measurements, numbered from 1 as in body_measure."""
 
 TRAITS = {name: row for name, row in BODY_PARAMETERS.items() if name not in ("body_measure", "body_refused")}
-"""What it keeps."""
+"""The parameters that a body stores."""
 
 _LONGEST_S = 60.0
 _POLL_S = 0.3
@@ -20,11 +20,11 @@ _NAMES = {row.number: name for name, row in BODY_PARAMETERS.items()}
 
 @dataclass(frozen=True)
 class Calibration:
-    """The dialogue.
+    """The calibration dialogue with a robot.
 
     Attributes:
-        client: The robot's, stopped.
-        wait: Waits for this much robot time, s.
+        client: The client of the stopped robot.
+        wait: Waits for a span of robot time, s.
     """
 
     client: RobotClient
@@ -35,7 +35,7 @@ class Calibration:
 
         Raises:
             UsageError: The robot has no body on pins.
-            RobotError: It does not answer.
+            RobotError: The robot does not answer.
         """
         try:
             answer = self.client.dialogue.command("get", wanted=BODY_PARAMETERS[name].number)
@@ -48,7 +48,7 @@ class Calibration:
 
         Raises:
             RefusedError: The value is out of range, or cannot be stored.
-            RobotError: It does not answer.
+            RobotError: The robot does not answer.
         """
         self.client.dialogue.command("set", parameter=BODY_PARAMETERS[name].number, value=value)
 
@@ -60,10 +60,10 @@ class Calibration:
         """Runs a measurement.
 
         Returns:
-            Why it failed, in a sentence; empty if it was stored.
+            The reason of failure, in a sentence; empty if the result was stored.
 
         Raises:
-            RobotError: It does not answer, or does not come to an end.
+            RobotError: The robot does not answer, or the measurement does not end.
         """
         self.set("body_measure", 1 + STEPS.index(step))
         for _ in range(round(_LONGEST_S / _POLL_S)):
@@ -75,7 +75,7 @@ class Calibration:
 
 def _why(refused: int) -> str:
     name, found = _NAMES.get(refused & 0xFF, ""), refused >> 8
-    found -= (found >> 23) << 24  # of 24 bits, with a sign
+    found -= (found >> 23) << 24  # a signed number of 24 bits
     if not name:
         return ""
     if name == "body_measure":

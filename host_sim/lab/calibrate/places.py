@@ -16,7 +16,7 @@ from host_sim.world.params import SimParams
 _TICK_S = 0.02
 _WALL_MM, _BEHIND_MM = 60, 20
 _ABREAST = Pose(400.0, 130.0, pi)
-"""Beside one wall of an empty arena."""
+"""A pose beside one wall of an empty arena."""
 
 
 class Places:
@@ -26,9 +26,9 @@ class Places:
         """Gives the board a body.
 
         Args:
-            board: Up and running.
-            body: Its kind.
-            seed: From which it is drawn.
+            board: A running board.
+            body: Kind of the body.
+            seed: Seed from which the body is drawn.
 
         Raises:
             UsageError: There is no such kind, or it has no motors.
@@ -45,7 +45,7 @@ class Places:
         self._library, self._light = board.robot.library, board.robot.ffi.new("uint16_t[5]")
 
     def put(self, step: str) -> None:
-        """Puts it in the ring of walls, in the air, or beside a wall."""
+        """Places the robot in the ring of walls, in the air, or beside a wall."""
         if self._step == "motors":
             self._arena.edit(Edit("put", at=(_ABREAST.x_mm, _ABREAST.y_mm), heading=1000 * _ABREAST.heading_rad))
         if step == "motors":
@@ -53,7 +53,7 @@ class Places:
         self._step = step
 
     def wait(self, span_s: float) -> None:
-        """Lets so much of the board's time pass."""
+        """Lets a span of the board's time pass."""
         for _ in range(round(span_s / _TICK_S)):
             self._body.sense(self._tick)
             if self._step == "light":

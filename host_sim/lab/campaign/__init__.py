@@ -1,1 +1,1 @@
-"""A campaign of faults: each fault in each configuration, what came of it, and a report that people read."""
+"""A fault campaign: each fault in each configuration, the outcomes, and a report."""

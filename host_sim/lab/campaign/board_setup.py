@@ -1,4 +1,4 @@
-"""The flash image on an emulated board, whose hardware can fail in every way that its models know."""
+"""The flash image on an emulated board, with all hardware faults that its models support."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -16,7 +16,7 @@ _NOWHERE = 0x60000000
 _BELOW_RAM = 0x20000008
 _WATCHDOG_S = 4
 _RECORD = 16
-"""Bytes of a memory in flash."""
+"""Bytes of a memory record in flash."""
 _BABBLE_US = 222
 """Time of a full frame without stuff bits, at 500 kbit/s."""
 
@@ -25,10 +25,10 @@ class Board:
     """As in `Setup`."""
 
     def __init__(self, name: str) -> None:
-        """Before the board is there.
+        """Prepares the setup; the board is created by the run.
 
         Args:
-            name: The board's, one of `BOARDS`.
+            name: Name of the board, one of `BOARDS`.
         """
         self._name = name
         self.board: EmulatedBoard
@@ -64,31 +64,31 @@ class Board:
         self.board.drift = percent / 100
 
     def _cut_in_flash(self, after: int) -> None:
-        """The power goes in the middle of that write or erase from now on, and again in the next one."""
+        """Cuts the power during the nth write or erase from now on, and again during the next one."""
         flash = self.board.hardware.flash
         flash.cuts |= {flash.operations + after, flash.operations + after + 1}
 
     def _cut_in_erase(self) -> None:
-        """The power goes while the page with the memories is full, and again in the erase that is to make room."""
+        """Cuts the power when the page of memories is full, and again during the erase that makes room."""
         flash = self.board.hardware.flash
         flash.fill_last_page(_RECORD)
         flash.erasure_cuts |= {flash.erasures + 1, flash.erasures + 2}
         self.board.cut_power()
 
     def _bus(self, what: str, span_ms: int) -> None:
-        """Something is wrong with the bus for a while of the board's time."""
+        """Applies a fault to the bus for a span of the board's time."""
         wire = self.board.hardware.can.wire
         setattr(wire, what, True)
         Later(self.board.hardware.clock, span_ms * MS, lambda: setattr(wire, what, False))
 
     def _babble(self, span_ms: int) -> None:
-        """Frames of the highest priority fill the bus."""
+        """Fills the bus with frames of the highest priority."""
         for _ in range(span_ms * 1000 // _BABBLE_US):
             self.board.put(CanFrame(0, bytes(8)))
 
 
 class Later:
-    """Does something once, when the board's time has come to it."""
+    """Performs an action once, at a given board time."""
 
     def __init__(self, clock: Clock, span: int, happen: Callable[[], None]) -> None:
         self._clock, self._moment, self._happen = clock, clock.now + span, happen

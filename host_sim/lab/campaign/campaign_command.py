@@ -1,4 +1,4 @@
-"""`tools/octet campaign`: each fault in each configuration, and a report of what came of it."""
+"""`tools/octet campaign`: runs each fault in each configuration, and writes a report of the outcomes."""
 
 import argparse
 import sys
@@ -128,7 +128,7 @@ def _campaign(arguments: argparse.Namespace) -> int:
 
 
 def _outcomes(arguments: argparse.Namespace) -> "Iterator[tuple[int, Iterable[Outcome]]]":
-    """The outcomes of each configuration, with its number; several at once come in any order."""
+    """Yields the outcomes of each configuration with its number; in any order if several run at once."""
     from concurrent.futures import ProcessPoolExecutor
     from dataclasses import replace
     from multiprocessing import get_context

@@ -1,4 +1,4 @@
-"""A cell of the campaign: a run with its faults, as one line of text that repeats it."""
+"""A cell of the campaign: a run with its faults, written as one line of text that reproduces it."""
 
 import re
 from dataclasses import dataclass, field, replace
@@ -15,16 +15,16 @@ SEED = 12
 LOCKSTEP, REAL_TIME = "lockstep", "real-time"
 PACES = (LOCKSTEP, REAL_TIME)
 PINS_LINK = "pins"
-"""A robot of its own, on the pins of an emulated Blue Pill."""
+"""The link of a robot with a body on the pins of an emulated Blue Pill."""
 
 PIN_EVENTS = (
     *("sensor-off", "encoder-off", "encoder-back", "motor-stall", "motor-off", "motors-swapped", "bridge-fault"),
     *("adc-stuck", "bounce"),
 )
-"""What can happen to its body there."""
+"""Body faults that are possible there."""
 
 PROCESS_LINKS = ("none", "fd")
-"""Where the robot is started by the run itself, as `tools/run --bus` names it."""
+"""Links where the run itself starts the robot, with the value of `tools/run --bus`."""
 
 _FORM = "PROFILE LINK PACE seed=N limit=SECONDS [fault=RULE ...] [change=CHANGE ...] [event=EVENT ...]"
 _HEAD = re.compile(r"(\S+) (\S+) (\S+) seed=(\d{1,10}) limit=(\d{1,4}(?:\.\d{1,3})?)")
@@ -40,17 +40,17 @@ class Cell:
 
     Attributes:
         profile: The behaviour.
-        link: Where the robot is, one of `links.LINKS`.
+        link: The link to the robot, one of `links.LINKS`.
         pace: One of `PACES`.
         seed: Seed of the run, and of its faults.
         limit_s: Robot time of the run, s.
-        faults: Faults of the frames, as `--fault` has them.
-        changes: Faults of the body, as `--change` has them.
+        faults: Faults of the frames, as for `--fault`.
+        changes: Faults of the body, as for `--change`.
         events: Events of the robot, its line or this host.
-        command_of_own: The program of a robot of one's own.
-        fault: All that in words; empty for a run without a fault.
-        harmless: Whether the fault may go unnoticed; in lockstep it must leave no trace then.
-        denies: Whether the robot itself must tell of the fault, and learn nothing wrong.
+        command_of_own: The program of a custom robot.
+        fault: Description of the fault; empty for a run without a fault.
+        harmless: Whether the fault may go unnoticed; in lockstep it must then leave no trace.
+        denies: Whether the robot itself must report the fault, and learn nothing wrong.
     """
 
     profile: str
@@ -68,10 +68,10 @@ class Cell:
 
     @staticmethod
     def parse(text: str) -> "Cell":
-        """Reads a line that `str` made.
+        """Parses a line written by `str`.
 
         Raises:
-            UsageError: It is not written as one.
+            UsageError: The line is malformed.
         """
         head = _HEAD.match(text)
         if head is None or head[1] not in PROFILES or head[3] not in PACES:
@@ -81,7 +81,7 @@ class Cell:
 
     @property
     def items(self) -> list[str]:
-        """What happens: each with its kind."""
+        """The faults and events, each with its kind."""
         return [
             *(f"fault={rule}" for rule in self.faults),
             *(f"change={change}" for change in self.changes),
@@ -92,7 +92,7 @@ class Cell:
         """This run with other faults.
 
         Raises:
-            UsageError: An item is not written as one.
+            UsageError: An item is malformed.
         """
         found: dict[str, list[str]] = {"fault": [], "change": [], "event": []}
         for item in items:
@@ -125,7 +125,7 @@ class Cell:
 
     @property
     def config(self) -> RunConfig:
-        """The run, with a robot in this process."""
+        """The configuration of the run, with a robot in this process."""
         return RunConfig(
             self.seed,
             1,
@@ -138,7 +138,7 @@ class Cell:
         )
 
     def command(self) -> str:
-        """A command that repeats it: one that leaves the files of a run where there is one."""
+        """A command that repeats the run, writing the files of a run if there is such a command."""
         if self.events or self.link not in PROCESS_LINKS:
             program = f" --robot-command {quote(self.command_of_own)}" if self.command_of_own else ""
             return f"tools/octet campaign{program} --repeat '{self}'"

@@ -1,4 +1,4 @@
-"""The events of a robot's process, of the simulator's own, and of the wall clock as that reads it."""
+"""Events of a robot's process, of the simulator's process, and of the wall clock as read by the latter."""
 
 import os
 import signal
@@ -17,7 +17,7 @@ def process_events(pid: Callable[[], int]) -> Mapping[str, Callable[[int], None]
     """The events of a process on this host.
 
     Args:
-        pid: Gives the process.
+        pid: Returns the process ID.
     """
     return {
         "kill": lambda _: os.kill(pid(), signal.SIGKILL),
@@ -28,7 +28,7 @@ def process_events(pid: Callable[[], int]) -> Mapping[str, Callable[[int], None]
 
 
 def hang(pid: int, span_ms: int) -> None:
-    """SIGSTOP, and after a while SIGCONT."""
+    """Sends SIGSTOP, and SIGCONT after a span."""
     os.kill(pid, signal.SIGSTOP)
 
     def go_on() -> None:
@@ -41,7 +41,7 @@ def hang(pid: int, span_ms: int) -> None:
 
 
 def hold_up(span_ms: int) -> None:
-    """SIGSTOP to this process itself; another one, which is not its robot, wakes it up."""
+    """Sends SIGSTOP to this process; a helper process, which is not its robot, continues it."""
     pid = os.getpid()
     with subprocess.Popen(["/bin/sh", "-c", f"sleep {span_ms / 1000}; kill -CONT {pid}"]):
         os.kill(pid, signal.SIGSTOP)
@@ -55,13 +55,13 @@ def clock_events(undo: ExitStack) -> Mapping[str, Happen]:
     """Sets the clock ahead or back by some seconds.
 
     Args:
-        undo: Sets it right again.
+        undo: Restores the clock.
     """
     return {"clock-ahead": lambda span_s: _step(span_s, undo), "clock-back": lambda span_s: _step(-span_s, undo)}
 
 
 def _step(span_s: int, undo: ExitStack) -> None:
-    """Sets the clock for every module that reads it, libraries included: after the next reading, as if in a wait."""
+    """Shifts the clock for all modules, including libraries: after the next reading, as if during a wait."""
     seconds, nanoseconds = time.time, time.time_ns
     shift_s, shift_ns = chain([0], repeat(span_s)), chain([0], repeat(span_s * 10**9))
     _replace(seconds, lambda: seconds() + next(shift_s), undo)

@@ -1,4 +1,4 @@
-"""The report of a campaign: a page that needs no network, with a command for each cell."""
+"""The report of a campaign: an offline page with a command for each cell."""
 
 import re
 from collections.abc import Iterable, Sequence
@@ -84,7 +84,7 @@ def verdict(outcome: Outcome) -> str:
 
 
 def account(outcome: Outcome) -> str:
-    """What came of one run, in lines of text."""
+    """The outcome of one run, in lines of text."""
     return "\n".join((str(outcome.cell), verdict(outcome), *_lines(outcome)))
 
 
@@ -103,7 +103,7 @@ def _lines(outcome: Outcome) -> list[str]:
 
 
 def _bad(outcomes: Sequence[Outcome]) -> str:
-    """What is to be looked at first."""
+    """The failed runs, which need attention first."""
     rows = "".join(
         f'<tr><th scope="row">{escape(each.cell.fault or "no fault")}<p>{escape(each.cell.configuration)}</p></th>'
         f"{_cell(each)}</tr>\n"
@@ -120,14 +120,14 @@ def _ways(profiles: Iterable[str]) -> str:
 
 
 def _command(text: str) -> str:
-    """A command, which is broken into lines before its options and not in them."""
+    """A command, with line breaks only before its options."""
     first, *others = re.split(r" (?=--)", text)
     words = (first, *(f" {other}" for other in others))
     return f"<code>{''.join(f'<span>{escape(word)}</span>' for word in words)}</code>"
 
 
 def _bars(outcomes: Sequence[Outcome]) -> str:
-    """The campaign's figures: of the runs with a fault, how many meet each demand."""
+    """The campaign's figures: the share of runs with a fault that meet each requirement."""
     faulty = [outcome for outcome in outcomes if outcome.cell.fault]
     counts = {
         "safe: no wheel turned for more than 100 ms without a new drive": [

@@ -1,4 +1,4 @@
-"""A run in a process of its own, which is killed on the way, and what it said until then."""
+"""A run in a process of its own that is killed midway, and its reports until then."""
 
 import json
 import os
@@ -14,12 +14,12 @@ _TRACED = (str(Path(__file__).parents[2]), tempfile.__file__)
 
 
 def before_each_instruction(happen: Callable[[], None]) -> None:
-    """Has a function called before each Python instruction of this package that begins from now on, in this thread.
+    """Calls a function before each Python instruction of this package, from now on and in this thread.
 
-    The functions that run already are left alone, but for what they call. `sys.settrace(None)` ends it.
+    Functions already running are not traced, but those that they call are. `sys.settrace(None)` ends tracing.
 
     Args:
-        happen: The function.
+        happen: The function to call.
     """
 
     def trace(frame: FrameType, event: str, _: Any) -> Any:
@@ -35,14 +35,14 @@ def before_each_instruction(happen: Callable[[], None]) -> None:
 
 
 Tell = Callable[..., None]
-"""Takes what a run wants to be known of it, though it may be killed at any time: numbers, words and lists of them."""
+"""Reports from a run that may be killed at any time: numbers, strings and lists of them."""
 
 
 def kill_at(number: int) -> None:
-    """SIGKILL to this process before one of its Python instructions.
+    """Sends SIGKILL to this process before one of its Python instructions.
 
     Args:
-        number: How many there are until then, with that one.
+        number: Number of that instruction, counted from 1.
     """
     left = number
 
@@ -56,13 +56,13 @@ def kill_at(number: int) -> None:
 
 
 def run_to_be_killed(run: Callable[[Tell], None]) -> tuple[bool, list[list[Any]]]:
-    """Runs something in a process of its own.
+    """Runs a function in a process of its own.
 
     Args:
-        run: What is to be killed on the way.
+        run: The function, whose process may be killed.
 
     Returns:
-        Whether it was killed, and everything it told.
+        Whether it was killed, and all that it reported.
     """
     ours, its = os.pipe()
     child = os.fork()
@@ -76,12 +76,12 @@ def run_to_be_killed(run: Callable[[Tell], None]) -> tuple[bool, list[list[Any]]
 
 
 def _write(descriptor: int, words: tuple[object, ...]) -> None:
-    """One system call: what is told is there whole, or not at all."""
+    """Writes with one system call, so that a report is complete or missing."""
     os.write(descriptor, f"{json.dumps(words)}\n".encode())
 
 
 def _run_to_the_end(run: Callable[[Tell], None], tell: Tell) -> None:
-    """It does not return."""
+    """Runs the function, then exits; does not return."""
     try:
         run(tell)
     except Exception as error:

@@ -1,4 +1,4 @@
-"""A robot in a process of its own on a line that exists without it: it can restart, and the line can go and come."""
+"""A robot in a process of its own on an independent line: the robot can restart, and the line can drop and return."""
 
 import subprocess
 import threading
@@ -26,8 +26,8 @@ class OnLine:
         """Starts the robot.
 
         Args:
-            link: Its end of the line.
-            bus: Ours.
+            link: The robot's end of the line.
+            bus: The simulator's end.
             events: The events of the line.
         """
         self._link, self._bus = link, bus
@@ -49,7 +49,7 @@ class OnLine:
 
 @contextmanager
 def serial_line() -> Iterator[OnLine]:
-    """A robot that speaks slcan, on a serial line."""
+    """Sets up a robot with slcan on a serial line."""
     with TemporaryDirectory() as folder, ExitStack() as stack:
         cable, socket = Cable(), Socket(Path(folder) / "tty")
         stack.callback(cable.close)
@@ -74,7 +74,7 @@ def serial_line() -> Iterator[OnLine]:
 
 @contextmanager
 def virtual_bus() -> Iterator[OnLine]:
-    """A robot on SocketCAN.
+    """Sets up a robot on SocketCAN.
 
     Raises:
         UsageError: There is no vcan0.
@@ -102,7 +102,7 @@ def _set_bus(state: str) -> None:
 
 
 def _later(stack: ExitStack, span_ms: int, happen: Callable[[], None]) -> None:
-    """Has something happen after a time, or not at all if the stack is closed before: then the line is gone."""
+    """Schedules an action after a span; it is cancelled if the stack is closed earlier: the line is gone then."""
     timer = threading.Timer(span_ms / 1000, happen)
     timer.start()
     stack.callback(timer.join)

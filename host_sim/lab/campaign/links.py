@@ -1,4 +1,4 @@
-"""The links of cells: where the robot is, and which events are possible there."""
+"""The links of cells: places of a robot, and the events possible there."""
 
 from collections.abc import Collection, Mapping
 from contextlib import AbstractContextManager, nullcontext
@@ -28,7 +28,7 @@ class InProcess:
 
 
 LINKS = ("none", "fd", "external", "slcan", "vcan", *BOARDS, PINS_LINK)
-"""In this process, on a socket pair, there but of one's own, on a serial line, on vcan0, on a board, on its pins."""
+"""In this process, on a socket pair, a custom robot there, on a serial line, on vcan0, on a board, on its pins."""
 
 
 def open_setup(link: str, command: str = "") -> AbstractContextManager[Setup]:
@@ -36,10 +36,10 @@ def open_setup(link: str, command: str = "") -> AbstractContextManager[Setup]:
 
     Args:
         link: One of `LINKS`.
-        command: The program of a robot of one's own.
+        command: The program of a custom robot.
 
     Raises:
-        UsageError: There is no such link, or not on this machine.
+        UsageError: There is no such link, or this machine does not have it.
         OctetError: Something that must be built or installed is missing.
     """
     if link == "none":
@@ -68,15 +68,15 @@ def open_setup(link: str, command: str = "") -> AbstractContextManager[Setup]:
 
 
 def check_events(possible: Collection[str], link: str, events: tuple[Event, ...]) -> None:
-    """Makes sure that all these events can happen.
+    """Checks that events are possible.
 
     Args:
-        possible: The names of those that can happen there.
+        possible: Names of the possible events.
         link: One of `LINKS`.
-        events: What is to happen.
+        events: The events to check.
 
     Raises:
-        UsageError: One cannot.
+        UsageError: An event is not possible.
     """
     for event in events:
         if event.name not in possible:

@@ -1,4 +1,4 @@
-"""The fault classes of the campaign, and the configurations in which each is made to happen."""
+"""The fault classes of the campaign, and the configurations in which each is injected."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -12,37 +12,37 @@ from host_sim.protocol.words import SENSORS
 
 _LINES, _PROCESSES = ("external", "slcan", "vcan"), ("fd", "external", "slcan", "vcan")
 _COMPARED = (LOCKSTEP,)
-"""Where runs can be compared tick by tick."""
+"""Links on which runs can be compared tick by tick."""
 
 _RECORD_WRITES = {"feather_stm32f405": 4, "blue_pill": 8, "nucleo_g431rb": 2, PINS_LINK: 8}
-"""Writes to flash that store a memory: of words, of half-words, of double words."""
+"""Number of flash writes that store a memory: of words, half-words and double words."""
 
 _INSTRUCTIONS, _SAVING_INSTRUCTIONS = 20_000, 400
-"""Python instructions of a dozen ticks, and of the saving of a memory."""
+"""Number of Python instructions in a dozen ticks, and in saving a memory."""
 
 _NO_LESSONS = ("fixed", "never")
 """Behaviours that store nothing."""
 
 _AT = 100
-"""Two seconds after the start; the robot is under way."""
+"""Tick of an event: two seconds after the start, while the robot is moving."""
 
 
 @dataclass(frozen=True)
 class FaultClass:
-    """One way for something to go wrong.
+    """A class of faults.
 
     Attributes:
-        name: In words.
-        faults: Faults of the frames, as `--fault` has them.
-        changes: Faults of the body, as `--change` has them.
-        event: Event of the robot, its line or this host; several at once with blanks between them. {any} stands
-            for any instruction of a dozen ticks, {saving} for one that saves a memory: another one in each run.
-        links: Where it can happen; empty for everywhere.
-        paces: At which pace it is a fault.
-        harmless: At which pace it may go unnoticed; in lockstep it must leave no trace then.
-        denies: Whether the robot itself must tell of it, and learn nothing wrong.
-        in_lesson: Whether it happens when something is learned.
-        profiles: The behaviours to which it can happen; empty for all.
+        name: Description.
+        faults: Faults of the frames, as for `--fault`.
+        changes: Faults of the body, as for `--change`.
+        event: Event of the robot, its line or this host; simultaneous ones are separated by blanks. {any} stands
+            for any instruction of a dozen ticks, {saving} for one that saves a memory; each run draws another one.
+        links: Links on which it is possible; empty for all.
+        paces: Paces at which it is a fault.
+        harmless: Paces at which it may go unnoticed; in lockstep it must then leave no trace.
+        denies: Whether the robot itself must report it, and learn nothing wrong.
+        in_lesson: Whether it occurs only when a turn is learned.
+        profiles: Behaviours for which it is possible; empty for all.
         least_s: Robot time within which it shows in lockstep, twice that for `searcher`; no run there is shorter.
     """
 
@@ -59,13 +59,13 @@ class FaultClass:
     least_s: float = 0.0
 
     def can_happen(self, profile: str, link: str, pace: str) -> bool:
-        """Whether it can happen in a configuration."""
+        """Whether it is possible in a configuration."""
         is_there = pace in self.paces and (link in self.links or (not self.links and link != PINS_LINK))
         is_there = is_there and (not self.profiles or profile in self.profiles)
         return is_there and not (self.in_lesson and profile in _NO_LESSONS)
 
     def cell(self, base: Cell) -> Cell:
-        """A run without faults, with this one."""
+        """Adds this fault to a run without faults."""
         dice = Random(f"{self.name} {base}")
         event = self.event.format(any=dice.randint(1, _INSTRUCTIONS), saving=dice.randint(1, _SAVING_INSTRUCTIONS))
         least_s = self.least_s * (2 if base.profile == "searcher" else 1) if base.pace == LOCKSTEP else 0.0
@@ -82,13 +82,13 @@ class FaultClass:
 
 
 def _of_body(name: str, *changes: str, denies: bool = False, least_s: float = 10.0) -> FaultClass:
-    """A fault of the body shows in what the robot does: in lockstep, in another run than without it."""
+    """A fault of the body. It affects the robot's actions: in lockstep, the run differs from one without it."""
     harmless = () if denies else (REAL_TIME,)
     return FaultClass(name, changes=changes, harmless=harmless, denies=denies, least_s=least_s)
 
 
 def _of_odometers() -> Iterator[FaultClass]:
-    """Wheels that do not do what they were told. Those that count a little too much cannot be noticed."""
+    """Faults of wheels that do not follow the command. A slightly high odometer count cannot be noticed."""
     for side in ("left", "right"):
         yield _of_body(f"the {side} odometer is stuck", f"odometer:{side}:0%", denies=True)
         yield _of_body(f"the {side} odometer counts backward", f"odometer:{side}:-100%", denies=True)
@@ -103,18 +103,18 @@ def _of_odometers() -> Iterator[FaultClass]:
 
 
 def _of_forgery() -> Iterator[FaultClass]:
-    """Each command, and each message in its sender's name. Only one that counts as the robot expects is obeyed."""
+    """Forged commands and messages. The robot obeys only those with the counter that it expects."""
     for opcode in Opcode:
         name = opcode.name.lower()
         yield FaultClass(f"a forged {name} command", (f"forge:{name}@300/to",))
     for message in MESSAGES.values():
-        profiles = ("distance",) if message.name == "RANGES" else ()  # to others, they are foreign frames
+        profiles = ("distance",) if message.name == "RANGES" else ()  # for other behaviours, these are foreign frames
         rule = f"forge:20%:{message.name}/from" if message.sender == "ROBOT" else f"forge:{message.name}@300-310/to"
         yield FaultClass(f"forged {message.name} frames", (rule,), profiles=profiles)
 
 
 def _of_flash() -> Iterator[FaultClass]:
-    """A loss of power at each write of a memory, and in an erase."""
+    """Power failures at each write of a memory, and during an erase."""
     for number in range(1, max(_RECORD_WRITES.values()) + 1):
         name = f"the power goes in write {number} of a memory to flash, twice in a row"
         boards = tuple(board for board, writes in _RECORD_WRITES.items() if number <= writes)
@@ -138,13 +138,13 @@ BUS: tuple[FaultClass, ...] = (
     FaultClass("a second robot", ("forge:DRIVE@300-302/to",)),
     FaultClass("a second simulator", ("forge:SENSES@300-310/from",)),
     *_of_forgery(),
-    # One alone may pass for a report that came twice. It is never obeyed.
+# A single one may pass for a repeated report. It is never obeyed.
     FaultClass("a forged power-up", ("forge:BOOT@300/from",), harmless=PACES),
     FaultClass(
         "all at once", ("drop:10%", "duplicate:5%", "reorder:5%", "delay:5%:0-60ms", "corrupt:5%", "truncate:5%")
     ),
 )
-"""On the way of the frames, on any link."""
+"""Faults of frames in transit, on any link."""
 
 BODY: tuple[FaultClass, ...] = (
     *(_of_body(f"the {sensor} sensor is stuck on", f"stuck-on:{sensor}") for sensor in SENSORS),
@@ -168,7 +168,7 @@ BODY: tuple[FaultClass, ...] = (
     _of_body("the beacon shows food where there is none", "false-beacon:700"),
     _of_body("the beacon shows food to eat where there is none", "false-beacon:100"),
 )
-"""In the body, on any link."""
+"""Faults of the body, on any link."""
 
 ROBOT: tuple[FaultClass, ...] = (
     FaultClass("the robot's process is killed", event="kill", links=_PROCESSES),
@@ -184,7 +184,7 @@ ROBOT: tuple[FaultClass, ...] = (
     FaultClass("the robot's clock is 2 % fast", event="fast-clock:2", links=BOARDS, harmless=PACES),
     FaultClass("the robot's clock is 2 % slow", event="slow-clock:2", links=BOARDS, harmless=PACES),
 )
-"""In the robot."""
+"""Faults of the robot."""
 
 LINE: tuple[FaultClass, ...] = (
     FaultClass("the controller goes bus-off", event="bus-off:400", links=BOARDS),
@@ -195,7 +195,7 @@ LINE: tuple[FaultClass, ...] = (
     FaultClass("the adapter is unplugged and plugged in", event="unplug:500", links=("slcan",)),
     FaultClass("a hundredth of the bytes is damaged", event="noise:1", links=("slcan",)),
 )
-"""In the line below the frames, and in CAN's controller."""
+"""Faults of the line below the frames, and of the CAN controller."""
 
 HOST: tuple[FaultClass, ...] = (
     FaultClass("the simulator is killed at any instruction", event="kill-simulator:{any}"),
@@ -208,7 +208,7 @@ HOST: tuple[FaultClass, ...] = (
     FaultClass("the folder becomes read-only", event="read-only"),
     FaultClass("the folder is removed", event="folder-gone"),
     FaultClass("the log is removed while it is written", event="log-gone"),
-    # The next lesson, or the end, writes it again.
+    # The next lesson, or the end of the run, writes it again.
     FaultClass("the memory file is removed", event="memory-gone", harmless=PACES),
     FaultClass("the wall clock is set ahead by an hour", event="clock-ahead:3600", harmless=PACES),
     FaultClass("the wall clock is set back by an hour", event="clock-back:3600", harmless=PACES),
@@ -219,7 +219,7 @@ HOST: tuple[FaultClass, ...] = (
         harmless=_COMPARED,
     ),
 )
-"""In the simulator's host."""
+"""Faults of the simulator's host."""
 
 
 def _on_pins(name: str, event: str, *, denies: bool = False, harmless: tuple[str, ...] = ()) -> FaultClass:
@@ -241,10 +241,10 @@ def _of_pins() -> Iterator[FaultClass]:
 
 
 PINS = tuple(_of_pins())
-"""On the pins of a robot of its own."""
+"""Faults at the pins of a robot with a body on pins."""
 
 CLASSES = (*BUS, *BODY, *ROBOT, *LINE, *HOST, *PINS)
-"""All that the campaign knows."""
+"""All fault classes of the campaign."""
 
 
 def groups(
@@ -254,11 +254,11 @@ def groups(
     limits_s: Callable[[str], float],
     classes: Sequence[FaultClass] = CLASSES,
 ) -> Iterator[list[Cell]]:
-    """The cells of a campaign, those of one configuration together; the first of each has no fault.
+    """The cells of a campaign, grouped by configuration; the first of each group has no fault.
 
     Args:
         profiles: Behaviours.
-        links: Where the robot is. Within this process, time counts only in lockstep.
+        links: Links to the robot. Within this process, only lockstep is possible.
         paces: Some of `PACES`.
         limits_s: Robot time of each run at a pace, s.
         classes: The faults.
@@ -272,12 +272,12 @@ def groups(
 
 
 def recognised(cell: Cell) -> Cell:
-    """A cell with what is known of its fault, where it is one of the campaign's."""
+    """Completes a cell with the properties of its fault, if that is one of the campaign's."""
     base = replace(cell, faults=(), changes=(), events=())
     known = (replace(each.cell(base), limit_s=cell.limit_s) for each in CLASSES if cell.pace in each.paces)
     return next((each for each in known if str(each) == str(cell)), cell)
 
 
 def default_limit_s(pace: str) -> float:
-    """Robot time of a run: long enough for some lessons, in real time short enough for patience."""
+    """Robot time of a run, s: long enough for some lessons, in real time short enough to wait for."""
     return 60.0 if pace == LOCKSTEP else 10.0

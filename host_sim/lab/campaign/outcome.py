@@ -1,4 +1,4 @@
-"""What comes of a cell: whether it was safe, whether the fault was seen, and whether anything wrong was learned."""
+"""The outcome of a cell: whether it was safe, whether the fault was seen, and whether anything wrong was learned."""
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
@@ -17,8 +17,8 @@ def unreached(outcomes: Iterable["Outcome"], ways: Collection[str] = ("refused",
     """The faults, in words, that reached their receiver in no run: those runs test little.
 
     Args:
-        outcomes: What came of the runs.
-        ways: What became of them instead.
+        outcomes: Outcomes of the runs.
+        ways: Values of `reach` that count as not reached.
     """
     reaches: dict[str, set[str]] = {}
     for each in outcomes:
@@ -29,26 +29,26 @@ def unreached(outcomes: Iterable["Outcome"], ways: Collection[str] = ("refused",
 
 @dataclass
 class Outcome:
-    """What came of one run.
+    """The outcome of one run.
 
     Attributes:
         cell: The run.
         oldest: Age of the oldest drive with which the wheels turned, in ticks.
-        seen: By what the fault was noticed, in words; empty if it was not.
-        end: How the run ended before its time, in words; empty if it did not.
-        doubts: What makes its result doubtful.
+        seen: How the fault was noticed, in words; empty if it was not.
+        end: How the run ended early, in words; empty if it did not.
+        doubts: Reasons why its result is doubtful.
         wrong: Patterns for which a wrong turn was learned.
         digest: SHA-256 of its log, in hexadecimal.
-        course: SHA-256 of what the robot sensed and did, tick by tick.
-        broke: Whether it ended with an error that is not about the robot, its line, or files that were harmed.
-        lost: What is missing from its files without a warning, in words; empty if they hold all.
-        strikes: Number of faults that frames had.
+        course: SHA-256 of the robot's senses and drives, tick by tick.
+        broke: Whether it ended with an error that is not about the robot, its line, or damaged files.
+        lost: Data missing from its files without a warning, in words; empty if they are complete.
+        strikes: Number of faults applied to frames.
         refusals: Number of frames that simulator and robot refused.
-        struck: The faults that frames had, as rules for one frame each.
-        waiting: Events that have not come to happen.
+        struck: The faults applied to frames, as rules for one frame each.
+        waiting: Events that have not occurred.
         moved: Tick after which the robot last answered in time.
         ticks: Number of ticks.
-        differs: Whether, in lockstep, its course is another than without the fault.
+        differs: Whether, in lockstep, its course differs from that without the fault.
     """
 
     cell: Cell
@@ -71,7 +71,7 @@ class Outcome:
 
     @property
     def problems(self) -> list[str]:
-        """Why the campaign fails here; empty if it does not."""
+        """Reasons why the campaign fails in this cell; empty if it does not."""
         cell = self.cell
         is_misled = self.wrong and (cell.denies or not (cell.changes or cell.is_of_body or self.end or self.doubts))
         found = {
@@ -86,7 +86,7 @@ class Outcome:
 
     @property
     def _is_seen(self) -> bool:
-        """Whether the fault was noticed: by the robot itself, where it must."""
+        """Whether the fault was noticed, by the robot itself if required."""
         return any(sign in self.seen for sign in _DENIALS) if self.cell.denies else bool(self.seen)
 
     @property
@@ -102,22 +102,22 @@ class Outcome:
 
     @property
     def recovered(self) -> bool:
-        """Whether the run went on to its end with a robot that answers."""
+        """Whether the run reached its end with a robot that answers."""
         return not self.end and self.ticks - self.moved < _FRESH_TICKS
 
     @property
     def rest_ms(self) -> int:
-        """The longest time for which wheels turned without a new drive, ms."""
+        """Longest time for which wheels turned without a new drive, ms."""
         return self.oldest * _TICK_MS
 
     @property
     def kind(self) -> str:
-        """The worst that is to be said of it, in a word or two; what a smaller schedule must still bring about."""
+        """The worst finding in a word or two, which a smaller schedule must still reproduce."""
         learned = "learned wrong turns" if self.wrong else "went on"
         return (*self.problems, *["ended"] * bool(self.end), *["doubted"] * bool(self.doubts), learned)[0]
 
     def compare(self, clean: "Outcome") -> None:
-        """Notes what the run without a fault shows."""
+        """Compares with the run without a fault, and notes the differences."""
         if self.cell.is_of_body and not self.seen and self.digest != clean.digest:
             self.seen = "what it does"
         self.differs = self.course != clean.course and not self.cell.is_real_time

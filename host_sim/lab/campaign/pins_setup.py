@@ -1,4 +1,4 @@
-"""A robot of its own on its emulated pins, whose wires, motors and sensors can fail."""
+"""A robot with a body on emulated pins, whose wires, motors and sensors can fail."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -17,10 +17,10 @@ class PinsRobot(Board):
     """As in `Setup`."""
 
     def __init__(self, name: str) -> None:
-        """Before the board is there.
+        """Prepares the setup; the board is created by the run.
 
         Args:
-            name: The board's.
+            name: Name of the board.
         """
         super().__init__(name)
         on_pins: tuple[Happen, ...] = (
@@ -46,14 +46,14 @@ class PinsRobot(Board):
     def found(self, client: RobotClient) -> None:
         """As in `Setup`."""
         super().found(client)
-        assert self.board.hardware.robot is not None  # such boards alone are robots
+        assert self.board.hardware.robot is not None  # only such boards have a body
         self._robot: RobotOnPins = self.board.hardware.robot
 
     def _set(self, what: str, side: int, value: int) -> None:
         getattr(self._robot, what)[side] = value
 
     def _bounce(self, span_ms: int) -> None:
-        """The button's contacts close and open, each time for less than a press takes."""
+        """Bounces the button's contacts, each time for less than a press takes."""
         clock = self.board.hardware.clock
         for at in range(0, span_ms, _BOUNCE_MS):
             Later(clock, at * MS, lambda down=not at // _BOUNCE_MS % 2: self._robot.set_button(down))  # type: ignore[misc]

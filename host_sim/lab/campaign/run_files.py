@@ -1,4 +1,4 @@
-"""The files that a run writes, and the harm that this host can do to them."""
+"""The files that a run writes, and the faults of this host that affect them."""
 
 import ctypes
 import hashlib
@@ -24,7 +24,7 @@ _OF_COURSE = tuple(f" {Protocol(_NODE).id_of(name):03X}#".encode() for name in (
 
 
 class CourseLog(FrameLog):
-    """A log that knows the course of its run, too."""
+    """A log that also computes the course of its run."""
 
     def __init__(self, path: Path | None = None) -> None:
         """As in `FrameLog`."""
@@ -33,7 +33,7 @@ class CourseLog(FrameLog):
 
     @property
     def course(self) -> str:
-        """SHA-256 of the lines of the course that were written, in hexadecimal."""
+        """SHA-256 of the written lines of the course, in hexadecimal."""
         return self._course.hexdigest()
 
     def _write(self, block: bytes) -> None:
@@ -46,14 +46,14 @@ class CourseLog(FrameLog):
 _VERSION = 0x20080522
 _WORDS = 6
 _OVERRIDE = 1 << 1
-"""CAP_DAC_OVERRIDE, by which permissions mean nothing to root."""
+"""CAP_DAC_OVERRIDE, which exempts root from permissions."""
 
 
 def obey_permissions(undo: ExitStack) -> None:
-    """Has this thread obey the permissions of files, even as root.
+    """Makes this thread obey file permissions, even as root.
 
     Args:
-        undo: Takes it back.
+        undo: Reverts this.
     """
     header, data = (ctypes.c_uint32 * 2)(_VERSION, 0), (ctypes.c_uint32 * _WORDS)()
     libc = ctypes.CDLL(None, use_errno=True)
@@ -74,26 +74,26 @@ _MEMORY = "robot.mem"
 
 
 def _ignore(*_: object) -> None:
-    """The run is in no danger of being killed."""
+    """Discards reports, for a run that is not killed."""
 
 
 class NoFiles:
-    """A run that writes nothing: of its log there is only the digest.
+    """A run that writes no files; only the digest of its log is computed.
 
     Attributes:
         log: The log.
-        events: The harm that can be done to the files, by name.
-        struck: Whether harm was done to them.
-        told: What was said about them, in sentences.
-        memory: What the memory file held before; None if there was none.
-        note: Takes what is to be known of the run, whatever becomes of it.
+        events: File faults by name.
+        struck: Whether a file fault was applied.
+        told: Messages about the files, in sentences.
+        memory: The previous content of the memory file; None if there was none.
+        note: Takes reports of the run that must survive its end.
     """
 
     memory: Memory | None = None
     note: Tell = staticmethod(_ignore)
 
     def __init__(self, log: CourseLog | None = None) -> None:
-        """Nothing was written yet."""
+        """Starts with nothing written."""
         self.log = log or CourseLog()
         self.events: Mapping[str, Happen] = {}
         self.struck = False
@@ -103,30 +103,30 @@ class NoFiles:
         """Takes over the memory after a tick.
 
         Raises:
-            OctetError: It cannot be saved.
+            OctetError: The memory cannot be saved.
         """
 
     def finish(self, memory: Sequence[int]) -> None:  # noqa: ARG002 - saved where there is a file
         """Takes over the memory at the end, and closes the log.
 
         Raises:
-            OctetError: One of them cannot be written.
+            OctetError: Memory or log cannot be written.
         """
         self.log.flush()
         self.log.close()
 
     def close(self) -> str:
-        """Closes the log, however the run ended; the digest of what was handed over."""
-        with suppress(OctetError):  # the run ended with it, or with something worse
+        """Closes the log, however the run ended. Returns the digest of the frames handed over."""
+        with suppress(OctetError):  # the run ended with this error, or with a worse one
             self.log.close()
         return self.log.close()
 
     def without_folder(self, text: str) -> str:
-        """A message about a file, whatever the name of its folder."""
+        """Removes the folder's name from a message about a file."""
         return text
 
     def lost(self) -> str:
-        """What is missing from the files without a warning, in words; empty if they hold all that was handed over."""
+        """Data missing from the files without a warning, in words; empty if they are complete."""
         return ""
 
 
@@ -134,12 +134,12 @@ class RunFiles(NoFiles):
     """A log and a memory file in a folder of their own, kept as `tools/run` keeps them."""
 
     def __init__(self, folder: Path, undo: ExitStack, tell: Tell = _ignore) -> None:
-        """Begins to write.
+        """Opens the files.
 
         Args:
-            folder: Holds nothing but the memory file of an earlier run.
-            undo: Takes back the harm.
-            tell: Told of each memory before it is saved, and of all that `note` gets.
+            folder: A folder with nothing but the memory file of an earlier run.
+            undo: Reverts the file faults.
+            tell: Called with each memory before it is saved, and with everything passed to `note`.
         """
         self._folder, self._undo, self.note = folder, undo, tell
         self._log_path, self._memory_path = folder / "run.log", folder / _MEMORY
@@ -173,7 +173,7 @@ class RunFiles(NoFiles):
         if self._finished and _digest(self._log_path) != self.log.close():
             return "the log"
         held = self._memory_path.read_bytes() if self._memory_path.exists() else None
-        is_gone = held is None and not self._finished  # a run that ends has said why
+        is_gone = held is None and not self._finished  # a run that ended early has given the reason
         return "" if is_gone or held == self._saved else "the memory"
 
     def without_folder(self, text: str) -> str:
@@ -185,35 +185,35 @@ class RunFiles(NoFiles):
         happen(self, size)
 
     def fill_disk(self, room: int) -> None:
-        """No file can grow any more: beyond a size in bytes, as far as it has not done so already."""
+        """Limits file sizes, in bytes, so that no file can grow beyond the limit."""
         soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
         self._undo.callback(resource.setrlimit, resource.RLIMIT_FSIZE, (soft, hard))
         resource.setrlimit(resource.RLIMIT_FSIZE, (room, hard))
 
     def forbid(self, _: int) -> None:
-        """The folder becomes read-only, for root too."""
+        """Makes the folder read-only, for root too."""
         self._undo.callback(self._folder.chmod, self._folder.stat().st_mode)
         self._folder.chmod(_READ_ONLY)
         obey_permissions(self._undo)
 
     def remove_folder(self, _: int) -> None:
-        """The folder and all that is in it is removed."""
+        """Removes the folder with all its contents."""
         shutil.rmtree(self._folder)
 
     def remove_log(self, _: int) -> None:
-        """The log is removed while it is written."""
+        """Removes the log while it is being written."""
         self._log_path.with_name(self._log_path.name + ".part").unlink()
 
     def remove_memory(self, _: int) -> None:
-        """The memory file is removed."""
+        """Removes the memory file."""
         self._memory_path.unlink()
 
     def kill(self, number: int) -> None:
-        """SIGKILL to this process at one of its next Python instructions."""
+        """Sends SIGKILL to this process at one of its next Python instructions."""
         kill_at(number)
 
     def kill_in_save(self, number: int) -> None:
-        """SIGKILL to this process at one of the Python instructions that save the next memory."""
+        """Sends SIGKILL to this process at one of the Python instructions that save the next memory."""
         self._killed_in_save = number
 
 
@@ -228,18 +228,18 @@ _EVENTS: Mapping[str, Callable[[RunFiles, int], None]] = {
 }
 
 KILL_EVENTS = frozenset({"kill-simulator", "kill-saving"})
-"""Those that end the process of the run."""
+"""File faults that end the process of the run."""
 
 FILE_EVENTS = frozenset(_EVENTS)
-"""The harm that can be done to the files of a run, by name."""
+"""The faults that can affect a run's files, by name."""
 
 
 def make_folder(events: Iterable[Event], undo: ExitStack) -> Path | None:
-    """An empty folder for the files of a run; None for a run in which nothing happens to files.
+    """Creates a folder for the files of a run; None for a run without file faults.
 
     Args:
-        events: All that is to happen in the run.
-        undo: Removes it.
+        events: All events of the run.
+        undo: Removes the folder.
     """
     if FILE_EVENTS.isdisjoint(event.name for event in events):
         return None
@@ -249,11 +249,11 @@ def make_folder(events: Iterable[Event], undo: ExitStack) -> Path | None:
 
 
 def open_files(folder: Path | None, undo: ExitStack, tell: Tell = _ignore) -> NoFiles:
-    """The files of a run.
+    """Opens the files of a run.
 
     Args:
-        folder: As `make_folder` has it.
-        undo: Takes back the harm, and closes the files.
+        folder: As returned by `make_folder`.
+        undo: Reverts the file faults, and closes the files.
         tell: As in `RunFiles`.
     """
     files = NoFiles() if folder is None else RunFiles(folder, undo, tell)
@@ -262,11 +262,11 @@ def open_files(folder: Path | None, undo: ExitStack, tell: Tell = _ignore) -> No
 
 
 def is_memory_held(folder: Path | None, saved: Sequence[str]) -> bool:
-    """Whether the memory file of a run that was killed is whole, and not older than it may be.
+    """Whether the memory file of a killed run is complete, and not older than permitted.
 
     Args:
-        folder: The run's, as `make_folder` has it.
-        saved: Each memory that it was about to save, in hexadecimal.
+        folder: The run's folder, as returned by `make_folder`.
+        saved: Each memory that the run was about to save, in hexadecimal.
     """
     memory = None if folder is None else load_memory(folder / _MEMORY)
     held = "" if memory is None else bytes(memory).hex()

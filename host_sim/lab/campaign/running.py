@@ -1,4 +1,4 @@
-"""Runs cells: has their faults happen, and notes how each run ends."""
+"""Runs cells: injects their faults, and notes how each run ends."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
@@ -26,7 +26,7 @@ from host_sim.world.memory_kinds import sides_of
 _PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
 _REFUSING = ("stale", "damaged", "foreign", "refused")
 _SIGNS_MAX = 10
-"""A robot in lockstep that waits says so now and then: some frames more are no sign of a fault."""
+"""A waiting robot in lockstep sends signs of life: this many extra frames do not indicate a fault."""
 
 
 class Group(NamedTuple):
@@ -40,13 +40,13 @@ class Group(NamedTuple):
 
 
 def run_group(groups: Sequence[Group]) -> tuple[int, list[Outcome]]:
-    """The number of a group, the only one, and the outcomes of its cells."""
+    """The number of the only group, and the outcomes of its cells."""
     (group,) = groups
     return group.number, list(run_all(group.cells))
 
 
 def run_all(cells: Iterable[Cell]) -> Iterator[Outcome]:
-    """Runs cells. What differs from the same run without a fault, which is run once, has been seen."""
+    """Runs cells, comparing each with the same run without a fault, which is run only once."""
     clean: dict[Cell, Outcome] = {}
     for cell in cells:
         without = replace(cell, faults=(), changes=(), events=(), fault="")
@@ -58,10 +58,10 @@ def run_all(cells: Iterable[Cell]) -> Iterator[Outcome]:
 
 
 def run_cell(cell: Cell) -> Outcome:
-    """One run.
+    """Runs one cell.
 
     Raises:
-        UsageError: There is no such link, or something in the cell cannot happen there.
+        UsageError: There is no such link, or an event of the cell is impossible there.
     """
     outcome = Outcome(cell, waiting=cell.events)
     try:
@@ -92,10 +92,10 @@ def _run_there(outcome: Outcome) -> None:
 
 
 def _run_killed(outcome: Outcome, setup: Setup, folder: Path | None) -> bool:
-    """The run up to the end of its simulator. A robot that is not its child waits for the next one.
+    """Runs until the simulator is killed. A robot that is not its child waits for the next simulator.
 
     Returns:
-        Whether the end came.
+        Whether it was killed.
     """
 
     def run(tell: Tell) -> None:
@@ -128,7 +128,7 @@ def _run(outcome: Outcome, setup: Setup, files: NoFiles, events: Mapping[str, Ha
         _note(outcome, client)
         setup.found(client)
 
-    # How busy this host is tells nothing of a fault.
+    # Host load does not indicate a fault.
     config = replace(setup.configured(outcome.cell.config), late_max=100.0)
     with make(config, files.log, [files.memory], ready) as simulation:
         (client,) = simulation.clients
@@ -149,7 +149,7 @@ def _run(outcome: Outcome, setup: Setup, files: NoFiles, events: Mapping[str, Ha
 
 
 def _watch(outcome: Outcome, events: Mapping[str, Happen], simulation: Simulation) -> None:
-    """Called after each step: looks at the wheels, then makes happen what is due."""
+    """Called after each step: checks the wheels, then triggers the events that are due."""
     (drive,) = simulation.drives
     age = (simulation.tick - 1 - drive.tick) % TICK_SPAN
     outcome.ticks = simulation.tick
@@ -164,7 +164,7 @@ def _watch(outcome: Outcome, events: Mapping[str, Happen], simulation: Simulatio
 
 
 def happen(events: Mapping[str, Happen], event: Event) -> None:
-    """Makes an event happen."""
+    """Triggers an event."""
     events[event.name](event.size)
 
 
@@ -177,7 +177,7 @@ def _note(outcome: Outcome, client: RobotClient) -> None:
         "refused": frames.refused,
         "outages": client.connection.line.outages,
     }
-    # What a busy host does to the line says nothing about the body.
+    # Line faults due to host load say nothing about the body.
     counts = client.faults if outcome.cell.is_of_body else of_line | client.faults
     outcome.seen = ", ".join(f"{count} {name}" for name, count in counts.items() if count)
     outcome.doubts = tuple(map(str, client.incidents))

@@ -1,4 +1,4 @@
-"""What the campaign asks of a place where a robot can be."""
+"""The interface between the campaign and the setup of a robot."""
 
 from collections.abc import Callable, Mapping
 from typing import Protocol
@@ -7,22 +7,22 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.sim.run_config import RunConfig
 
 Happen = Callable[[int], None]
-"""Makes an event of a size happen."""
+"""Triggers an event of a given size."""
 
 
 class Setup(Protocol):
-    """A robot and its line, whose faults can be made to happen.
+    """A robot and its line, into which faults can be injected.
 
     Attributes:
-        events: What can happen there, by name.
+        events: The possible events by name.
     """
 
     @property
     def events(self) -> Mapping[str, Happen]:
-        """What can happen there, by name."""
+        """The possible events by name."""
 
     def configured(self, config: RunConfig) -> RunConfig:
-        """A run with the robot that is here."""
+        """The configuration of a run with this robot."""
 
     def found(self, client: RobotClient) -> None:
-        """Told the robot's client, once the robot has answered."""
+        """Called with the robot's client, once the robot has answered."""

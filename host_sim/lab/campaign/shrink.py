@@ -1,4 +1,4 @@
-"""From a schedule of faults the smallest that still brings the same about."""
+"""Reduces a schedule of faults to the smallest one with the same kind of outcome."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -15,14 +15,14 @@ _LIMIT_S = 0.5
 
 
 def shrink(cell: Cell, attempt: Attempt) -> Iterator[Outcome]:
-    """Takes away what is not needed: whole items, then single strikes of a fault with a chance, then time at the end.
+    """Removes what is not needed: whole items, then single strikes of a random fault, then time at the end.
 
     Args:
         cell: A run with faults.
-        attempt: Runs it.
+        attempt: Runs a cell.
 
     Yields:
-        The outcome of the whole cell, then that of each smaller one of the same kind; the last is the smallest.
+        The outcome of the whole cell, then of each smaller one of the same kind; the last is the smallest.
     """
     found = attempt(cell)
     yield found
@@ -37,13 +37,13 @@ def _same(found: Outcome, cell: Cell, attempt: Attempt) -> Outcome | None:
 
 
 def _fewer(found: Outcome, attempt: Attempt) -> Iterator[Outcome]:
-    """Items are left out, as long as one can be."""
+    """Removes items for as long as possible."""
     for _, smaller in fewer(found.cell.items, lambda rest: _same(found, found.cell.with_items(rest), attempt)):
         yield smaller
 
 
 def _single(found: Outcome, attempt: Attempt) -> Iterator[Outcome]:
-    """Rules with a chance, or for many frames, become the strikes that they made, if those alone do the same."""
+    """Replaces random rules and those for many frames by their strikes, if these alone have the same effect."""
     items = [item for item in found.cell.items if not item.startswith("fault=")]
     strikes = [f"fault={rule}" for rule in in_ranges(list(map(Rule.parse, found.struck)))]
     if not strikes or len(strikes) <= len(found.cell.faults):
@@ -54,7 +54,7 @@ def _single(found: Outcome, attempt: Attempt) -> Iterator[Outcome]:
 
 
 def _shorter(found: Outcome, attempt: Attempt) -> Iterator[Outcome]:
-    """Halves the time as long as that changes nothing."""
+    """Halves the time for as long as the kind of outcome stays the same."""
     while found.cell.limit_s >= 2 * _LIMIT_S:
         half = round(found.cell.limit_s / 2, 1)
         smaller = _same(found, replace(found.cell, limit_s=half), attempt)

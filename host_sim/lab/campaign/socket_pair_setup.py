@@ -1,4 +1,4 @@
-"""A robot in a process of its own at the other end of a socket pair: the firmware, or a program of one's own."""
+"""A robot in a process of its own at the other end of a socket pair: the firmware, or a custom program."""
 
 import os
 import threading
@@ -17,7 +17,7 @@ class SocketPair:
     """As in `Setup`."""
 
     def __init__(self) -> None:
-        """Before the robot is there."""
+        """Prepares the setup; the robot is started by the run."""
         self._before = _children()
         self._pid = 0
         self.events: Mapping[str, Happen] = process_events(lambda: self._pid)
@@ -39,19 +39,19 @@ class OwnProgram(SocketPair):
     """As in `Setup`."""
 
     def __init__(self, command: str) -> None:
-        """Before the robot is there.
+        """Prepares the setup; the robot is started by the run.
 
         Args:
             command: The program.
 
         Raises:
-            UsageError: It is empty.
+            UsageError: The command is empty.
         """
         if not command:
             raise UsageError("the link external needs --robot-command CMD, the robot")
         super().__init__()
         self._command = command
-        # The whole process group, since a shell may have started the program; it is another one after each restart.
+        # The whole process group, since a shell may have started the program; it changes with each restart.
         events = process_events(lambda: -self._only_child())
         self.events: Mapping[str, Happen] = {**events, "reset": events["kill"]}
 

@@ -1,4 +1,4 @@
-"""Runs the checks, each on a robot that was just powered up, and judges each sentence."""
+"""Runs the checks, each on a robot just powered up, and judges each sentence."""
 
 from collections.abc import Collection, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -17,14 +17,14 @@ _FRAMES = 12
 
 @dataclass(frozen=True)
 class Verdict:
-    """What came of a sentence.
+    """The verdict on a sentence.
 
     Attributes:
-        number: The sentence's, or the name of a message or a signal.
+        number: Number of the sentence, or the name of a message or a signal.
         text: The sentence.
         state: `holds`, `fails`, or `not checked`.
-        why: What is wrong, or why it is not checked.
-        frames: The last frames before that, for people.
+        why: The fault, or the reason why it is not checked.
+        frames: The last frames before the fault, for people.
     """
 
     number: str
@@ -36,7 +36,7 @@ class Verdict:
 
 @dataclass
 class _Course:
-    """What came of one check."""
+    """The result of one check."""
 
     number: str
     why: str
@@ -47,18 +47,18 @@ def check_robot(robots: Robots, missing: Collection[str] = (), jobs: int = 1, tr
     """Judges each sentence.
 
     Args:
-        robots: Gives a robot for each check.
-        missing: Checks that are not possible with it.
-        jobs: Number of robots there may be at once.
-        tries: How often a check may fail before the robot does: on a busy machine it is the machine that may be late.
+        robots: Provides a robot for each check.
+        missing: Checks that are not possible with this robot.
+        jobs: Maximum number of robots at once.
+        tries: Attempts per check before it counts as failed, since a busy machine may cause delays.
 
     Raises:
         UsageError: There is no robot, or it does not answer at all.
     """
     with robots():
-        pass  # whatever keeps it from answering is said at once
+        pass  # any reason for not answering is reported at once
     possible = [number for number in CHECKS if number not in missing]
-    possible.sort(key=lambda number: CHECKS[number].__module__ != silence.__name__)  # those that wait longest first
+    possible.sort(key=lambda number: CHECKS[number].__module__ != silence.__name__)  # slowest checks first
     with ThreadPoolExecutor(jobs) as pool:
         courses = pool.map(lambda number: _run(number, robots, tries), possible)
         return list(_judge({course.number: course for course in courses}, missing))

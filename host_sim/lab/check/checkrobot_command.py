@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from host_sim.lab.check.checking import Verdict
 
 _JOBS, _TRIES = 4, 3
-"""Robots at once, each on a bus of its own: they mostly wait. How often a check may fail before the robot does."""
+"""Robots at once, each on a bus of its own, since they mostly wait; and the number of attempts per check."""
 
 _EXAMPLES = """\
 examples:

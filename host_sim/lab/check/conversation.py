@@ -12,7 +12,7 @@ def _at_rest(said: Said) -> bool:
 
 
 def _names(heard: list[Said]) -> list[str]:
-    """What the robot says, but for faults and silence."""
+    """Names of the robot's messages, except for faults and silence."""
     spoken = [said for said in heard if not said.signals.get("silent")]
     return [said.name for said in spoken if said.name not in ("", "EMERGENCY", "DRIVE") or said.is_answer]
 

@@ -1,4 +1,4 @@
-"""What holds for each frame of a robot, whatever it answers."""
+"""Invariants of every frame of a robot, whatever it answers."""
 
 from collections.abc import Iterator, Sequence
 from functools import cache
@@ -20,8 +20,8 @@ class Breach(NamedTuple):
     """A frame that breaks a sentence.
 
     Attributes:
-        number: The sentence's.
-        why: What is wrong.
+        number: Number of the sentence.
+        why: Description of the fault.
         said: The frame.
     """
 
@@ -31,7 +31,7 @@ class Breach(NamedTuple):
 
 
 def rows() -> dict[str, str]:
-    """What the tables say of the signals that a robot sends: by MESSAGE.signal."""
+    """The tables' descriptions of the signals that a robot sends, by MESSAGE.signal."""
     return {name: signal.comment or "" for name, signal in _signals().items()}
 
 
@@ -44,7 +44,7 @@ def _signals() -> dict[str, Signal]:
 
 
 def breaches(heard: Sequence[Said]) -> Iterator[Breach]:
-    """Where the frames of a talk break a sentence."""
+    """Yields the breaches in the frames of a talk."""
     signals, before = _signals(), dict[str, Said]()
     for said in heard:
         if said.by_robot:
@@ -74,7 +74,7 @@ def _breaches_alone(said: Said, signals: dict[str, Signal]) -> Iterator[tuple[st
 
 
 def _is_in_range(value: int, signal: Signal) -> bool:
-    if signal.choices and signal.name not in ("opcode", "profile"):  # an unknown one is told as it came
+    if signal.choices and signal.name not in ("opcode", "profile"):  # an unknown value is echoed as received
         return value in signal.choices
     low, high = signal.minimum, signal.maximum
     return (low is None or value >= low) and (high is None or value <= high)
@@ -89,7 +89,7 @@ def _unused(said: Said) -> bool:
 
 
 def _goes_on(last: Said, said: Said) -> bool:
-    """Whether the alive counter is one more; both parts of a pair have the same, and in silence that of the last."""
+    """Whether the alive counter is one more; both parts of a pair share it, and frames in silence repeat the last."""
     ahead = (said.signals["counter"] - last.signals["counter"]) % COUNTERS
     if said.signals.get("silent") or last.signals.get("silent"):
         return ahead in (0, 1)

@@ -1,4 +1,4 @@
-"""What the checks share: where they are noted, by the numbers of docs/protocol.md."""
+"""The registry of checks by the sentence numbers of docs/protocol.md, and their common functions."""
 
 from collections.abc import Callable, Mapping
 
@@ -9,22 +9,22 @@ from host_sim.protocol.generated import Fault, Reason
 Check = Callable[[Talk], None]
 
 CHECKS: dict[str, Check] = {}
-"""By the sentence's number. Each gets a robot that was just powered up, and has answered a first command."""
+"""The checks by sentence number. Each gets a robot that was just powered up and has answered a first command."""
 
 SECOND = 50
-"""Ticks."""
+"""Ticks in a second."""
 
 AT_ONCE_S = 0.05
-"""What has not come by then does not come; after a longer time, a robot on its own clock hears silence."""
+"""Time after which a frame counts as missing, s; after a longer time, a robot on its own clock reports silence."""
 
 REPORTS = ("HEARTBEAT", "BOOT", "MEMORY", "FAULTS", "HEALTH")
-"""What a whole report is made of."""
+"""The messages of a whole report."""
 
 _TRIES = 20
 
 
 def sentence(number: str) -> Callable[[Check], Check]:
-    """Notes a check."""
+    """Registers a check."""
 
     def note(check: Check) -> Check:
         CHECKS[number] = check
@@ -34,10 +34,10 @@ def sentence(number: str) -> Callable[[Check], Check]:
 
 
 def unhurried(talk: Talk, attempt: Check) -> None:
-    """Tries something that silence would spoil, again if this computer was so slow that the robot heard silence.
+    """Makes an attempt that silence would spoil; repeats it if this computer was so slow that silence occurred.
 
     Raises:
-        BrokenError: It fails, or silence came each time.
+        BrokenError: The attempt fails, or silence occurred each time.
     """
     for _ in range(_TRIES):
         first = len(talk.said)
@@ -54,10 +54,10 @@ def unhurried(talk: Talk, attempt: Check) -> None:
 
 
 def _heard_silence(signals: Mapping[str, int]) -> bool:
-    """Whether a robot says so: in a DRIVE, or in an EMERGENCY once the next SENSES have come."""
+    """Whether a robot reports silence: in a DRIVE, or in an EMERGENCY after the next SENSES."""
     return signals.get("reason") == Reason.SILENCE or bool(signals.get("kinds", 0) >> Fault.SILENCE & 1)
 
 
 def damaged(frame: Frame) -> Frame:
-    """The frame with a wrong CRC."""
+    """A copy of a frame with a wrong CRC."""
     return Frame(frame.id, bytes([frame.data[0] ^ 0xFF]) + frame.data[1:])

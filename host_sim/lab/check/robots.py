@@ -1,4 +1,4 @@
-"""Where a robot to be checked comes from: a program that is started for each check, or a bus where it is already."""
+"""The robot to be checked: a program that is started for each check, or an external robot on a bus."""
 
 import os
 import signal
@@ -19,18 +19,18 @@ from host_sim.transport.link import Link
 Robots = Callable[[], AbstractContextManager[Talk]]
 
 WAKE_S = 5.0
-"""A robot that has not answered by then never does."""
+"""Time after which a robot counts as not answering, s."""
 
 _AGAIN_S = 0.25
 _ANYBODY = 254
-"""A sender whose stop is no old one of the owner's, whoever that is."""
+"""Owner ID of a sender whose stop cannot be an old one of the actual owner."""
 
 
 def wake(talk: Talk) -> None:
-    """Has the robot answer a first stop, and all that it then says.
+    """Sends a first stop, and waits for the robot's answer and reports.
 
     Raises:
-        UsageError: It does not.
+        UsageError: The robot does not answer.
     """
     for _ in range(round(WAKE_S / _AGAIN_S)):
         talk.counter = (talk.counter + 1) % COUNTERS
@@ -55,7 +55,7 @@ def _hang(pid: int, span_ms: int) -> None:
 
 @contextmanager
 def started(command: str, bus: str, node: int) -> Iterator[Talk]:
-    """A robot that is started here.
+    """Starts a robot.
 
     Args:
         command: Program and arguments.
@@ -63,7 +63,7 @@ def started(command: str, bus: str, node: int) -> Iterator[Talk]:
         node: Its node number.
 
     Raises:
-        UsageError: It cannot be started, or does not answer.
+        UsageError: The robot cannot be started, or does not answer.
     """
     environment = {"OCTET_NODE": str(node)}
     with ExitStack() as stack:
@@ -89,7 +89,7 @@ def _open(bus: str, node: int) -> Link:
 
 @contextmanager
 def external(bus: str, node: int) -> Iterator[Talk]:
-    """A robot that is on a bus already; it stays as the last check has left it.
+    """Connects to a robot on a bus; it remains in the state left by the last check.
 
     Raises:
         UsageError: The bus cannot be opened, or the robot does not answer.

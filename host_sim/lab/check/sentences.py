@@ -1,4 +1,4 @@
-"""The sentences of docs/protocol.md that say what a robot does, by number, and those that no check can tell."""
+"""The sentences of docs/protocol.md that specify a robot, by number, and those that no check covers."""
 
 import re
 from collections.abc import Iterator
@@ -26,7 +26,7 @@ NOT_CHECKED = {
     "CRASH": "a crash would have to be made",
     "HEALTH": "T11 and H1 say the same",
 }
-"""Why each has no check of its own."""
+"""Reasons why sentences have no check of their own."""
 
 _MARK = re.compile(r"\(([A-Z]\d+)\)")
 _SENTENCE = re.compile(r"(?<=\.) (?=[A-Z*`])|(?:^| )\d\. ")
@@ -37,7 +37,7 @@ _page = cache(page)
 
 
 def prose() -> Iterator[str]:
-    """The sentences of the page's prose, as far as it is about what is said on the bus."""
+    """Yields the sentences of the page's prose about the conversation on the bus."""
     text = _page()
     for block in text[text.index(_FIRST) : text.index(_END)].split("\n\n"):
         if not block.lstrip().startswith("#"):
@@ -46,7 +46,7 @@ def prose() -> Iterator[str]:
 
 @cache
 def sentences() -> dict[str, str]:
-    """What is said under each number, under the name of each message, and under each of a robot's MESSAGE.signal."""
+    """The specification by sentence number, by message name, and by MESSAGE.signal of a robot's messages."""
     said = {}
     for text in prose():
         begin = 0

@@ -1,4 +1,4 @@
-"""Checks of a session: what is accepted, repeated, owned and held."""
+"""Checks of a session: acceptance, repetition, ownership and `held`."""
 
 from zlib import crc32
 
@@ -147,7 +147,7 @@ def _heartbeat_names_the_owner(talk: Talk) -> None:
 
 
 _TWINS = (1, 2)
-"""The counters of another robot's DRIVEs."""
+"""Counters of another robot's DRIVEs."""
 
 
 def _meet_a_twin(talk: Talk) -> dict[str, int]:
@@ -177,7 +177,7 @@ def _carried_out(talk: Talk, held: int, opcode: Opcode, **signals: int) -> int:
 
 
 def _begun(talk: Talk) -> int:
-    """Starts a robot that was told nothing before; returns what it holds then."""
+    """Starts a robot without earlier commands; returns its `held`."""
     talk.stop()
     talk.stop()
     talk.tick = -1

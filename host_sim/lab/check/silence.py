@@ -8,11 +8,11 @@ from host_sim.lab.check.talk import Said, Talk, expect, one
 from host_sim.protocol.generated import TICK_SPAN, Opcode, Reason, Result
 
 _SILENCE_S, _LATE_S = 0.1, 0.08
-"""A robot on a busy machine may be late; early it is never."""
+"""Time until silence, and permitted delay on a busy machine, s; a robot must never be early."""
 _EVEN_S = 0.03
 _TRIES = 3
 _LONG_S = 1.3
-"""A second, give or take what a busy machine does."""
+"""A second, with tolerance for a busy machine, s."""
 
 
 def _is_silence(said: Said) -> bool:
@@ -24,7 +24,7 @@ def _silences(talk: Talk, span_s: float) -> list[Said]:
 
 
 def _started(talk: Talk, lockstep: int = 0) -> None:
-    """Has had the senses of three ticks, the last of them just now."""
+    """Starts a robot and sends the senses of three ticks, the last of them just now."""
 
     def attempt(talk: Talk) -> None:
         talk.start(lockstep=lockstep)
@@ -35,7 +35,7 @@ def _started(talk: Talk, lockstep: int = 0) -> None:
 
 
 def _sent_s(talk: Talk) -> float:
-    """When the last senses were sent."""
+    """Time at which the last senses were sent, s."""
     return next(said.at_s for said in reversed(talk.said) if said.name == "SENSES")
 
 

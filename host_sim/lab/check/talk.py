@@ -1,4 +1,4 @@
-"""A talk with a robot that may be wrong: all that is said is kept, and read whatever its CRC and its counters are."""
+"""A talk with a robot that may be faulty: all frames are kept, and decoded whatever their CRC and counters."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -20,24 +20,24 @@ from host_sim.transport.clock import Clock
 from host_sim.transport.link import Link
 
 ANSWER_S = 0.9
-"""An answer takes no longer, on a busy machine either; after a second, a HEARTBEAT may come by itself."""
+"""Maximum time of an answer, even on a busy machine; after a second, a HEARTBEAT may come unrequested."""
 
 _TICK_S, _QUEUE_MAX = 0.02, 100
 _LAYOUTS = {name: MessageLayout(message) for name, message in MESSAGES.items()}
 
 
 class BrokenError(Exception):
-    """The robot does not do what a sentence says; the message says what it does."""
+    """The robot breaks a sentence; the message says what it does instead."""
 
 
 class Said(NamedTuple):
     """A frame of the talk.
 
     Attributes:
-        at_s: When, on the talk's clock.
+        at_s: Time on the talk's clock, s.
         frame: The frame.
-        name: Its message; empty for one that no robot may send.
-        signals: What it says; empty if its length is wrong.
+        name: Name of the message; empty for a frame that no robot may send.
+        signals: Its signals; empty if its length is wrong.
         by_robot: Whether the robot has sent it.
     """
 
@@ -49,12 +49,12 @@ class Said(NamedTuple):
 
     @property
     def is_answer(self) -> bool:
-        """Whether it answers senses: it is a DRIVE that is not due to silence."""
+        """Whether it answers senses: a DRIVE not caused by silence."""
         return self.name == "DRIVE" and self.signals.get("reason") != Reason.SILENCE
 
 
 class Told(dict[str, int]):
-    """What reports say, by signal; one that none of them has is the robot's fault."""
+    """Reported values by signal; a signal missing from all reports is the robot's fault."""
 
     def __missing__(self, name: str) -> NoReturn:
         raise BrokenError(f"no report has {name}")
@@ -65,10 +65,10 @@ class Talk:
     """One sender's talk with a robot, from its power-up on.
 
     Attributes:
-        link: The way to it.
-        clock: The time in which it lives.
-        protocol: That of its node.
-        hang: Has the robot stand still for some ms, without knowing of it; None where that cannot be done.
+        link: The link to the robot.
+        clock: The clock of the talk.
+        protocol: The protocol of its node.
+        hang: Suspends the robot for some ms, unnoticed by it; None if impossible.
         said: All frames so far.
     """
 
@@ -91,7 +91,7 @@ class Talk:
         return frame
 
     def hear(self, span_s: float, until: Callable[[Said], bool] = lambda _: False) -> list[Said]:
-        """What the robot says in a time, or until it says something; that is the last of them."""
+        """Frames of the robot within a span, or up to and including the first for which `until` is true."""
         end, first = self.clock.now() + span_s, len(self.said)
         while (left_s := end - self.clock.now()) >= 0:
             frame = self.clock.receive(self.link, left_s)
@@ -103,14 +103,14 @@ class Talk:
         return self.said[first:]
 
     def command(self, opcode: int, owner: int = 1, ahead: int = 1, **signals: int) -> list[Said]:
-        """Sends a command with the next counter; returns all that the robot says up to its ANSWER."""
+        """Sends a command with the next counter; returns the robot's frames up to its ANSWER."""
         self.counter = (self.counter + ahead) % COUNTERS
         self._hear_before()
         self.send(self.order(opcode, owner=owner, **signals))
         return self.hear(ANSWER_S, lambda said: said.name == "ANSWER")
 
     def _hear_before(self) -> None:
-        """Takes in what the robot has said of itself by now, such as its HEARTBEAT: no answer to what comes."""
+        """Receives unrequested frames such as HEARTBEAT, lest they be taken for answers to the next command."""
         for _ in range(_QUEUE_MAX):
             frame = self.clock.receive(self.link, 0.0)
             if frame is None:
@@ -118,7 +118,7 @@ class Talk:
             self.said.append(self._read(frame))
 
     def order(self, opcode: int, **signals: int) -> Frame:
-        """A command's frame."""
+        """The frame of a command."""
         fields = {signal.name: 0 for signal in MESSAGES["COMMAND"].signals}
         return self.protocol.encode("COMMAND", {**fields, "counter": self.counter, "opcode": opcode, **signals})
 
@@ -141,26 +141,26 @@ class Talk:
         self.drive()
 
     def stop(self, owner: int = 1) -> list[Said]:
-        """Stops the robot; returns all that it says up to its DRIVE."""
+        """Stops the robot; returns its frames up to its DRIVE."""
         return [*self.command(Opcode.STOP, owner), *self.hear(ANSWER_S, lambda said: said.is_answer)]
 
     def report(self, owner: int = 1) -> dict[str, int]:
-        """What the robot says of itself in all its reports, by signal.
+        """Requests all reports of the robot; returns their values by signal.
 
         Raises:
-            BrokenError: It does not answer.
+            BrokenError: The robot does not answer.
         """
         said = self.command(Opcode.REPORT, owner) + self.hear(ANSWER_S, lambda said: said.name == "HEALTH")
         one(said, "HEALTH")
         return Told({name: value for each in said for name, value in each.signals.items()})
 
     def senses(self, tick: int, feel: int = 0, counter: int | None = None) -> Frame:
-        """The senses of a tick, of a body whose wheels have done as they were told."""
+        """The senses of a tick, of a body whose wheels have followed the last drive."""
         known = Senses(tick % TICK_SPAN, feel, False, False, 0, *self._odometers)
         return self.protocol.encode_senses(known, tick % COUNTERS if counter is None else counter)
 
     def step(self, ahead: int = 1, feel: int = 0) -> list[Said]:
-        """The senses of a tick to come; returns all that the robot says up to its DRIVE."""
+        """Sends the senses of a coming tick; returns the robot's frames up to its DRIVE."""
         self.tick += ahead
         self.send(self.senses(self.tick, feel))
         heard = self.hear(ANSWER_S, lambda said: said.is_answer)
@@ -192,7 +192,7 @@ class Talk:
 
 
 def answering(heard: list[Said], what: str) -> Said:
-    """The DRIVE that answers senses.
+    """Finds the DRIVE that answers senses.
 
     Raises:
         BrokenError: There is none.
@@ -202,7 +202,7 @@ def answering(heard: list[Said], what: str) -> Said:
 
 
 def one(heard: list[Said], name: str) -> Said:
-    """The last frame of a message.
+    """Finds the last frame of a message.
 
     Raises:
         BrokenError: There is none.
@@ -214,10 +214,10 @@ def one(heard: list[Said], name: str) -> Said:
 
 
 def expect(is_so: bool, otherwise: str) -> None:
-    """Says what is wrong.
+    """Checks a condition.
 
     Raises:
-        BrokenError: It is not so.
+        BrokenError: The condition is false.
     """
     if not is_so:
         raise BrokenError(otherwise)

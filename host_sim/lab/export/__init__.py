@@ -1,1 +1,1 @@
-"""Recorded logs as files that other programs read."""
+"""Exports recorded logs to file formats of other programs."""

@@ -49,7 +49,7 @@ def add(commands: "Subparsers") -> None:
 
 
 def _wanted(arguments: argparse.Namespace) -> dict[str, Path]:
-    """The file to write in each format that was asked for."""
+    """The file to write for each requested format."""
     return {name: getattr(arguments, name) for name in _FORMATS if getattr(arguments, name) is not None}
 
 

@@ -18,18 +18,18 @@ _YEAR_9999_S = 253_370_764_800
 _NANOSECONDS_S = 2**64 // 10**9 - 1
 
 LAST_S = {"asc": _YEAR_9999_S, "blf": _YEAR_9999_S, "mf4": _NANOSECONDS_S, "mcap": _NANOSECONDS_S}
-"""By format, in s since 1970: dates have years of four digits, or nanoseconds have 64 bits."""
+"""Latest time by format, s since 1970: limited by years of four digits, or by nanoseconds in 64 bits."""
 
 
 def within_limits(frames: Iterable[Recorded], name: str) -> Iterator[Recorded]:
-    """The frames, in order.
+    """Yields the frames, in order.
 
     Args:
         frames: The frames.
         name: The format.
 
     Raises:
-        OctetError: A frame is later than the format can say.
+        OctetError: A frame's time exceeds the limit of the format.
     """
     last_s = LAST_S.get(name)
     for recorded in frames:

@@ -1,7 +1,7 @@
 """Messages as MCAP, the format of Foxglove and ROS 2.
 
-Each message of each robot has a topic, such as /robot_1/SENSES. A message is JSON: the raw number of each signal by
-its name, and the name of the number where it has one.
+Each message of each robot has a topic, such as /robot_1/SENSES. A message is JSON: the raw value of each signal by
+name, and the name of the value if it has one.
 """
 
 import json
@@ -18,7 +18,7 @@ DAMAGED = "damaged"
 """The topic of frames with a wrong CRC or length."""
 
 _WORD = "_name"
-"""Behind the name of a signal: the name of its number."""
+"""Suffix of a signal's name for the name of its value."""
 
 _CHOICES = {
     name: {signal.name: signal.choices for signal in message.signals if signal.choices}
@@ -46,7 +46,7 @@ def write_mcap(path: Path, frames: Iterable[Recorded]) -> None:
 
 
 class _Topics:
-    """The channels of a file, each registered when its first message comes."""
+    """The channels of a file, each registered with its first message."""
 
     def __init__(self, writer: Any) -> None:
         self._writer = writer

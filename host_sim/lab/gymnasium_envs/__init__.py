@@ -1,7 +1,6 @@
-"""The robot and its world as environments of Gymnasium and PettingZoo, for other people's learners.
+"""The robot and its world as environments of Gymnasium and PettingZoo, for learning algorithms.
 
-Gymnasium knows its environments once a module has registered them, as importing this one does; docs/gymnasium.md
-describes them.
+Importing this module registers the environments with Gymnasium; docs/gymnasium.md describes them.
 
 >>> import gymnasium
 >>> import host_sim.lab.gymnasium_envs

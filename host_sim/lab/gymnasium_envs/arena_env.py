@@ -1,4 +1,4 @@
-"""`octet/Arena-v0`: a robot whose brain is outside."""
+"""`octet/Arena-v0`: a robot controlled by an external learner."""
 
 from typing import Any
 
@@ -12,12 +12,12 @@ from host_sim.world.params import SimParams
 
 
 class ArenaEnv(gymnasium.Env[Any, Any]):
-    """A robot in a random arena with three pieces of food; the learner decides what it does next.
+    """A robot in a random arena with three pieces of food; the learner selects its actions.
 
     A step is one action of the robot, carried out by the firmware's own motion, and takes as many control ticks of
     20 ms as the action needs; with `step_ticks`, at most that many; the next action then replaces the rest.
 
-    The observation, a `Box` of int32: what the robot senses, field by field as on the bus.
+    The observation, a `Box` of int32: the robot's senses, field by field as on the bus.
 
     | index | meaning                                                                | min | max  | unit   |
     | ----- | ---------------------------------------------------------------------- | --- | ---- | ------ |
@@ -29,7 +29,7 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
     | 5     | distance rolled by the left wheel, forward counts up, wraps            | 0   | 4095 | 0.1 mm |
     | 6     | distance rolled by the right wheel, likewise                           | 0   | 4095 | 0.1 mm |
 
-    The action, a `Discrete(6)`: what the article's brain may do.
+    The action, a `Discrete(6)`: one of the article's actions.
 
     | action | meaning                                                                                    |
     | ------ | ------------------------------------------------------------------------------------------ |
@@ -63,12 +63,12 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
         rewards: rules.Rewards | None = None,
         body: str = "ideal",
     ) -> None:
-        """Takes the rules.
+        """Creates the environment.
 
         Args:
             limit_s: Time limit of an episode, s of robot time.
             step_ticks: Maximum number of control ticks of a step; None for as many as its actions need.
-            rewards: What a step is worth.
+            rewards: Rewards of a step.
             body: The robots' bodies: ideal, kit, or a file as in docs/bodies.md; each episode draws its own.
 
         Raises:
@@ -87,7 +87,7 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
         """Begins an episode.
 
         Raises:
-            gymnasium.error.Error: Seed or options are not what they should be.
+            gymnasium.error.Error: Seed or options are invalid.
         """
         super().reset(seed=seed)
         chosen = rules.chosen_layout(options, 1, self._params)

@@ -20,7 +20,7 @@ class ArenaParallelEnv(ParallelEnv[str, NDArray[np.int32], int]):  # type: ignor
     """Robots that share an arena and its food, and sense each other; agents are `robot_1`, `robot_2`, ...
 
     Observations, actions and rewards are those of `ArenaEnv`, for each robot by itself. A step ends when the last
-    robot has ended its action; those that are done sooner rest. An episode ends for all at once.
+    robot has ended its action; robots that finish sooner rest. An episode ends for all at once.
 
     >>> env = ArenaParallelEnv(robots=2)
     >>> senses, infos = env.reset(seed=1)
@@ -39,13 +39,13 @@ class ArenaParallelEnv(ParallelEnv[str, NDArray[np.int32], int]):  # type: ignor
         rewards: rules.Rewards | None = None,
         body: str = "ideal",
     ) -> None:
-        """Takes the rules; see `ArenaEnv`.
+        """Creates the environment; see `ArenaEnv`.
 
         Args:
             robots: Number of robots, 1..31.
             limit_s: Time limit of an episode, s of robot time.
             step_ticks: Maximum number of control ticks of a step; None for as many as its actions need.
-            rewards: What a step is worth.
+            rewards: Rewards of a step.
             body: The robots' bodies: ideal, kit, or a file as in docs/bodies.md; each episode draws its own.
 
         Raises:
@@ -62,18 +62,18 @@ class ArenaParallelEnv(ParallelEnv[str, NDArray[np.int32], int]):  # type: ignor
         self._draws: np.random.Generator | None = None
 
     def observation_space(self, agent: str) -> spaces.Box:
-        """What a robot senses."""
+        """The space of a robot's senses."""
         return self.observation_spaces[agent]
 
     def action_space(self, agent: str) -> spaces.Discrete:
-        """What a robot may do."""
+        """The space of a robot's actions."""
         return self.action_spaces[agent]
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[_Senses, _Infos]:
         """Begins an episode.
 
         Raises:
-            gymnasium.error.Error: Seed or options are not what they should be, or no arena has room for the robots.
+            gymnasium.error.Error: Seed or options are invalid, or no arena has room for the robots.
         """
         if seed is not None or self._draws is None:
             self._draws = seeding.np_random(seed)[0]
@@ -83,7 +83,7 @@ class ArenaParallelEnv(ParallelEnv[str, NDArray[np.int32], int]):  # type: ignor
         return self._senses(), self._infos()
 
     def step(self, actions: dict[str, int]) -> _Stepped:
-        """Has each robot do one thing.
+        """Carries out one action of each robot.
 
         Raises:
             gymnasium.error.ResetNeeded: No episode has begun, or the last one has ended.

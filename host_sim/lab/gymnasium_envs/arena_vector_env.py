@@ -34,13 +34,13 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
         rewards: rules.Rewards | None = None,
         body: str = "ideal",
     ) -> None:
-        """Takes the rules; see `ArenaEnv`.
+        """Creates the environment; see `ArenaEnv`.
 
         Args:
             num_envs: Number of arenas.
             limit_s: Time limit of an episode, s of robot time.
             step_ticks: Maximum number of control ticks of a step; None for as many as its actions need.
-            rewards: What a step is worth.
+            rewards: Rewards of a step.
             body: The robots' bodies: ideal, kit, or a file as in docs/bodies.md; each episode draws its own.
 
         Raises:
@@ -69,7 +69,7 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
             options: As in `ArenaEnv`, for all arenas.
 
         Raises:
-            gymnasium.error.Error: Seeds or options are not what they should be.
+            gymnasium.error.Error: Seeds or options are invalid.
         """
         self._take_seeds(seed)
         chosen = rules.chosen_layout(options, 1, self._params)
@@ -79,7 +79,7 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
         return self._senses(), self._infos()
 
     def step(self, actions: NDArray[np.int64]) -> _Stepped:
-        """Has each robot do one thing, or begins its next episode if the last one has ended.
+        """Carries out one action of each robot, or begins its next episode if the last one has ended.
 
         Raises:
             gymnasium.error.ResetNeeded: No episode has begun.
@@ -101,7 +101,7 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
         return self._senses(), rewards, terminated, truncated, self._infos()
 
     def _take_seeds(self, seed: int | Sequence[int | None] | None) -> None:
-        """A generator of random numbers for each arena; those that there are go on where no seed is given."""
+        """Sets each arena's random generator; without a seed, an existing one continues."""
         seeds: Sequence[int | None]
         if seed is None or isinstance(seed, (int, np.integer)):
             seeds = [None if seed is None else int(seed) + i for i in range(self.num_envs)]

@@ -1,4 +1,4 @@
-"""`octet/Brain-v0`: the real firmware acts, and the learner has a hand in its memory or its parameters."""
+"""`octet/Brain-v0`: the firmware acts, and the learner changes its memory or its parameters."""
 
 from collections.abc import Sequence
 from contextlib import ExitStack
@@ -22,7 +22,7 @@ from host_sim.world.memory_kinds import sides_of
 from host_sim.world.params import SimParams
 
 KEEP = 3
-"""The action for a cell that is to stay as it is."""
+"""The action that leaves a cell as it is."""
 
 _COUNTED = (Reason.REMEMBERED, Reason.TRIAL, Reason.BOREDOM)
 _NOTHING_COUNTED = np.zeros(len(_COUNTED) + 1, np.int64)
@@ -82,10 +82,10 @@ class BrainEnv(gymnasium.Env[Any, Any]):
             limit_s: Time limit of an episode, s of robot time.
             profile: Name of the robot's behaviour.
             learns: Whether the robot learns by itself, too.
-            rewards: What a step is worth.
+            rewards: Rewards of a step.
 
         Raises:
-            gymnasium.error.Error: An argument is not what it should be.
+            gymnasium.error.Error: An argument is invalid.
             gymnasium.error.DependencyNotInstalled: The firmware is not built.
         """
         self._params, self._rewards = SimParams(), rewards or rules.Rewards()
@@ -111,7 +111,7 @@ class BrainEnv(gymnasium.Env[Any, Any]):
         """Begins an episode.
 
         Raises:
-            gymnasium.error.Error: Seed or options are not what they should be.
+            gymnasium.error.Error: Seed or options are invalid.
         """
         super().reset(seed=seed)
         run_seed, number = rules.chosen_environment(options) or (int(self.np_random.integers(rules.SEED_SPAN)), 1)
@@ -124,7 +124,7 @@ class BrainEnv(gymnasium.Env[Any, Any]):
         return self._observation(_NOTHING_COUNTED), self._info()
 
     def step(self, action: NDArray[np.int64]) -> tuple[NDArray[np.int32], float, bool, bool, dict[str, Any]]:
-        """Changes what the action says, and lets the robot run.
+        """Applies the action, and lets the robot run.
 
         Raises:
             gymnasium.error.ResetNeeded: No episode has begun, or the last one has ended.
@@ -211,6 +211,6 @@ def _observation_space() -> spaces.Box:
 
 
 def _counts_of(simulation: Simulation) -> NDArray[np.int64]:
-    """What has happened in this environment so far: actions begun by reason, and collisions."""
+    """Counts in this environment so far: actions begun by reason, and collisions."""
     begun = simulation.episode.robots[0].begun
     return np.array([*(begun.get(reason, 0) for reason in _COUNTED), simulation.arena.body.collisions])

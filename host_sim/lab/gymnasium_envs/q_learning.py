@@ -25,13 +25,13 @@ _DISCOUNT, _CURVE = 0.95, 500
 
 @dataclass(frozen=True)
 class Learned:
-    """What a learner did.
+    """The result of a learner.
 
     Attributes:
-        table: Shape (states, deeds): what a deed is worth. A state is what the front sensors say, whether food is
+        table: Shape (states, deeds): value of a deed. A state is the front sensors' pattern, whether food is
             seen, and the last deed.
-        food: The pieces of food that were eaten in each episode of a minute, in the order in which these ended.
-        steps: The step in which it ended.
+        food: Pieces of food eaten in each episode of a minute, in the order in which the episodes ended.
+        steps: For each episode, the step in which it ended.
     """
 
     table: NDArray[np.float64]
@@ -39,14 +39,14 @@ class Learned:
     steps: NDArray[np.int64]
 
     def curve(self) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """Food per episode, the mean over the episodes of every 500 steps."""
+        """Mean food per episode, over the episodes of every 500 steps."""
         ends = np.arange(_CURVE, self.steps[-1] + _CURVE, _CURVE)
         which = self.steps // _CURVE
         return ends, np.bincount(which, self.food, len(ends)) / np.maximum(np.bincount(which, minlength=len(ends)), 1)
 
 
 def learn(seed: int, steps: int = STEPS) -> Learned:
-    """Learns for so many steps of 200 arenas; equal seeds learn the same."""
+    """Learns for a number of steps in 200 arenas; equal seeds give equal results."""
     env: Any = gymnasium.make_vec("octet/Arena-v0", num_envs=ARENAS, limit_s=SECONDS)
     draws, values = np.random.default_rng(seed), np.zeros(_STATES * _DEEDS * _DEEDS)
     state, over, eaten = _states(env.reset(seed=seed)[0], np.zeros(ARENAS, np.int64)), np.zeros(ARENAS, bool), []
@@ -59,7 +59,7 @@ def learn(seed: int, steps: int = STEPS) -> Learned:
         senses, reward, ended, truncated, _ = env.step(deeds)
         after, goes_on = _states(senses, deeds), ~(ended | truncated)
         target = reward + _DISCOUNT * goes_on * values.reshape(-1, _DEEDS)[after].max(-1)
-        cell = (state * _DEEDS + deeds)[~over]  # a step after an end begins the next episode, and teaches nothing
+        cell = (state * _DEEDS + deeds)[~over]  # a step after an end only begins the next episode
         times = np.bincount(cell, minlength=len(values))
         error = np.bincount(cell, (target - values[state * _DEEDS + deeds])[~over], len(values))
         values += (1 - (1 - max(0.01, 0.2 - 0.4 * part)) ** times) * error / np.maximum(times, 1)
@@ -72,7 +72,7 @@ def learn(seed: int, steps: int = STEPS) -> Learned:
 
 
 def food_of(profile: str, robots: int = 1000) -> float:
-    """What robots of the firmware eat in their first minute, with an empty memory: the mean."""
+    """Mean food eaten by firmware robots in their first minute, starting with an empty memory."""
     config = RunConfig(profile=profile, robots=robots, worlds="own", environments=1, limit_s=SECONDS)
     return float(np.mean([result.food_eaten for result in run_fleet(config)]))
 
@@ -93,7 +93,7 @@ def _plot(path: Path, learned: list[Learned], firmware: dict[str, float]) -> Non
 
 
 def main() -> None:
-    """Learns with three seeds, and says what came of it."""
+    """Learns with three seeds, and prints the results."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--plot", type=Path, metavar="FILE", help="draw the curves into this PNG")
     arguments = parser.parse_args()

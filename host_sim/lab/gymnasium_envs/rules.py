@@ -1,4 +1,4 @@
-"""The rules that all arenas share: what is sensed and done, what is rewarded, and which actions are refused."""
+"""Common rules of all arenas: senses, actions, rewards, and the checks of actions."""
 
 import operator
 from contextlib import suppress
@@ -26,12 +26,12 @@ _DRAWS = 100
 
 @dataclass(frozen=True)
 class Rewards:
-    """What a step is worth.
+    """The rewards of a step.
 
     Attributes:
-        food: For each piece of food eaten.
-        second: For each second of robot time.
-        bump: For each time that the robot began to touch something.
+        food: Reward per piece of food eaten.
+        second: Reward per second of robot time.
+        bump: Reward per collision: each time that the robot began to touch something.
     """
 
     food: float = 1.0
@@ -44,7 +44,7 @@ class Rewards:
 
 
 class Limits(NamedTuple):
-    """How long an episode and a step may be.
+    """Time limits of an episode and a step.
 
     Attributes:
         episode_s: Time limit of an episode, s of robot time.
@@ -56,22 +56,22 @@ class Limits(NamedTuple):
 
 
 def senses_space() -> spaces.Box:
-    """What a robot senses; the table of docs/gymnasium.md."""
+    """The space of a robot's senses; see the table in docs/gymnasium.md."""
     return spaces.Box(np.zeros(len(_HIGHEST), np.int32), np.array(_HIGHEST, np.int32), dtype=np.int32)
 
 
 def deed_space() -> spaces.Discrete:
-    """What a robot may do: a `Deed`."""
+    """The space of a robot's actions, each a `Deed`."""
     return spaces.Discrete(len(Deed))
 
 
 def told_worlds(worlds: int, robots: int, limits: Limits, params: SimParams, body: str) -> ToldWorlds:
-    """Worlds with a time limit.
+    """Creates worlds with a time limit.
 
     Args:
         worlds: Number of worlds.
         robots: Number of robots in each.
-        limits: Their limits.
+        limits: Their time limits.
         params: The dimensions of the worlds.
         body: The robots' bodies: ideal, kit, or a file as in docs/bodies.md.
 
@@ -98,17 +98,17 @@ def check_seconds(seconds: float, params: SimParams) -> None:
     """Checks the length of a step or of an episode.
 
     Raises:
-        error.Error: It is out of its range.
+        error.Error: The length is out of its range.
     """
     if not params.tick_s <= seconds <= SECONDS_MAX:
         raise error.Error(f"{seconds} s is not a possible length: give {params.tick_s} to {SECONDS_MAX:.0f} s")
 
 
 def draw_environment(draws: np.random.Generator, robots: int, params: SimParams) -> tuple[Layout, int]:
-    """A random environment with room for the robots, and the seed that it and their bodies are drawn from.
+    """Draws an environment with room for the robots. Returns it and the seed used for it and the bodies.
 
     Raises:
-        error.Error: None of many has room.
+        error.Error: No room for the robots in many environments.
     """
     for _ in range(_DRAWS):
         with suppress(NoRoomError):
@@ -121,7 +121,7 @@ def chosen_environment(options: dict[str, Any] | None) -> tuple[int, int] | None
     """Seed and number in the options of `reset`, `{"environment": (seed, number)}`; None if they have none.
 
     Raises:
-        error.Error: They are not a seed and a number.
+        error.Error: The option is not a seed and a number.
     """
     if not options or "environment" not in options:
         return None
@@ -137,10 +137,10 @@ def chosen_environment(options: dict[str, Any] | None) -> tuple[int, int] | None
 
 
 def chosen_layout(options: dict[str, Any] | None, robots: int, params: SimParams) -> tuple[Layout, int] | None:
-    """The environment that the options of `reset` name, and its seed; None if they do not.
+    """The environment selected by the options of `reset`, and its seed; None if there is none.
 
     Raises:
-        error.Error: What they name is none, or has no room for the robots.
+        error.Error: There is no such environment, or it has no room for the robots.
     """
     chosen = chosen_environment(options)
     try:
@@ -150,10 +150,10 @@ def chosen_layout(options: dict[str, Any] | None, robots: int, params: SimParams
 
 
 def checked_numbers(action: Any, space: spaces.MultiDiscrete) -> NDArray[np.int64]:
-    """An action of some whole numbers.
+    """Checks an action of several integers.
 
     Raises:
-        error.InvalidAction: It is not in the space.
+        error.InvalidAction: The action is not in the space.
     """
     given = _as_array(action)
     if given.dtype.kind not in "iu" or not space.contains(given.astype(np.int64)):
@@ -162,10 +162,10 @@ def checked_numbers(action: Any, space: spaces.MultiDiscrete) -> NDArray[np.int6
 
 
 def checked_deeds(actions: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
-    """The actions of all robots.
+    """Checks the actions of all robots.
 
     Raises:
-        error.InvalidAction: They are not whole numbers of that shape from 0 to 5.
+        error.InvalidAction: They are not integers from 0 to 5 in this shape.
     """
     given = _as_array(actions)
     if given.shape != shape or given.dtype.kind not in "iu" or not np.all((given >= 0) & (given < len(Deed))):

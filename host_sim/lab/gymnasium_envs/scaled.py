@@ -1,4 +1,4 @@
-"""What a robot senses as numbers from 0 to 1, for learners that approximate."""
+"""A robot's senses scaled to numbers from 0 to 1, for function approximation."""
 
 from typing import Any
 
@@ -34,12 +34,12 @@ class ScaledSenses(gymnasium.ObservationWrapper[Any, Any, Any], gymnasium.utils.
         self.observation_space = spaces.Box(0.0, 1.0, (_CONES + 3,), np.float32)
 
     def observation(self, observation: NDArray[np.int32]) -> NDArray[np.float32]:
-        """As `scaled`."""
+        """Returns `scaled(observation)`."""
         return scaled(observation)
 
 
 def scaled(senses: NDArray[np.int32]) -> NDArray[np.float32]:
-    """The same for observations of any shape (..., 7): that of a vector environment, too."""
+    """Scales observations of any shape (..., 7), such as those of a vector environment."""
     cones = senses[..., 1:2] >> np.arange(_CONES) & 1
     seen = senses[..., 3:4]
     near = seen * np.clip(1 - senses[..., 4:5] / _FAR_MM, 0, 1)

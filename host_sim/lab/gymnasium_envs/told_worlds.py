@@ -1,4 +1,4 @@
-"""Worlds whose robots are told what to do (`native/told.h`), several of them in one call."""
+"""Worlds whose robots carry out given actions (`native/told.h`), several worlds per call."""
 
 from enum import IntEnum
 from functools import cache
@@ -20,40 +20,40 @@ HEADERS = (*WORLD_HEADERS, PACKAGE / "lab" / "gymnasium_envs" / "native" / "told
 
 
 class Deed(IntEnum):
-    """What a brain may do; as in `native/told.h`."""
+    """An action of a robot; as in `native/told.h`."""
 
     FORWARD, TURN_LEFT, TURN_RIGHT, TRY_LEFT, TRY_RIGHT, TURN_ABOUT = range(6)
 
 
 class TickLimits(NamedTuple):
-    """How many control ticks a world and a step may last."""
+    """Maximum control ticks of a world and of a step."""
 
     world: int
     step: int
 
 
 class ToldWorlds:
-    """Worlds in C, each with equally many robots. Arrays are views of what C code writes: copy what is to be kept.
+    """Worlds in C, each with the same number of robots. Arrays are views of C memory: copy data to be kept.
 
     Attributes:
         senses: Shape (worlds, robots, 7): the fields of `Senses` after the last step.
         food_eaten: Shape (worlds, robots): pieces of food eaten in the last step.
-        collisions: Shape (worlds, robots): times that a robot began to touch something in the last step.
+        collisions: Shape (worlds, robots): collisions in the last step: times that a robot began to touch something.
         ticks: Shape (worlds,): control ticks since the world was entered.
-        food_left: Shape (worlds,): pieces of food that are left.
+        food_left: Shape (worlds,): pieces of food left.
     """
 
     def __init__(
         self, worlds: int, robots: int, limits: TickLimits, params: SimParams, kind: BodyKind | None = None
     ) -> None:
-        """Makes room; each world must be entered before the first step.
+        """Allocates the worlds; each must be entered before the first step.
 
         Args:
             worlds: Number of worlds.
             robots: Number of robots in each.
-            limits: Ticks after which nothing happens any more in a world, and after which a step ends.
+            limits: Ticks after which a world stops, and after which a step ends.
             params: The dimensions of the worlds.
-            kind: What the bodies are like; None: ideal.
+            kind: Properties of the bodies; None: ideal.
 
         Raises:
             NoNativeError: The library cannot be used.
@@ -72,7 +72,7 @@ class ToldWorlds:
         self._share(worlds, robots)
 
     def _share(self, worlds: int, robots: int) -> None:
-        """Lets numpy see what C code writes."""
+        """Creates numpy views of the memory that C code writes."""
         ffi, columns = self._ffi, self._library.TOLD_SENSES
         numbers = np.frombuffer(ffi.buffer(self._robots), np.int32).reshape(worlds, robots, columns + 2)
         self.senses: NDArray[np.int32] = numbers[..., :columns]
@@ -87,21 +87,21 @@ class ToldWorlds:
 
         Args:
             world: Index of the world.
-            layout: Has a start for each robot.
-            seed: Their bodies are drawn from it.
+            layout: The layout, with a start for each robot.
+            seed: Seed from which their bodies are drawn.
         """
         arena = Arena(layout, self._params, kind=self._kind)
         if self._kind is not None:
             arena.begin(seed)
         else:
             for body in arena.inside.bodies:
-                body.kit = arena.inside.ffi.NULL  # it stays ideal
+                body.kit = arena.inside.ffi.NULL  # this body stays ideal
         self._arenas[world] = arena
         self._all[world].world = self._ffi.cast("struct world *", arena.inside.address)
         self._library.told_begin(self._ffi.addressof(self._all, world))
 
     def step(self, deeds: NDArray[np.uint8]) -> None:
-        """Has each robot do its deed.
+        """Carries out each robot's deed.
 
         Args:
             deeds: Shape (worlds, robots), contiguous: a `Deed` for each robot.

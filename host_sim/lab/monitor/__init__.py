@@ -1,1 +1,1 @@
-"""What is on a bus, live: every robot decoded, and what looks wrong."""
+"""Monitors a bus live: decodes every robot's frames, and reports problems."""

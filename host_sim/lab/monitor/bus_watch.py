@@ -1,4 +1,4 @@
-"""A whole bus as it is heard: its robots, what else is on it, and its load."""
+"""The state of a whole bus from its frames: its robots, other traffic, and the load."""
 
 from collections import deque
 
@@ -10,37 +10,37 @@ from host_sim.protocol.every_node import Heard, hear
 from host_sim.protocol.frame_bits import frame_bits
 
 _FULL = 0.7
-"""The share of a bus above which its regular traffic may come late."""
+"""The bus load above which regular frames may be late."""
 
 
 class BusWatch:
     """Follows everything on a bus.
 
     Attributes:
-        bitrate: Bits a second.
+        bitrate: Bit rate, bit/s.
         robots: The robots, by node number.
         frames: Number of frames of all kinds.
         foreign: Number of frames that do not come from a robot.
         errors: Number of error frames.
-        dropped: Number of frames that came faster than they were read, and are missing here.
+        dropped: Number of frames that arrived faster than they were read, and are missing here.
     """
 
     def __init__(self, bitrate: int) -> None:
-        """Has heard nothing yet."""
+        """Starts without frames."""
         self.bitrate = bitrate
         self.robots: dict[int, RobotWatch] = {}
         self.frames = self.foreign = self.errors = self.dropped = 0
         self._bits: deque[tuple[float, int]] = deque()
 
     def accept(self, message: can.Message, now_s: float) -> Heard | None:
-        """Takes a frame in.
+        """Processes a frame.
 
         Args:
             message: The frame.
             now_s: The time, s.
 
         Returns:
-            What it says, if it is a robot's or for one.
+            The decoded frame, if it is from or to a robot.
         """
         self.frames += 1
         if message.is_error_frame:
@@ -60,13 +60,13 @@ class BusWatch:
         return heard
 
     def load(self, now_s: float) -> float:
-        """The share of the bus that was taken of late; without frames that a filter keeps away."""
+        """The recent bus load; filtered-out frames are not included."""
         while self._bits and self._bits[0][0] <= now_s - WINDOW_S:
             self._bits.popleft()
         return sum(bits for _, bits in self._bits) / WINDOW_S / self.bitrate
 
     def wrong(self, now_s: float) -> list[str]:
-        """What looks wrong, each in a few words that stay the same while it lasts."""
+        """The current problems, each in a few words that stay the same while it lasts."""
         found = [f"node {node}: {what}" for node, robot in sorted(self.robots.items()) for what in robot.wrong(now_s)]
         if self.errors:
             found.append("bus: error frames")

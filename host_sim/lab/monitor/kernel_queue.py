@@ -1,4 +1,4 @@
-"""The kernel's receive queue: makes it long, and counts the frames that it dropped."""
+"""The kernel's receive queue: lengthens it, and counts dropped frames."""
 
 import contextlib
 import socket
@@ -7,7 +7,7 @@ import struct
 import can
 
 _BYTES = 16 << 20
-"""Some 20,000 frames, each with what the kernel keeps of it."""
+"""Room for some 20,000 frames, including the kernel's overhead."""
 
 _SO_RCVBUFFORCE = 33
 _SO_MEMINFO = 55
@@ -20,12 +20,12 @@ def lengthen(bus: can.BusABC) -> None:
     if (queue := _socket_of(bus)) is None:
         return
     queue.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _BYTES)
-    with contextlib.suppress(PermissionError):  # beyond the limit of this machine: only for its administrator
+    with contextlib.suppress(PermissionError):  # beyond this machine's limit, which only an administrator may exceed
         queue.setsockopt(socket.SOL_SOCKET, _SO_RCVBUFFORCE, _BYTES)
 
 
 def dropped(bus: can.BusABC) -> int:
-    """Number of frames that the kernel dropped, if the bus is a socket."""
+    """Number of frames that the kernel dropped, if the bus is a socket; else 0."""
     if (queue := _socket_of(bus)) is None:
         return 0
     drops: int = _MEMINFO.unpack(queue.getsockopt(socket.SOL_SOCKET, _SO_MEMINFO, _MEMINFO.size))[_DROPS]

@@ -21,26 +21,26 @@ _WAIT_S = 0.1
 _DRAW_S = 0.25
 _CHECK_S = 1.0
 _LAST_S = 2.0
-"""How much of the processor's time what waits may take in the end; a full bus would never run dry."""
+"""Share of processor time for the remaining frames at the end; a full bus would never run dry."""
 
 
 def filter_robots(bus: can.BusABC) -> None:
-    """Lets only the identifiers of robots through, by the kernel's filter or else python-can's."""
+    """Filters for the identifiers of robots, in the kernel if possible, else in python-can."""
     bands = sorted({Protocol(NODE_MAX).id_of(name) & ~NODE_MAX for name in MESSAGES})
     bus.set_filters([CanFilter(can_id=band, can_mask=0x7FF & ~NODE_MAX, extended=False) for band in bands])
 
 
 def watch_lines(bus: can.BusABC, watch: BusWatch, out: TextIO, goes_on: Callable[[], bool]) -> None:
-    """Writes each frame as a line, and a line that begins with ! when something begins to look wrong.
+    """Writes each frame as a line, and each new problem as a line that begins with !.
 
     Args:
         bus: The bus.
-        watch: Follows it.
-        out: Where the lines go. They are flushed whenever the bus rests.
+        watch: Keeps the state of the bus.
+        out: Receives the lines, which are flushed whenever the bus is idle.
         goes_on: Called repeatedly. Once it returns false, the frames received until then are still written.
 
     Raises:
-        OctetError: The bus is gone.
+        OctetError: The bus was closed or failed.
     """
     known: set[str] = set()
     start_s = checked_s = time.monotonic()
@@ -82,7 +82,7 @@ def _write(message: can.Message, watch: BusWatch, out: TextIO, start_s: float) -
 
 
 def _tell_news(bus: can.BusABC, watch: BusWatch, out: TextIO, start_s: float, known: set[str]) -> set[str]:
-    """Writes what looks wrong and did not before; returns all that does."""
+    """Writes the new problems; returns all current ones."""
     watch.dropped = dropped(bus)
     wrong = watch.wrong(time.monotonic() - start_s)
     out.writelines(f"! {what}\n" for what in wrong if what not in known)

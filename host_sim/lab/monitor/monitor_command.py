@@ -1,4 +1,4 @@
-"""`tools/octet monitor`: shows what is on a bus, live."""
+"""`tools/octet monitor`: shows the traffic on a bus, live."""
 
 import argparse
 import math

@@ -1,4 +1,4 @@
-"""One robot as it is heard on a bus: what it says, how often, what was lost, and what looks wrong."""
+"""The state of one robot from its frames on a bus: messages, rates, losses, and problems."""
 
 from collections import deque
 from collections.abc import Iterable, Iterator
@@ -8,26 +8,26 @@ from host_sim.protocol.codec import COUNTERS
 from host_sim.protocol.generated import MESSAGES, SAME_LAYOUT, Opcode
 
 WINDOW_S = 2.0
-"""Rates are those of the last seconds."""
+"""Window over which rates are measured, s."""
 
 _HEARTBEATS_MISSED_S = 3.0
 _ANSWER_S = 0.5
-# An ANSWER has its command's counter, and a command may come from anybody.
+# An ANSWER repeats its command's counter, and a command may come from any sender.
 _NOT_COUNTED = ("ANSWER", "COMMAND")
 _OF_TICKS = ("SENSES", "RANGES", "DRIVE")
 
 
 @dataclass
 class MessageWatch:
-    """What was heard of one message.
+    """The received frames of one message.
 
     Attributes:
         frames: Number of whole frames.
         damaged: Number of frames with a wrong CRC or length.
         lost: Number of frames that are missing, by the alive counter.
-        repeated: Number of frames that came again.
-        signals: What the last one said.
-        last_s: When it came.
+        repeated: Number of repeated frames.
+        signals: Signals of the last frame.
+        last_s: Time of the last frame, s.
     """
 
     frames: int = 0
@@ -40,7 +40,7 @@ class MessageWatch:
     _follows: bool = False
 
     def rate(self, now_s: float) -> float:
-        """Frames a second of late."""
+        """Recent rate, frames per second."""
         while self._recent and self._recent[0] <= now_s - WINDOW_S:
             self._recent.popleft()
         return len(self._recent) / WINDOW_S
@@ -56,7 +56,7 @@ class MessageWatch:
         self.rate(now_s)
 
     def begin_anew(self) -> None:
-        """The next frame's counter may be any."""
+        """Accepts any counter in the next frame."""
         self._follows = False
 
     def _follow_counter(self, signals: dict[str, int]) -> None:
@@ -66,15 +66,15 @@ class MessageWatch:
 
 
 class RobotWatch:
-    """Follows the frames of one robot, and those for it.
+    """Follows the frames from and to one robot.
 
     Attributes:
         node: The robot's node number.
-        messages: What was heard of each message.
+        messages: Received frames by message.
     """
 
     def __init__(self, node: int, now_s: float) -> None:
-        """Has heard nothing yet."""
+        """Starts without frames."""
         self.node = node
         self.messages = {name: MessageWatch() for name in MESSAGES}
         self._first_s = now_s
@@ -83,11 +83,11 @@ class RobotWatch:
         self._boots = 0
 
     def accept(self, name: str, signals: dict[str, int] | None, now_s: float) -> None:
-        """Takes a frame in.
+        """Processes a frame.
 
         Args:
             name: The message.
-            signals: What it says; None if it is damaged.
+            signals: Its signals; None if it is damaged.
             now_s: The time, s.
         """
         message = self.messages[name]
@@ -102,7 +102,7 @@ class RobotWatch:
             self._cells |= {key: n for key, n in signals.items() if key.startswith("cell_")}
 
     def _notice_start(self, name: str, signals: dict[str, int], now_s: float) -> None:
-        """With a start the counters of SENSES and DRIVE begin anew, and all of a robot's when it boots."""
+        """Resets counters: a start resets those of SENSES and DRIVE, a boot all of a robot's."""
         if name == "COMMAND" and signals["opcode"] == Opcode.START:
             self._begin_anew(_OF_TICKS)
         if name == "BOOT" and not self._reports(now_s):
@@ -110,7 +110,7 @@ class RobotWatch:
             self._begin_anew(self.messages)
 
     def _reports(self, now_s: float) -> bool:
-        """Whether it answers a command, which may ask for all reports."""
+        """Whether it is answering a command, which may request all reports."""
         answer = self.messages["ANSWER"]
         return answer.frames > 0 and now_s - answer.last_s < _ANSWER_S
 
@@ -120,11 +120,11 @@ class RobotWatch:
 
     @property
     def memory(self) -> list[int]:
-        """The cells of its memory that were heard."""
+        """The cells of its memory received so far."""
         return [number for _, number in sorted(self._cells.items())]
 
     def said(self, name: str, signal: str) -> int | None:
-        """The number that a signal had when it was last heard; None if it never was."""
+        """The last received value of a signal; None if it was never received."""
         return self.messages[name].signals.get(signal)
 
     def total(self, count: str) -> int:
@@ -132,7 +132,7 @@ class RobotWatch:
         return sum(getattr(message, count) for message in self.messages.values())
 
     def wrong(self, now_s: float) -> list[str]:
-        """What looks wrong, each in a few words that stay the same while it lasts."""
+        """The current problems, each in a few words that stay the same while it lasts."""
         return [*self._wrong_on_the_bus(now_s), *self._wrong_in_the_robot()]
 
     def _wrong_on_the_bus(self, now_s: float) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""The state of a bus as a table of text: a line for each robot, then what looks wrong."""
+"""The state of a bus as a text table: a line for each robot, then the problems."""
 
 from collections.abc import Sequence
 
@@ -57,7 +57,7 @@ def _word(robot: RobotWatch, message: str, signal: str) -> str:
 
 
 def _cell(number: int) -> str:
-    """A cell in one character: the first letter of its side."""
+    """A cell as one character: the first letter of its side."""
     if number == 0:
         return "."
     return SIDES[number][0] if number < len(SIDES) else "#"

@@ -1,1 +1,1 @@
-"""Comparing behaviours: the same worlds for each, in process, on all cores."""
+"""Compares behaviours in the same worlds, in process, on all cores."""

@@ -1,4 +1,4 @@
-"""`tools/octet compare`: behaviours side by side in the same worlds."""
+"""`tools/octet compare`: compares behaviours in the same worlds."""
 
 import argparse
 from dataclasses import replace
@@ -32,7 +32,7 @@ examples:
 Exit code 1 if the study has goals and misses one.
 """
 _OF_RUNS = ("seeds", "first", "environments", "set", "body", "change", "robot", "jobs", "dask", "chunk")
-"""The options that say which runs to make; those of a study were made before."""
+"""The options that select the runs to make; those of a study exist already."""
 
 _SET_HELP = "change a parameter, as tools/run --help lists them; may be repeated"
 
@@ -93,7 +93,7 @@ def _check(arguments: argparse.Namespace) -> None:
     for word in arguments.what:
         if word not in PROFILES:
             raise UsageError(f"{word!r} is neither a profile nor the folder of a study; {meant(word, PROFILES)}")
-    if find_spec("_cffi_backend"):  # the plain python3 that judges a command line cannot call C
+    if find_spec("_cffi_backend"):  # the plain python3 that checks a command line cannot call C
         body_kind(arguments.body)
     if len(arguments.change) > 1:
         raise UsageError("give one --change with profiles; for several, write a study with a file of changes")
@@ -132,7 +132,7 @@ def _compare(arguments: argparse.Namespace) -> int:
 
 
 def _check_no_runs(arguments: argparse.Namespace) -> None:
-    """Refuses options for runs where none are made."""
+    """Refuses options for runs if none are made."""
     given = [f"--{name}" for name, value in arguments.untouched.items() if getattr(arguments, name) != value]
     if given:
         raise UsageError(
@@ -141,10 +141,10 @@ def _check_no_runs(arguments: argparse.Namespace) -> None:
 
 
 def of_fleets(path: Path) -> "tuple[Plan, Sequence[Sample]]":
-    """The plan in a file, and what comes of its conditions as fleets.
+    """Reads a plan, and runs its conditions as fleets.
 
     Raises:
-        UsageError: There is no plan in it, or it is not one for fleets.
+        UsageError: The file is not a plan, or not one for fleets.
     """
     from host_sim.lab.study.fleets import samples_of_fleets
     from host_sim.lab.study.plan_file import read_plan
@@ -154,10 +154,10 @@ def of_fleets(path: Path) -> "tuple[Plan, Sequence[Sample]]":
 
 
 def of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
-    """The plan of the study in a folder, and what its rows say.
+    """Reads the plan and the samples of the study in a folder.
 
     Raises:
-        UsageError: There is none, or nothing to compare in it yet.
+        UsageError: There is no study, or it has nothing to compare yet.
     """
     from host_sim.lab.study.folder import PLAN_FILE, StudyFolder
     from host_sim.lab.study.plan_file import read_plan

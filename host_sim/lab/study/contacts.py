@@ -17,15 +17,15 @@ _AVOIDING = (Reason.REMEMBERED, Reason.TRIAL, Reason.BOREDOM)
 _COLUMNS = [ROW.index(name) for name in ("feel", "reason", "action")]
 
 Ticks = NDArray[np.int16]
-"""Shape (ticks, 3): what the proximity sensors said, why the robot did what it did, and the number of the action."""
+"""Shape (ticks, 3): proximity bits, reason, and number of the action."""
 
 
 class BodyState(NamedTuple):
-    """What has happened to a robot's world and body.
+    """Changes of a robot's world and body.
 
     Attributes:
         is_changed: Whether a change of the run's schedule has been made.
-        is_reversed: Whether each turn leads to the other side than the senses say.
+        is_reversed: Whether motors are swapped or sensors mirrored, but not both, so that turns go the wrong way.
     """
 
     is_changed: bool = False
@@ -35,23 +35,23 @@ class BodyState(NamedTuple):
 T = TypeVar("T")
 
 Course = list[tuple[int, T]]
-"""What something was in the course of an environment: each value, and the tick from which on it was so."""
+"""History of a value in an environment: pairs of (first tick, value)."""
 
 
 @dataclass(frozen=True)
 class Contact:
-    """A time that a robot was blocked.
+    """A contact: a time that a robot was blocked.
 
     Attributes:
-        tick: The tick of its environment in which it began.
-        pattern: What the front sensors said then, 1..7.
-        blocked_ticks: How long it took until the way was clear.
-        trials: Random turns.
-        remembered: Remembered turns.
-        boredoms: About-faces.
+        tick: Tick of its environment in which it began.
+        pattern: Pattern of the front sensors then, 1..7.
+        blocked_ticks: Ticks until the way was clear.
+        trials: Number of random turns.
+        remembered: Number of remembered turns.
+        boredoms: Number of about-faces.
         cleared: Whether the way became clear; if not, the environment ended first.
-        body: What had happened to the body before.
-        sides: The turn for each pattern that the robot knew in the end, 0 nothing, 1 left, 2 right.
+        body: State of the body at the start.
+        sides: The turn known for each pattern at the end: 0 nothing, 1 left, 2 right.
     """
 
     tick: int
@@ -66,7 +66,7 @@ class Contact:
 
     @property
     def turns(self) -> int:
-        """All turns."""
+        """Number of all turns."""
         return self.trials + self.remembered + self.boredoms
 
 
@@ -75,7 +75,7 @@ class ContactWatch:
     """Watches one robot in one environment, as `Simulation.watch` does.
 
     Attributes:
-        index: The robot, from 0.
+        index: Index of the robot, from 0.
     """
 
     index: int
@@ -102,12 +102,12 @@ class ContactWatch:
 
     @property
     def memories(self) -> Course[Memory]:
-        """The eight bytes, as reported."""
+        """History of the eight bytes, as reported."""
         return self._memories
 
     @property
     def body(self) -> BodyState:
-        """What has happened to the body."""
+        """Changes of the body so far."""
         return self._bodies[-1][1]
 
     def _add(self, ticks: Ticks) -> None:
@@ -130,7 +130,7 @@ def _note(course: Course[T], ticks: int, value: T) -> None:
 
 
 def _at(course: Course[T], tick: int) -> T:
-    """What it was at a tick; before the first one, what it was then."""
+    """The value at a tick; before the first entry, the first value."""
     return next((value for begun, value in reversed(course) if begun <= tick), course[0][1])
 
 

@@ -43,7 +43,7 @@ def add(commands: "Subparsers") -> None:
 
 
 def _help(arguments: argparse.Namespace) -> None:
-    """Where Dask is not installed, it is not installed for its help."""
+    """Prints a help text without installing Dask if it is missing."""
     has_dask = (BUILD / "cluster").exists() or find_spec("distributed") is not None
     if not has_dask and {"-h", "--help"} & {*arguments.words}:
         arguments.parser.print_help()
@@ -51,7 +51,7 @@ def _help(arguments: argparse.Namespace) -> None:
 
 
 def _here_only(role: str, words: list[str]) -> list[str]:
-    """Words for Dask, whose scheduler would listen to every machine that reaches this one."""
+    """Arguments for Dask that restrict the scheduler to this machine; by default it listens on all interfaces."""
     told = {word.partition("=")[0] for word in words}
     if role != "scheduler" or told & {"--host", "--interface"}:
         return words
@@ -60,7 +60,7 @@ def _here_only(role: str, words: list[str]) -> list[str]:
 
 def _dask(arguments: argparse.Namespace) -> int:
     library("distributed", "cluster")
-    places = os.pathsep.join(map(str, (ROOT, BUILD / "cluster")))  # for the processes that Dask starts, too
+    places = os.pathsep.join(map(str, (ROOT, BUILD / "cluster")))  # also for the processes that Dask starts
     module = f"distributed.cli.dask_{arguments.role}"
     words = [sys.executable, "-m", module, *_here_only(arguments.role, arguments.words)]
     os.execve(sys.executable, words, {**os.environ, "PYTHONPATH": places})

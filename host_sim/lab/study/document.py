@@ -1,9 +1,9 @@
-"""Figures of studies as small tables, and a document whose numbers are those of the tables.
+"""Figures of studies as small tables, and a document that takes its numbers from the tables.
 
-In the document a number is a link to its table: the part behind # names the row, with + for a space, and the figure,
-such as [0.38 s](tables/learned.csv#article,blocked_s). A third word, interval, wants the 95 % interval instead. A
-figure with _compared behind its name is what it differs by from that of the first row: a ratio, or points of a
-percentage. Below a comment such as <!-- table learned.csv: finished median_s --> stands the table itself.
+In the document a number is a link to its table: the part after # names the row, with + for a space, and the figure,
+such as [0.38 s](tables/learned.csv#article,blocked_s). A third word, interval, selects the 95 % interval instead. A
+figure with the suffix _compared is its difference from that of the first row: a ratio, or percentage points. The
+table itself follows a comment such as <!-- table learned.csv: finished median_s -->.
 """
 
 import csv
@@ -52,7 +52,7 @@ def write_table(samples: Sequence[Sample], path: Path) -> None:
 
 
 def fill(text: str, folder: Path) -> str:
-    """The text of a document with the numbers of the tables in its folder.
+    """Fills a document with the numbers of the tables in its folder.
 
     Raises:
         OctetError: A table or a row of it is missing.

@@ -1,4 +1,4 @@
-"""The figures by which conditions are compared, each a number that is made of some seeds of a sample."""
+"""The figures by which conditions are compared, each computed from some seeds of a sample."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from host_sim.lab.study.sample import TRAPPED_S, Floats, Sample
 
 Take = NDArray[np.int64]
-"""Shape (..., seeds): which seeds to take, by index, each as often as it is there."""
+"""Shape (..., seeds): indices of the seeds to take, possibly repeated."""
 
 
 @dataclass(frozen=True)
@@ -18,12 +18,12 @@ class Figure:
     """A figure.
 
     Attributes:
-        heading: What stands above it in a table.
-        meaning: What it is, for people.
-        unit: Its unit, with a space before it; empty if it has none.
-        digits: Digits after the point.
-        of: Makes it of the seeds that are taken: shape (...).
-        counted: For a percentage, the attribute of the sample that it counts, of 0 and 1; empty for other figures.
+        heading: Column heading in a table.
+        meaning: Description for people.
+        unit: Its unit, with a leading space; empty if it has none.
+        digits: Digits after the decimal point.
+        of: Computes it from the seeds taken: shape (...).
+        counted: For a percentage, the attribute of the sample with zeros and ones; empty for other figures.
     """
 
     heading: str
@@ -90,7 +90,7 @@ FIGURES: dict[str, Figure] = {
     "lasting": _percentage("for good", _LASTING, "lasting"),
     "lasting_recovery": Figure("for good after", "contacts until then, median", " contacts", 0, _median("settled")),
 }
-"""Each figure by its name in a study's goals."""
+"""The figures by their names in a study's goals."""
 
 OF_EACH = ("finished", "median_s", "mean_s", "by_tour", "blocked_s", "trapped", "wrong", "bumped", "score")
-"""The figures that each table has."""
+"""The figures in every table."""

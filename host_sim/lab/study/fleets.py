@@ -1,4 +1,4 @@
-"""A study without logs: the robots of each condition are a fleet, which is several times as quick."""
+"""A study without logs: the robots of each condition are a fleet, which is several times as fast."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -21,7 +21,7 @@ _TURNS = (Reason.TRIAL, Reason.REMEMBERED, Reason.BOREDOM)
 
 
 def samples_of_fleets(plan: Plan) -> list[Sample]:
-    """Runs each condition as a fleet: the robots do what they do in runs of their own.
+    """Runs each condition as a fleet; the robots behave as in runs of their own.
 
     Raises:
         UsageError: A condition has several robots in a world, or changes.
@@ -45,10 +45,10 @@ def _with_tours(sample: Sample, config: RunConfig) -> Sample:
 
 
 def sample_of(name: str, config: RunConfig, first_seed: int, seeds: int) -> Sample:
-    """Runs robots in worlds of their own, with the seeds from the first one on, in this process; without tours.
+    """Runs robots in worlds of their own, with consecutive seeds, in this process; without tours.
 
-    Several robots are company: the first ones, the next ones, and so on hear each other. A company is drawn, in place
-    of a seed.
+    Several robots form a company: consecutive robots hear each other. The unit of the sample is then the company, not
+    the seed.
     """
     each_company = config.robots
     config = replace(config, seed=first_seed, robots=seeds * each_company, worlds="own")
@@ -59,7 +59,7 @@ def sample_of(name: str, config: RunConfig, first_seed: int, seeds: int) -> Samp
         return np.array([of(result) for result in results], np.float64).reshape(seeds, -1)
 
     def at_last(of: Callable[[FleetResult], Any]) -> Floats:
-        """Of each robot, when its last environment had ended."""
+        """A value of each robot at the end of its last environment."""
         return each(of).reshape(seeds, each_company, -1)[:, :, -1]
 
     tick_s = SimParams().tick_s

@@ -1,7 +1,7 @@
 """A study's folder: its plan, its version, and its rows in Parquet, written in parts.
 
 A part is a file of the same number in each of the folders `contacts`, `environments` and `runs`, written in this
-order: it counts when its file of runs is there. So a study that is stopped at any moment has whole runs only.
+order; it counts once its file in `runs` exists. So a study stopped at any moment has complete runs only.
 """
 
 import json
@@ -30,16 +30,16 @@ class StudyFolder:
     """Reads and adds rows; `open_study` opens one for writing."""
 
     def __init__(self, path: Path) -> None:
-        """Takes a folder that has a study in it.
+        """Takes a folder that contains a study.
 
         Raises:
-            UsageError: There is none in it, or it is of another version.
+            UsageError: There is no study in it, or it is of another version.
         """
         self.path = path
         self.about = _read_about(path)
 
     def done(self) -> set[tuple[str, int]]:
-        """The keys of the trials whose runs are there."""
+        """The keys of the completed trials."""
         runs = self._read(_RUNS)
         return set(zip(runs["condition"].tolist(), runs["seed"].tolist(), strict=True))
 
@@ -51,7 +51,7 @@ class StudyFolder:
         """Adds a part.
 
         Raises:
-            OctetError: It cannot be written; the study is as it was.
+            OctetError: The part cannot be written; the study is unchanged.
         """
         parts = self._parts()
         number = parts[-1] + 1 if parts else 0
@@ -83,10 +83,10 @@ class StudyFolder:
 
 @contextmanager
 def open_study(path: Path, plan: Plan) -> Iterator[StudyFolder]:
-    """Opens a study's folder to add rows, and makes it if it is not there; no other process can add rows meanwhile.
+    """Opens a study's folder to add rows, creating it if needed; no other process can add rows meanwhile.
 
     Raises:
-        UsageError: The folder has something else in it, or the study of another plan or version; it stays as it is.
+        UsageError: The folder has other contents, or a study of another plan or version; it is not changed.
     """
     with run_folder(path):
         about = {"format": FORMAT, "code": code_version(), "title": plan.title, **plan.of_rows()}
@@ -99,7 +99,7 @@ def open_study(path: Path, plan: Plan) -> Iterator[StudyFolder]:
 
 def _make(path: Path, about: dict[str, Any]) -> None:
     ours = [path / name for name in COLUMNS]
-    # A study that was stopped here has left some of its folders, empty.
+# A study stopped here has left empty folders.
     if not {*path.iterdir()} <= {*ours} or any(each.is_file() or any(each.iterdir()) for each in path.iterdir()):
         raise UsageError(f"{path} has something else in it; choose another folder with --out")
     for each in ours:
@@ -121,7 +121,7 @@ def _read_about(path: Path) -> dict[str, Any]:
 
 
 def _check_same(folder: StudyFolder, about: dict[str, Any]) -> None:
-    """A study goes on with the same plan, but for title and seeds, and the same robot in the same world."""
+    """Checks that plan, apart from title and seeds, robot and world are the same as before."""
     differ = [key for key in about if key != "title" and folder.about.get(key) != about[key]]
     if differ == ["code"]:
         why = "was made with another version of robot or world"

@@ -1,4 +1,4 @@
-"""What the figures of a study were to reach, and whether they did.
+"""The goals for the figures of a study, and whether they were reached.
 
 A goal is reached if the figure's whole interval is within its bounds, and missed if all of it is outside; else the
 seeds are too few to tell. The interval is one of 90 %, so that each bound is tested at 5 %: with at_least and
@@ -20,7 +20,7 @@ _LEVEL = 0.9
 
 @dataclass(frozen=True)
 class Judged:
-    """A goal, and what came of it."""
+    """A goal, and the estimate held against it."""
 
     goal: Goal
     found: Estimate
@@ -32,7 +32,7 @@ class Judged:
 
     @property
     def verdict(self) -> str:
-        """What can be said with these seeds."""
+        """The verdict that these seeds permit."""
         if self.is_reached:
             return "reached"
         return "MISSED " if self.found.high < self._low or self._high < self.found.low else "UNSURE "
@@ -60,7 +60,7 @@ class Judged:
 
 
 def judge(goals: Sequence[Goal], samples: Sequence[Sample]) -> list[Judged]:
-    """Holds samples against goals."""
+    """Compares samples with goals."""
     by_name = {sample.name: sample for sample in samples}
 
     def found(goal: Goal) -> Estimate:

@@ -1,13 +1,13 @@
-"""Heiserman's creatures of 1981 and their score, made again from the rules of his BASIC programs.
+"""Heiserman's creatures of 1981 and their score, reimplemented from the rules of his BASIC programs.
 
 A creature moves in a walled rectangle, by the same step of -2..2 cells each way until it meets a wall. Then it draws
-steps until one is free. Each step that it tries there is a contact, and each one that was free a good move; the score
-is good moves by contacts. What it does with experience is its class:
+steps until one is free. Each step tried there is a contact, and each free one a good move; the score is good moves
+divided by contacts. Its class determines its use of experience:
 
-- Alpha draws anew each time.
-- Beta remembers for each of the 24 steps which one freed it, and how sure it is of that, up to 4.
-- Gamma is a Beta that carries the mean of what it is sure of over to steps of the same direction of which it knows
-  little.
+- Alpha draws a new step each time.
+- Beta remembers for each of the 24 steps which one freed it, with a confidence of up to 4.
+- Gamma is a Beta that generalises: steps with low confidence take the mean of confident ones in the same
+  direction.
 """
 
 import random
@@ -54,7 +54,7 @@ class _Creature:
         self._memory: dict[Step, _Known] = {}
 
     def meet(self) -> Iterator[bool]:
-        """Goes on to a wall and away from it: for each contact, whether the step that was taken then is free."""
+        """Moves to a wall and away from it; yields for each contact whether the step tried is free."""
         while self._is_free(self._step):
             self._x, self._y = self._x + self._step[0], self._y + self._step[1]
         met = self._step
@@ -73,7 +73,7 @@ class _Creature:
         yield True
 
     def _generalise(self) -> None:
-        """Carries over to each step of which little is known the mean of what is sure in its direction."""
+        """Gives each step with low confidence the mean of the confident ones in its direction."""
         for met in ((i, j) for i in _SPAN for j in _SPAN):
             known = self._memory.get(met, _Known((0, 0), 0))
             alike = [it.step for of, it in self._memory.items() if it.sure == _SURE and _signs(of) == _signs(met)]

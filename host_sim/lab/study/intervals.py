@@ -1,9 +1,9 @@
-"""Figures with their confidence intervals, and how they differ between conditions.
+"""Figures with their confidence intervals, and their differences between conditions.
 
-What is drawn at random is a seed: the environments of one seed share a robot and its memory. A percentage has
-Wilson's interval, with the number of its environments lowered by what those of a seed have in common (Kish's
-effective size of a sample); so it holds for rare events, and for none at all. Every other figure has the percentile
-interval of the bootstrap over seeds.
+The sampling unit is the seed: the environments of one seed share a robot and its memory. A percentage has Wilson's
+interval, with the number of environments reduced for correlation within a seed (Kish's effective sample size); so it
+is valid for rare events, even for none at all. Every other figure has the percentile interval of the bootstrap over
+seeds.
 """
 
 import math
@@ -27,7 +27,7 @@ _TAKEN_MAX = 200_000
 
 @dataclass(frozen=True)
 class Estimate:
-    """A figure, or what two of them differ by.
+    """A figure, or the difference of two figures.
 
     Attributes:
         value: Its value.
@@ -42,7 +42,7 @@ class Estimate:
     seeds: int
 
     def seeds_for(self, difference: float) -> float:
-        """The number of seeds that show this difference with a power of 80 %; NaN if that is unknown.
+        """The number of seeds that show this difference with a power of 80 %; NaN if unknown.
 
         The interval is one of 95 %.
 
@@ -64,9 +64,9 @@ def estimate(figure: Figure, sample: Sample, level: float = LEVEL, resamples: in
 
 
 def compare(figure: Figure, sample: Sample, against: Sample, level: float = LEVEL) -> Estimate:
-    """What a sample's figure differs by from that of another one with the same seeds.
+    """The difference of a figure between two samples with the same seeds.
 
-    Of a percentage the difference, in points; of any other figure the ratio. The seeds of both are drawn together.
+    In percentage points for a percentage, as a ratio for any other figure. The seeds of both are drawn together.
     """
     count = len(sample.seeds)
     if figure.counted:
@@ -80,7 +80,7 @@ def compare(figure: Figure, sample: Sample, against: Sample, level: float = LEVE
 
 
 def coverage(figure: Figure, sample: Sample, seeds: int, draws: int = _COVERAGE_DRAWS) -> float:
-    """How often the interval from some seeds, drawn from all of a sample, holds the figure of all of them: 0 to 1."""
+    """Coverage, 0 to 1: how often the interval from some seeds of a sample contains the figure of all its seeds."""
     take = np.random.default_rng(_SEED).integers(0, len(sample.seeds), (draws, seeds))
     found = [estimate(figure, sample.take(some), resamples=_COVERAGE_RESAMPLES) for some in take]
     whole = float(figure.of(sample, np.arange(len(sample.seeds))))
@@ -92,8 +92,8 @@ def wilson(counted: Floats, each: int = 1, level: float = LEVEL) -> tuple[float,
 
     Args:
         counted: Shape (seeds, environments), from 0 to 1.
-        each: How many yes or no each of these is the mean of.
-        level: Of the interval.
+        each: Number of binary values averaged in each entry.
+        level: Confidence level of the interval.
 
     >>> [round(it, 3) for it in wilson(np.zeros((100, 1)))]
     [0.0, 0.0, 0.037]
@@ -112,7 +112,7 @@ def _counted(figure: Figure, sample: Sample) -> tuple[Floats, int]:
 
 
 def _difference(figure: Figure, sample: Sample, against: Sample, level: float) -> Estimate:
-    """Newcombe's interval of a paired difference, from those of both proportions and their correlation over seeds."""
+    """Newcombe's interval of a paired difference, from both intervals and the correlation over seeds."""
     pair = [_counted(figure, it) for it in (sample, against)]
     (p, low_p, high_p), (q, low_q, high_q) = (wilson(counted, each, level) for counted, each in pair)
     means = [counted.mean(-1) for counted, _ in pair]

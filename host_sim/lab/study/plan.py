@@ -1,4 +1,4 @@
-"""A study's plan: which conditions are compared, on which seeds, and what is to come of it."""
+"""A study's plan: the conditions to compare, the seeds, and the goals."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -9,15 +9,14 @@ from host_sim.lab.study.trial import Trial
 
 @dataclass(frozen=True)
 class Goal:
-    """What a figure is to reach.
+    """A goal for a figure.
 
     Attributes:
         figure: Name of the figure.
         condition: Name of the condition.
-        against: Name of the condition that it is compared with: as a ratio, or in points of a percentage. Empty for
-            none.
-        at_least: The lowest value that is good enough; None for any.
-        at_most: The highest value that is good enough; None for any.
+        against: Name of the condition to compare with, as a ratio or in percentage points; empty for none.
+        at_least: Lowest acceptable value; None for any.
+        at_most: Highest acceptable value; None for any.
     """
 
     figure: str
@@ -32,12 +31,12 @@ class Plan:
     """A study.
 
     Attributes:
-        title: What it is about.
-        conditions: A run of each condition, all with the same seed; the others are held against the first one.
+        title: Title of the study.
+        conditions: A run of each condition, all with the same seed; the others are compared with the first one.
         first_seed: The first seed.
         seeds: Number of seeds, the same for each condition.
-        chosen_on: First and last of the seeds on which anything was chosen; empty if nothing was.
-        goals: What is to come of it.
+        chosen_on: First and last of the seeds used to choose anything; empty if there are none.
+        goals: The goals for its figures.
     """
 
     title: str
@@ -49,11 +48,11 @@ class Plan:
 
     @property
     def is_fleet(self) -> bool:
-        """Whether its robots have worlds of their own: they are run without a bus, and leave no rows."""
+        """Whether its robots have worlds of their own: they run without a bus, and leave no rows."""
         return any(it.config.is_fleet for it in self.conditions)
 
     def trials(self) -> list[Trial]:
-        """All runs, in an order in which those with the same environments are neighbours."""
+        """All runs, ordered so that those with the same environments are adjacent."""
         return [
             replace(it, config=replace(it.config, seed=seed))
             for seed in range(self.first_seed, self.first_seed + self.seeds)
@@ -61,5 +60,5 @@ class Plan:
         ]
 
     def of_rows(self) -> dict[str, Any]:
-        """All that determines what the rows of a seed are."""
+        """Everything that determines the rows of a seed."""
         return {"conditions": {it.condition: it.config.command() for it in self.conditions}}

@@ -1,4 +1,4 @@
-"""Reads a study's plan from its TOML file. A mistake is answered with its line and with what there is."""
+"""Reads a study's plan from its TOML file. Error messages name the line and the possible values."""
 
 import itertools
 from collections.abc import Callable, Mapping, Sequence
@@ -32,7 +32,7 @@ def read_plan(path: Path) -> Plan:
     """Reads a plan.
 
     Raises:
-        UsageError: The file cannot be read, or there is a mistake in it; the message names its line.
+        UsageError: The file cannot be read, or has an error; the message names its line.
     """
     return _Reader(read_toml(path, "a study")).plan()
 
@@ -60,7 +60,7 @@ class _Reader:
         )
 
     def _chosen_on(self, first: int, last: int) -> Sequence[int]:
-        """The seeds on which something was chosen: none of them is a seed of the study."""
+        """The seeds used to choose something; none of them may be a seed of the study."""
         chosen = self._content.get("chosen_on", [])
         numbers = isinstance(chosen, list) and all(isinstance(it, int) and not isinstance(it, bool) for it in chosen)
         if not numbers or len(chosen) not in (0, 2) or chosen != sorted(chosen):
@@ -138,7 +138,7 @@ class _Reader:
         return tables
 
     def _words(self, key: str, check: Callable[[str], str], default: Sequence[str] = ()) -> list[str]:
-        """A list of different words, each of which passes a check that says what is wrong with it."""
+        """A list of distinct words; each must pass a check that returns the error in it."""
         words = self._content.get(key, list(default))
         if not isinstance(words, list) or not words or not all(isinstance(word, str) for word in words):
             raise self._error(f'{key} is a list of words, such as {key} = ["{(*default, "article")[0]}"]', "", key)
@@ -202,7 +202,7 @@ def _is_body(word: str) -> str:
 
 
 def _mistake(read: Callable[[str], object], word: str) -> str:
-    """What a reader says is wrong with a word."""
+    """A reader's error message for a word; empty if there is none."""
     try:
         read(word)
     except UsageError as error:
@@ -211,5 +211,5 @@ def _mistake(read: Callable[[str], object], word: str) -> str:
 
 
 def _name(parts: Sequence[str], several: Sequence[bool]) -> str:
-    """What tells a condition from the others; its behaviour if there is only one."""
+    """The name that distinguishes a condition; its behaviour if there is only one."""
     return " ".join(part for part, varies in zip(parts, several, strict=True) if varies) or parts[0]

@@ -1,4 +1,4 @@
-"""Plots of a study: what a table cannot show."""
+"""Plots of a study, for results that a table cannot show."""
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -29,12 +29,12 @@ def draw_plots(
 
     Args:
         samples: The conditions.
-        folder: Where the PNG files go; made if it is not there.
-        prefix: What their names begin with.
-        only: Names of the plots wanted; by default all.
+        folder: Folder for the PNG files; created if needed.
+        prefix: Prefix of their names.
+        only: Names of the plots to draw; by default all.
 
     Returns:
-        Their paths.
+        The paths of the plots.
 
     Raises:
         OctetError: Matplotlib is not installed, or a file cannot be written.
@@ -50,7 +50,7 @@ def draw_plots(
 def _draw(plot: Draw, samples: Sequence[Sample], path: Path) -> Path:
     figure = library("matplotlib.figure", "study").Figure(figsize=_SIZE_INCHES, dpi=_DPI, layout="constrained")
     axes = figure.subplots()
-    axes.set_prop_cycle(color=_COLOURS, linestyle=("-", "--") * (len(_COLOURS) // 2))  # lines may lie on one another
+    axes.set_prop_cycle(color=_COLOURS, linestyle=("-", "--") * (len(_COLOURS) // 2))  # lines may overlap
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(alpha=0.25)
     plot(axes, samples)
@@ -60,7 +60,7 @@ def _draw(plot: Draw, samples: Sequence[Sample], path: Path) -> Path:
 
 
 def _learning(axes: Any, samples: Sequence[Sample]) -> None:
-    """How long the robot is blocked, the more often it was."""
+    """Duration of a contact by the number of contacts so far."""
     numbers = np.arange(1, CURVE + 1)
     for sample in samples:
         axes.plot(numbers, _smooth(_over_seeds(sample.blocked_at, _interquartile_mean)), label=sample.name)
@@ -70,7 +70,7 @@ def _learning(axes: Any, samples: Sequence[Sample]) -> None:
 
 
 def _survival(axes: Any, samples: Sequence[Sample]) -> None:
-    """How many environments are not finished yet."""
+    """Share of environments not finished yet, by time."""
     end_s = max(float(np.max(sample.robot_s)) for sample in samples)
     for sample in samples:
         times = np.sort(sample.robot_s[sample.finished > 0])
@@ -81,7 +81,7 @@ def _survival(axes: Any, samples: Sequence[Sample]) -> None:
 
 
 def _recovery(axes: Any, samples: Sequence[Sample]) -> None:
-    """How many robots know a wrong turn after the change."""
+    """Share of robots that know a wrong turn, by contacts after the change."""
     for sample in samples:
         if np.isfinite(sample.wrong_at).any():
             axes.plot(np.arange(1, CURVE + 1), 100 * _over_seeds(sample.wrong_at, np.mean), label=sample.name)
@@ -91,7 +91,7 @@ def _recovery(axes: Any, samples: Sequence[Sample]) -> None:
 
 
 def _score(axes: Any, samples: Sequence[Sample]) -> None:
-    """Heiserman's score of each condition, and of his creatures, beside how long they are blocked."""
+    """Heiserman's score of each condition and of his creatures, with the times blocked."""
     creatures = {
         f"Heiserman's {kind}": float(np.mean([list(scores(kind, seed, _CONTACTS))[-1] for seed in range(_CREATURES)]))
         for kind in CLASSES
@@ -112,7 +112,7 @@ def _score(axes: Any, samples: Sequence[Sample]) -> None:
 
 
 def _over_seeds(curves: Floats, of: Callable[[Floats], Any]) -> Floats:
-    """What comes of the seeds' values at each contact; NaN where fewer than a quarter of them have come so far."""
+    """A statistic of the seeds' values at each contact; NaN where fewer than a quarter of the seeds have values."""
     there = [column[np.isfinite(column)] for column in curves.T]
     return np.array([of(column) if len(column) >= max(1, len(curves) // 4) else np.nan for column in there])
 
@@ -124,5 +124,5 @@ def _interquartile_mean(values: Floats) -> Any:
 
 
 def _smooth(curve: Floats) -> Floats:
-    """Each value with its neighbours; the first ones with those that there are."""
+    """Moving average of a curve; at the start, over the values available."""
     return np.array([curve[max(0, i - _SMOOTH // 2) : i + _SMOOTH // 2 + 1].mean() for i in range(len(curve))])

@@ -1,4 +1,4 @@
-"""What the rows of one condition say, seed by seed: what figures are made of."""
+"""The data of one condition, seed by seed, from which figures are computed."""
 
 import math
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Sample:
-    """One condition. All arrays have an entry for each seed; those that say so, one for each of its environments too.
+    """One condition. All arrays have an entry per seed; those marked so, one per seed and environment.
 
     Attributes:
         name: The condition.
@@ -25,21 +25,21 @@ class Sample:
         robot_s: For each environment, robot time, s.
         tour_s: For each environment, robot time of the shortest tour through all food at the robot's speed, s; NaN
             where several robots share it.
-        trapped: For each environment, 1 if a contact of it took more than 60 s, else 0.
+        trapped: For each environment, 1 if one of its contacts took more than 60 s, else 0.
         bumped: For each environment, 1 if a body touched something, else 0.
-        denied: For each environment, 1 if wheels did not do what they were told, else 0.
-        wrong: The part of the robots that know a wrong turn in the end.
+        denied: For each environment, 1 if wheels did not follow the command, else 0.
+        wrong: Share of the robots that know a wrong turn at the end.
         contacts: Number of contacts.
-        blocked_s: Robot time of all contacts, s; of one that trapped the robot, only the first 60 s.
-        turns: Turns of all contacts.
+        blocked_s: Robot time of all contacts, s; if one trapped the robot, only its first 60 s.
+        turns: Number of turns in all contacts.
         cleared: Number of contacts after which the way was clear.
         known_s: Robot time until a turn was known for patterns 1, 3, 4 and 6, s; infinite if it never was.
-        blocked_at: For each of the first robot's first contacts, how long it took, s; NaN where there was none.
+        blocked_at: For each of the first robot's first contacts, its duration, s; NaN where there was none.
         wrong_at: For each of the first robot's first contacts after the change, 1 if it knew a wrong turn then, else
             0; NaN where there was none.
         recovery: Contacts after the change until the turns for patterns 1 and 4 were right, and no wrong one known;
-            infinite if that never was, and NaN without a change.
-        settled: The same, but that it stayed so until the run ended.
+            infinite if never, and NaN without a change.
+        settled: As `recovery`, but until this remained so to the end of the run.
     """
 
     name: str
@@ -69,7 +69,7 @@ class Sample:
 
     @property
     def by_tour(self) -> Floats:
-        """For each environment, the time until it was finished by that of the shortest tour."""
+        """For each environment, the time until it was finished divided by that of the shortest tour."""
         return self.finished_s / self.tour_s
 
     @property
@@ -79,17 +79,17 @@ class Sample:
 
     @property
     def lasting(self) -> Floats:
-        """1 if it recovered for good, else 0; NaN without a change."""
+        """1 if the robot recovered for good, else 0; NaN without a change."""
         return _has_been(self.settled)
 
     def take(self, seeds: NDArray[np.int64]) -> "Sample":
-        """The same of some of its seeds, by index, each as often as it is there."""
+        """A sample of some of its seeds, by index, possibly repeated."""
         taken: dict[str, Any] = {name: getattr(self, name)[seeds] for name in _arrays()}
         return replace(self, **taken)
 
 
 def joined(samples: Sequence[Sample]) -> Sample:
-    """Samples of one condition with different seeds, as one."""
+    """Joins samples of one condition with different seeds."""
     every: dict[str, Any] = {name: np.concatenate([getattr(it, name) for it in samples]) for name in _arrays()}
     return replace(samples[0], **every)
 
@@ -102,18 +102,18 @@ CURVE = 100
 """Number of contacts in a curve."""
 
 TRAPPED_S = 60.0
-"""A contact that takes longer has trapped the robot, s."""
+"""Duration beyond which a contact has trapped the robot, s."""
 
 _BESIDE = (1, 4)
-"""The patterns of a thing beside the robot."""
+"""The patterns of an obstacle on one side of the robot."""
 
 
 def samples_of(tables: Tables, conditions: Sequence[str] = ()) -> list[Sample]:
-    """A sample for each condition, all with the same seeds: those that every condition has.
+    """A sample for each condition, all with the same seeds: those common to all conditions.
 
     Args:
         tables: The rows.
-        conditions: The conditions in the order wanted; by default that of the rows.
+        conditions: The conditions in the desired order; by default that of the rows.
     """
     runs = tables["runs"]
     names = conditions or list(dict.fromkeys(runs["condition"].tolist()))
@@ -126,7 +126,7 @@ def samples_of(tables: Tables, conditions: Sequence[str] = ()) -> list[Sample]:
 
 
 def _of(table: Columns, condition: str, seeds: NDArray[np.int64]) -> Columns:
-    """The rows of a condition, by seed; rows of one seed keep their order."""
+    """The rows of a condition, sorted by seed; rows of one seed keep their order."""
     wanted = np.flatnonzero((table["condition"] == condition) & np.isin(table["seed"], seeds))
     wanted = wanted[np.argsort(table["seed"][wanted], kind="stable")]
     return {name: column[wanted] for name, column in table.items()}
@@ -172,7 +172,7 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
 
 
 def _curve(index: NDArray[np.int64], values: NDArray[Any], wanted: NDArray[np.bool_], count: int) -> Floats:
-    """The first wanted values of each seed; rows of a seed are neighbours."""
+    """The first `count` wanted values of each seed; the rows of a seed are adjacent."""
     curve = np.full((count, CURVE), np.nan)
     for seed in range(count):
         found = values[wanted & (index == seed)][:CURVE]
@@ -181,7 +181,7 @@ def _curve(index: NDArray[np.int64], values: NDArray[Any], wanted: NDArray[np.bo
 
 
 def _recovery(contacts: Columns, environments: Columns, seed: int) -> tuple[float, float]:
-    """The numbers of the first robot's contacts after the change with which it has recovered, once and for good."""
+    """Number of the first robot's contacts after the change until recovery: the first time, and for good."""
     if not environments["changed"][environments["seed"] == seed].any():
         return math.nan, math.nan
     ours = (contacts["seed"] == seed) & contacts["changed"] & (contacts["robot"] == 0)

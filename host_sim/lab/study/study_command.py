@@ -49,7 +49,7 @@ def add(commands: "Subparsers") -> None:
 
 
 def add_workers(parser: argparse.ArgumentParser) -> None:
-    """Adds the options that say who makes the runs."""
+    """Adds the options that select the workers."""
     add = parser.add_argument
     add("--jobs", type=number(1, 1024), default=os.cpu_count(), metavar="N", help="processes" + DEFAULT)
     add(
@@ -60,12 +60,12 @@ def add_workers(parser: argparse.ArgumentParser) -> None:
 
 
 def worker_stages(arguments: argparse.Namespace) -> list[str]:
-    """The stages of tools/setup that those who make the runs need."""
+    """The stages of tools/setup that the workers need."""
     return ["cluster"] if arguments.dask else []
 
 
 def workers_of(arguments: argparse.Namespace) -> "Workers":
-    """Who makes the runs.
+    """The workers selected by the options.
 
     Raises:
         UsageError: There is no scheduler at the address.
@@ -83,7 +83,7 @@ def _study(arguments: argparse.Namespace) -> int:
 
 
 def run_study(path: Path, out: Path, workers: "Workers", chunk: int = 0) -> str:
-    """Runs what is missing of a study, and says how much that was."""
+    """Runs the missing trials of a study, and returns a sentence about their number."""
     from host_sim.base.atomic_file import write_bytes
     from host_sim.lab.study.folder import PLAN_FILE, open_study
     from host_sim.lab.study.plan_file import read_plan
@@ -102,7 +102,7 @@ def run_study(path: Path, out: Path, workers: "Workers", chunk: int = 0) -> str:
 
 
 def with_progress(trials: "Sequence[Trial]", workers: "Workers", chunk: int = 0) -> "Iterator[Sequence[Run]]":
-    """Makes runs, with a progress line."""
+    """Runs trials, with a progress line."""
     from host_sim.cli.progress_line import ProgressLine
     from host_sim.lab.study.workers import run_all
 
@@ -118,7 +118,7 @@ def with_progress(trials: "Sequence[Trial]", workers: "Workers", chunk: int = 0)
 
 
 class _Keeper:
-    """Writes runs, every few seconds."""
+    """Writes completed runs every few seconds."""
 
     def __init__(self, folder: "StudyFolder") -> None:
         self._folder, self._runs, self._written = folder, list["Run"](), 0.0
@@ -129,7 +129,7 @@ class _Keeper:
             self.write()
 
     def write(self) -> None:
-        runs, self._runs = self._runs, []  # a signal that comes while they are written must not write them twice
+        runs, self._runs = self._runs, []  # a signal during the write must not write them twice
         if runs:
             self._folder.add(runs)
         self._written = time.monotonic()
@@ -137,7 +137,7 @@ class _Keeper:
 
 @contextmanager
 def _kept(folder: "StudyFolder") -> Iterator[_Keeper]:
-    """Writes what there is, however the study ends."""
+    """Writes the completed runs, however the study ends."""
     keeper = _Keeper(folder)
     try:
         yield keeper

@@ -1,4 +1,4 @@
-"""Samples side by side, as a table for people."""
+"""Samples side by side as a table for people."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -14,11 +14,11 @@ _RATIO = "mean_s"
 
 
 def table(samples: Sequence[Sample], difference: float = 0.05) -> str:
-    """Each figure of each sample, and how it compares with that of the first one.
+    """Each figure of each sample, compared with that of the first one.
 
     Args:
         samples: Samples with the same seeds.
-        difference: The difference of two mean times, as a part of them, for which the number of seeds is wanted.
+        difference: The relative difference of mean times for which to compute the number of seeds.
     """
     others = len(samples) - 1
     lines: list[str] = []
@@ -30,7 +30,7 @@ def table(samples: Sequence[Sample], difference: float = 0.05) -> str:
 
 
 def coverage_table(samples: Sequence[Sample], seeds: int) -> str:
-    """How often the intervals of each figure from so many seeds hold the figure of all seeds; 95 % is right."""
+    """Coverage of each figure's intervals from a number of seeds; 95 % is correct."""
     names = [*OF_EACH, *_of_some(samples)]
     rows = [("", *(sample.name for sample in samples))]
     for name in names:
@@ -61,7 +61,7 @@ def interval_of(figure: Figure, low: float, high: float) -> str:
 
 
 def _of_some(samples: Sequence[Sample]) -> list[str]:
-    """The figures that only some studies have."""
+    """The figures present only in some studies."""
     changed = any(not np.isnan(sample.recovery).all() for sample in samples)
     several = any(sample.robots > 1 for sample in samples)
     denied = any(sample.denied.any() for sample in samples)
@@ -78,7 +78,7 @@ def _row(figure: Figure, sample: Sample, first: Sample, others: int) -> tuple[st
 
 
 def _level(others: int) -> float:
-    """Bonferroni's: all comparisons of a figure hold together."""
+    """Bonferroni-corrected level, so that all comparisons of a figure hold jointly."""
     return 1 - (1 - LEVEL) / max(1, others)
 
 

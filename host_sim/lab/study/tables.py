@@ -1,4 +1,4 @@
-"""The rows of a study: tables of its runs, of their environments, and of the contacts, when a robot was blocked."""
+"""The rows of a study: tables of its runs, their environments, and contacts, in which a robot was blocked."""
 
 import json
 from collections import Counter
@@ -13,7 +13,7 @@ from host_sim.lab.study.version import code_version
 
 
 class Column(NamedTuple):
-    """A column of a table: the kind of its values, and what they mean."""
+    """A column of a table: the type and meaning of its values."""
 
     kind: type
     meaning: str
@@ -70,7 +70,7 @@ COLUMNS: Mapping[str, Mapping[str, Column]] = {
 Row = dict[str, Any]
 Columns = dict[str, NDArray[Any]]
 Tables = dict[str, Columns]
-"""Each table by its name; each column by its name, one entry for each row."""
+"""Tables by name; each has columns by name, with an entry for each row."""
 
 
 def rows_of(run: Run) -> dict[str, list[Row]]:

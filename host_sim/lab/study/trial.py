@@ -1,4 +1,4 @@
-"""One run of a study: robots in some environments, and what it shows of their behaviour."""
+"""One run of a study: robots in some environments, and data about their behaviour."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -18,18 +18,18 @@ from host_sim.world.reach import tour_mm
 from host_sim.world.worlds import world_of
 
 PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
-"""The turn away from what is beside the robot, for each pattern in which something is on one side only."""
+"""The turn away from the obstacle, for each pattern with an obstacle on one side only."""
 
 _OTHER = {Side.LEFT: Side.RIGHT, Side.RIGHT: Side.LEFT}
 
 
 @dataclass(frozen=True)
 class Trial:
-    """A run to be made.
+    """A run to make.
 
     Attributes:
-        config: The robots are in this process, or on emulated boards.
-        condition: What all runs that differ only in the seed are called; empty for the name of the behaviour.
+        config: Configuration of the run; its robots are in this process, or on emulated boards.
+        condition: Common name of all runs that differ only in the seed; empty for the name of the behaviour.
     """
 
     config: RunConfig
@@ -37,7 +37,7 @@ class Trial:
 
     @property
     def key(self) -> tuple[str, int]:
-        """What tells the runs of a study apart."""
+        """The key that identifies a run of a study."""
         return self.condition or self.config.profile, self.config.seed
 
     def __str__(self) -> str:
@@ -54,10 +54,10 @@ class Row:
         robot_s: Robot time, s.
         tour_s: Robot time of the shortest tour through all food, s; NaN for several robots.
         contacts: Each robot's contacts.
-        collisions: Number of times that a body began to touch something.
-        denied: Number of times that a robot's wheels did not do what they were told.
-        sides: The turns for each pattern that each robot knows in the end.
-        bodies: What has happened to each robot's body.
+        collisions: Number of collisions: times that a body began to touch something.
+        denied: Number of times that a robot's wheels did not follow the command.
+        sides: The turns for each pattern that each robot knows at the end.
+        bodies: State of each robot's body.
         tick_s: Length of a tick, s.
     """
 
@@ -75,7 +75,7 @@ class Row:
 
 @dataclass
 class Run:
-    """What came of a trial.
+    """The result of a trial.
 
     Attributes:
         trial: The trial.
@@ -153,7 +153,7 @@ def tour_s(config: RunConfig, number: int) -> float:
 
 @cache
 def _tour_mm(world: str, seed: int, number: int) -> float:
-    """Of an environment; most conditions of a study have the same ones."""
+    """Length of the shortest tour of an environment, mm; most conditions share environments."""
     drawn_from = world_of(world)
     return tour_mm(drawn_from.generate(seed, number), drawn_from.params)
 
@@ -163,7 +163,7 @@ def _denied(simulation: Simulation) -> int:
 
 
 def knows_wrong(sides: Sequence[int], body: BodyState) -> bool:
-    """Whether a turn is known for one of the patterns of `PROPER` that leads toward what is beside the robot."""
+    """Whether the turn known for one of the patterns of `PROPER` leads toward the obstacle."""
     wrong = {pattern: side if body.is_reversed else _OTHER[side] for pattern, side in PROPER.items()}
     return any(sides[pattern] == side for pattern, side in wrong.items())
 

@@ -26,7 +26,7 @@ examples:
 Run the same command again to resume a search that was stopped.
 """
 HELD_OUT = 1_000_001
-"""The first of the seeds on which nothing is chosen."""
+"""The first of the held-out seeds."""
 
 
 def add(commands: "Subparsers") -> None:
@@ -109,7 +109,7 @@ def _preset(best: "Settings", about: str) -> str:
 
 
 def _report(samples: "Sequence[Sample]", best: "Settings") -> str:
-    """How the best settings compare with the defaults, and without each parameter with themselves."""
+    """Compares the best settings with the defaults, and with themselves without each parameter."""
     from host_sim.lab.study.figures import FIGURES
     from host_sim.lab.study.intervals import compare, estimate
     from host_sim.lab.study.table import compared, text_of

@@ -1,8 +1,8 @@
 """Searches the parameters of a behaviour by CMA-ES over fleets.
 
-A generation is judged in rounds that leave fewer settings and take more seeds, none of which was used before: no
-setting wins by luck with some environments twice. The best of each generation, and the defaults, meet once more on
-new seeds. A robot that touches things is worse than any that does not, however quick it is.
+A generation is judged in rounds with fewer settings and more seeds each, all of them new, so that no setting wins
+twice by lucky environments. The best of each generation and the defaults are compared once more on new seeds. A
+robot that touches things is worse than any that does not, however fast it is.
 """
 
 import json
@@ -27,21 +27,21 @@ from host_sim.protocol.generated import PARAMETERS
 from host_sim.sim.run_config import RunConfig
 
 GOALS = {"time": "mean_s", "finished": "finished"}
-"""The figure that each goal is about."""
+"""The figure of each goal."""
 
 OF_THE_BODY = ("speed_mm_s", "turn_speed_deg_s", "wheel_track_mm", "tick_ms", "share")
-"""Parameters that are not searched unless they are named: what a body can do, and what a fleet does not have."""
+"""Parameters that are searched only if named: limits of the body, and features that a fleet lacks."""
 
-_PART = 25  # seeds of one piece of work
-_KEPT = 3  # of so many settings one goes on to the next round, which has as many times the seeds
+_PART = 25  # seeds per work item
+_KEPT = 3  # one in this many settings reaches the next round, which has as many times the seeds
 _ROUNDS = 3
 _FINALISTS = 4
-_BUMPED_MAX, _UNFIT = 0.02, 1e6  # a robot that touches something in more of its environments is worse than any other
+_BUMPED_MAX, _UNFIT = 0.02, 1e6  # with collisions in more of its environments, a robot is worse than any other
 _NOTES_MAX = 100_000_000
-_SPREAD = 0.15  # of the first generation, as a part of a parameter's range
+_SPREAD = 0.15  # standard deviation of the first generation, as a fraction of a parameter's range
 
 Settings = tuple[tuple[str, int], ...]
-"""Parameters and their values, in the order of PARAMETERS; those that are left out have their defaults."""
+"""Parameters and their values, in the order of PARAMETERS; omitted ones have their defaults."""
 
 
 class Piece(NamedTuple):
@@ -60,17 +60,17 @@ def run_pieces(pieces: Sequence[Piece]) -> list[tuple[Piece, Sample]]:
 
 
 Runner = Callable[[Sequence[Piece]], Iterator[Sequence[tuple[Piece, Sample]]]]
-"""Has pieces run, in any order."""
+"""Runs pieces, in any order."""
 
 
 class Wanted(NamedTuple):
-    """What is searched.
+    """The task of a search.
 
     Attributes:
         config: The run; its seed is the first one.
         goal: One of GOALS.
         names: The parameters to search.
-        seeds: How many seeds the last round of a generation has.
+        seeds: Number of seeds in the last round of a generation.
     """
 
     config: RunConfig
@@ -83,19 +83,19 @@ class Search:
     """A search for settings.
 
     Attributes:
-        best: The settings that were found; empty if the defaults are best.
+        best: The best settings found; empty if the defaults are best.
     """
 
     def __init__(self, wanted: Wanted, run: Runner, notes: Path) -> None:
-        """Begins, or goes on.
+        """Starts or resumes a search.
 
         Args:
-            wanted: What is searched.
-            run: Has pieces run.
-            notes: File of the values that are known; more are added.
+            wanted: The task of the search.
+            run: Runs pieces.
+            notes: File of the known values; more are added.
 
         Raises:
-            UsageError: The file is that of another search.
+            UsageError: The file belongs to another search.
         """
         self._config, self._names, self._figure = wanted.config, wanted.names, FIGURES[GOALS[wanted.goal]]
         told = wanted.config.told
@@ -109,15 +109,15 @@ class Search:
 
     @property
     def seeds(self) -> tuple[int, int]:
-        """First and last of the seeds on which anything was chosen."""
+        """First and last of the seeds used for choosing."""
         return self._config.seed, self._next - 1
 
     def go(self, trials: int, progress: Callable[[int], object]) -> None:
-        """Tries about so many settings.
+        """Tries a number of settings, approximately.
 
         Args:
             trials: Number of settings to try.
-            progress: Called with the number of settings that were tried.
+            progress: Called with the number of settings tried so far.
         """
         cmaes = library("cmaes", "study")
         size = min(trials, 8 + int(3 * math.log(len(self._names))))
@@ -141,7 +141,7 @@ class Search:
         self.best = left[0]
 
     def _ranked(self, tried: Sequence[Settings]) -> list[Settings]:
-        """The settings, best first; those that came into a later round before all others."""
+        """The settings, best first; those that reached a later round come before all others."""
         left, behind = list(dict.fromkeys(tried)), list[Settings]()
         for seeds in self._rounds:
             left = self._round(left, seeds)
@@ -151,7 +151,7 @@ class Search:
         return left + behind
 
     def _round(self, settings: Sequence[Settings], seeds: int) -> list[Settings]:
-        """Runs settings on seeds that none of them saw: best first."""
+        """Runs settings on new seeds; returns them best first."""
         first, self._next = self._next, self._next + seeds
         missing = [it for it in settings if (it, first) not in self._notes]
         for it, sample in zip(missing, samples_of(self._config, missing, first, seeds, self._run), strict=True):
@@ -161,7 +161,7 @@ class Search:
         return sorted(settings, key=lambda it: self._notes[it, first])
 
     def _settings(self, places: Any) -> Settings:
-        """What is at a place in the search; a parameter at its default is left out."""
+        """The settings at a point of the search space; parameters at their defaults are omitted."""
         values = {name: _value(name, float(place)) for name, place in zip(self._names, places, strict=True)}
         return tuple((name, value) for name, value in values.items() if value != self._defaults[name])
 
@@ -186,7 +186,7 @@ def samples_of(config: RunConfig, settings: Sequence[Settings], first: int, seed
 
 
 class _Notes:
-    """The values that a search has found, in a file of JSON lines."""
+    """The values found by a search, in a file of JSON lines."""
 
     def __init__(self, path: Path, about: str) -> None:
         self._path = path
@@ -214,7 +214,7 @@ class _Notes:
 
 
 def _place(name: str, value: int) -> float:
-    """Where a value is between the ends of its range, on a scale of ratios: 0 to 1."""
+    """Position of a value within its range on a logarithmic scale, 0 to 1."""
     it = PARAMETERS[name]
     return math.log1p(value - it.minimum) / math.log1p(it.maximum - it.minimum)
 

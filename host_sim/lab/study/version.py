@@ -1,4 +1,4 @@
-"""The version of a study: what its rows look like, and the sources that determine what is in them."""
+"""The version of a study: the layout of its rows, and the sources that determine their contents."""
 
 import hashlib
 from functools import cache
@@ -6,7 +6,7 @@ from functools import cache
 from host_sim.base.paths import BUILD, ROOT
 
 FORMAT = 1
-"""Number of the layout of a study's folder and tables."""
+"""Version number of the layout of a study's folder and tables."""
 
 _FOLDERS = ("firmware", "hal", *(f"host_sim/{name}" for name in ("client", "protocol", "sim", "world")))
 _FILES = tuple(f"host_sim/lab/study/{name}.py" for name in ("contacts", "trial"))
@@ -15,7 +15,7 @@ _KINDS = (".c", ".h", ".dbc", ".toml", ".py")
 
 @cache
 def code_version() -> str:
-    """A digest of the sources of robot and world, in hexadecimal: runs of other sources may be other runs."""
+    """A digest of the sources of robot and world, in hexadecimal: runs from other sources may differ."""
     stored = BUILD / "code_version"  # in a wheel, which has no sources
     if stored.exists():
         return stored.read_text(encoding="ascii")

@@ -1,4 +1,4 @@
-"""Makes the runs of a study in other processes, all of them by the same version of robot and world."""
+"""Makes the runs of a study in other processes, all with the same version of robot and world."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -10,7 +10,7 @@ from host_sim.lab.study.version import code_version
 
 
 class Chunk(NamedTuple):
-    """What came of some trials, and the version of the sources that made it."""
+    """The results of some trials, and the version of the sources used."""
 
     runs: Sequence[Run]
     code: str
