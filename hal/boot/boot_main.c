@@ -1,4 +1,4 @@
-/* The boot loader: to an image, or to the bus. */
+/* The boot loader: starts an image, or serves updates on the bus. */
 #include "hal/boot/handover.h"
 #include "hal/boot/server.h"
 #include "hal/boot/start.h"
@@ -6,12 +6,12 @@
 #include "hal/port/cortex_m/mcu.h"
 #include "hal/port/cortex_m/systick.h"
 
-enum { BLINK_BIT = 6 };   /* of the milliseconds: about 8 Hz */
+enum { BLINK_BIT = 6 };   /* bit of the milliseconds: about 8 Hz */
 
 int main(int argc, char *argv[]);
 void startup_crashed(const uint32_t *frame);
 
-/* Nobody would read what an image's crash leaves behind. */
+/* The boot loader keeps no crash record: nothing would read it. */
 __attribute__((used)) void startup_crashed(const uint32_t *frame)
 {
     (void)frame;
@@ -36,7 +36,7 @@ static void serve(struct server *server, struct link *link)
     }
 }
 
-/* An end is a reset. */
+/* A return from main resets the chip. */
 int main(int argc, char *argv[])
 {
     static struct choices choices;

@@ -1,4 +1,4 @@
-/* Challenges of a chip without a random number generator: what the RAM held at power-up, and when requests came. */
+/* Challenges without a random number generator: from the RAM's content at power-up and the times of requests. */
 #include <string.h>
 
 #include "hal/boot/sha512.h"
@@ -6,7 +6,7 @@
 #include "hal/port/cortex_m/core.h"
 #include "hal/port/cortex_m/systick.h"
 
-static uint8_t pool[SHA512_BYTES] __attribute__((section(".noinit")));   /* power-up fills it at random; a reset leaves it */
+static uint8_t pool[SHA512_BYTES] __attribute__((section(".noinit")));   /* random after power-up; kept by a reset */
 
 void boot_random(uint8_t out[UDS_CHALLENGE])
 {

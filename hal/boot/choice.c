@@ -86,7 +86,7 @@ uint8_t choice_free_slot(const struct choice *choice)
     return is_in(choice, choice->slot) && !choice->trial ? 1 - choice->slot : choice->slot;
 }
 
-/* Without the chosen image: the other one, which was confirmed once. */
+/* Falls back from the chosen image to the other one, which was once confirmed. */
 struct choice choice_without(const struct choice *choice)
 {
     struct choice next = *choice;
@@ -131,7 +131,7 @@ struct choice choice_confirmed(const struct choice *choice, uint32_t version)
     return next;
 }
 
-/* With nothing to go back to, an image stays on trial. */
+/* Without an image to fall back to, an image stays on trial. */
 struct choice choice_started(const struct choice *choice)
 {
     struct choice next = *choice;

@@ -9,7 +9,7 @@
 #include "hal/flash_store/flash.h"
 
 enum {
-    PIECE = 64,              /* bytes that are read at once: header and signature are of that size, all else a multiple of it */
+    PIECE = 64,              /* bytes read at once: the size of header and signature; all else is a multiple of it */
     FORMAT = 1,
     SIZE_AT = 8, CRC_AT = 12, VERSION_AT = 16, FORMAT_AT = 20, SLOT_AT = 21, LAYOUT_AT = 22, CHIP_AT = 24, BOARD_AT = 36
 };
@@ -21,7 +21,7 @@ static uint32_t little_endian(const uint8_t *bytes)
     return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
 }
 
-/* A text fills its field with zeros. */
+/* A text is padded with zeros to the size of its field. */
 static bool is_text(const uint8_t *field, size_t size, const char *text)
 {
     for (size_t i = 0; i < size; i++) {
@@ -77,7 +77,7 @@ uint32_t image_crc(unsigned slot, uint32_t end, bool *readable)
 
     *readable = true;
     for (uint32_t at = 0; at < end && *readable; at += PIECE) {
-        uint32_t skipped = at == 0 ? VERSION_AT : 0;   /* size, and the CRC itself */
+        uint32_t skipped = at == 0 ? VERSION_AT : 0;   /* skips the size and the CRC itself */
 
         *readable = read(slot, at, words);
         crc = crc32_more(crc, (const uint8_t *)words + skipped, PIECE - skipped);
@@ -138,7 +138,7 @@ enum refusal image_check(unsigned slot, struct image *out)
     return REFUSAL_NONE;
 }
 
-/* Ed25519 (RFC 8032 5.1.7), with the hash of R, key and text at hand. */
+/* Checks an Ed25519 signature (RFC 8032 5.1.7), given the hash of R, key and message. */
 static bool equation_holds(const uint8_t signature[IMAGE_SIGNATURE], struct sha512 *hash)
 {
     uint8_t long_hash[SHA512_BYTES];

@@ -68,7 +68,7 @@ static uint16_t take_consecutive(struct isotp *isotp, const struct frame *frame,
     return isotp->rx_at < isotp->rx_len ? 0 : isotp->rx_len;
 }
 
-/* Gaps under a millisecond are one; those that the standard reserves are the longest. */
+/* Gaps under a millisecond count as one; codes that the standard reserves count as the longest. */
 static uint8_t gap_of(uint8_t code)
 {
     if (code <= GAP_MS_MAX)
@@ -136,7 +136,7 @@ static bool begins(const struct isotp *isotp)
     return isotp->tx_at == 0 && isotp->tx_len > SINGLE_MAX;
 }
 
-/* Bytes of the message in the next frame, behind those that say which frame it is. */
+/* Number of message bytes in the next frame, after its protocol bytes. */
 static uint16_t portion(const struct isotp *isotp)
 {
     return begins(isotp) ? (uint16_t)FIRST_BYTES : smaller(isotp->tx_len - isotp->tx_at, NEXT_BYTES);
@@ -162,7 +162,7 @@ bool isotp_next(struct isotp *isotp, struct frame *out, uint32_t now_ms)
     memset(frame.data, PADDING, sizeof frame.data);
     if (isotp->flow != 0) {
         frame.data[0] = isotp->flow;
-        frame.data[1] = frame.data[2] = 0;   /* all frames in one go, as fast as they come */
+        frame.data[1] = frame.data[2] = 0;   /* all frames in one block, without gaps */
     } else if (is_due(isotp, now_ms)) {
         fill(isotp, frame.data);
     } else {

@@ -1,4 +1,4 @@
-/* What an image has to do with the boot loader that started it: its number, a word that it runs, and the way back. */
+/* An image's side of the boot loader that started it: node number, confirmation that it works, and the way back. */
 #include "hal/boot/handover.h"
 #include "hal/boot/image.h"
 #include "hal/boot/server.h"
@@ -17,11 +17,11 @@ static struct {
     struct choices choices;
     uint16_t id;
     uint8_t node;
-    bool trial;          /* until it is confirmed, or could not be */
-    bool heard;          /* a tester */
+    bool trial;          /* until it is confirmed, or confirmation has failed */
+    bool heard;          /* a tester was heard */
     bool leaving;
     uint32_t leaving_ms;
-} resident;              /* there is one, and those who ask have nowhere to keep it */
+} resident;              /* static, since the callers have no place for it */
 
 uint8_t loader_node(uint8_t built)
 {
@@ -51,7 +51,7 @@ static void confirm(void)
     resident.trial = choices_save(&resident.choices, &next, false) == FLASH_STORE_LATER;
 }
 
-/* Senses come, or a tester has had an answer: so the bus works. */
+/* The bus works: senses arrive, or a tester was answered. */
 void loader_alive(bool outage)
 {
     uint32_t now_ms = machine_ms();
@@ -64,14 +64,14 @@ void loader_alive(bool outage)
     }
 }
 
-/* What there is in a programming session is the boot loader's. */
+/* The services of a programming session are in the boot loader. */
 static const struct entry ENTRIES[] = {
     {SESSION_CONTROL, 2, FUNCTION_1 | FUNCTION_2, EXACT}, {READ, 3, 0, EXACT}, {TESTER_PRESENT, 2, FUNCTION_0, EXACT},
     {RESET, 0, 0, PROGRAMMING}, {SECURITY, 0, 0, PROGRAMMING}, {WRITE, 0, 0, PROGRAMMING}, {ROUTINE, 0, 0, PROGRAMMING},
     {DOWNLOAD, 0, 0, PROGRAMMING}, {TRANSFER, 0, 0, PROGRAMMING}, {TRANSFER_EXIT, 0, 0, PROGRAMMING},
 };
 
-/* The boot loader answers once it runs. */
+/* A request for a programming session is answered by the boot loader once it runs. */
 static enum nrc control_session(bool at_rest, struct exchange *exchange)
 {
     if (exchange->function == PROGRAMMING_SESSION) {
@@ -102,7 +102,7 @@ static enum nrc serve(bool at_rest, struct exchange *exchange)
     switch (exchange->request[0]) {
     case SESSION_CONTROL: return control_session(at_rest, exchange);
     case READ: return read(exchange);
-    default: return NRC_NONE;   /* the tester is present */
+    default: return NRC_NONE;   /* tester present */
     }
 }
 

@@ -43,7 +43,7 @@ void server_send(struct server *server, struct link *link, uint32_t now_ms)
         isotp_sent(&server->isotp, now_ms);
 }
 
-/* Nobody is there, and there is something better to do. */
+/* Whether no tester is present, and there is an image to start. */
 static bool is_idle(const struct server *server, uint32_t now_ms)
 {
     const struct uds *uds = &server->uds;

@@ -117,7 +117,7 @@ void sha512_end(struct sha512 *hash, uint8_t out[SHA512_BYTES])
     sha512_add(hash, &one, 1);
     while (hash->count % SHA512_BLOCK != LENGTH_AT)
         sha512_add(hash, &zero, 1);
-    memset(&hash->block[LENGTH_AT], 0, WORD_BYTES);   /* of a length of 128 bits, the upper half */
+    memset(&hash->block[LENGTH_AT], 0, WORD_BYTES);   /* the upper half of the 128-bit length */
     put_big_endian(bits, &hash->block[LENGTH_AT + WORD_BYTES]);
     take_block(hash);
     for (unsigned i = 0; i < 8; i++)

@@ -7,7 +7,7 @@ static bool is_in(const struct choice *choice)
     return choice->installed >> choice->slot & 1u;
 }
 
-/* The newest of those that are signed. */
+/* Finds the newest signed image. */
 static struct choice found(const struct choice *now)
 {
     struct choice choice = {.node = now->node, .bitrate = now->bitrate};

@@ -8,10 +8,10 @@
 enum {
     SEED = 1,
     DID_BOOT = 0xF180, DID_BOARD = 0xF191, DID_STATUS = 0xFD00, DID_WRITTEN = 0xFD01, DID_WHO = 0xFD04, DID_BITRATE = 0xFD05,
-    KEY_SHOWN = 4                 /* bytes of the public key, to tell one from another */
+    KEY_SHOWN = 4                 /* bytes of the public key shown to identify it */
 };
 
-/* What a tester signs: this and the challenge. No image begins like that. */
+/* A tester signs this text and the challenge. No image begins with it. */
 static const uint8_t PURPOSE[16] = "octet challenge";
 
 static void put_text(struct exchange *exchange, const char *text)
@@ -25,7 +25,7 @@ void uds_begin(struct uds *uds, struct choices *choices, uint32_t now_ms)
     *uds = (struct uds){.choices = choices, .asked_ms = now_ms};
 }
 
-/* Whatever a session had begun is forgotten with it, except for how often somebody has guessed. */
+/* Resets all state of the session, except for the count of failed attempts. */
 static void enter(struct uds *uds, bool programming)
 {
     struct uds fresh = {
@@ -43,7 +43,7 @@ static enum nrc control_session(struct uds *uds, struct exchange *exchange)
     return NRC_NONE;
 }
 
-/* Zeros: there is nothing to prove any more. */
+/* A challenge of zeros means already unlocked. */
 static enum nrc give_challenge(struct uds *uds, struct exchange *exchange)
 {
     if (exchange->len != 2)
@@ -103,7 +103,7 @@ static void put_status(const struct uds *uds, struct exchange *exchange)
     uds_put(exchange, uds_number(IMAGE_SIGNER), KEY_SHOWN);
 }
 
-/* From where on an interrupted update goes on: whole pages that are written, and a check of them. */
+/* Where an interrupted update resumes: the length of the whole pages written, and their checksum. */
 static void put_written(const struct uds *uds, struct exchange *exchange)
 {
     uint8_t slot = choice_free_slot(&uds->choices->now);
@@ -132,7 +132,7 @@ static enum nrc read(struct uds *uds, struct exchange *exchange)
     }
 }
 
-/* The robot's number, and the bit rate of the bus: they hold from the next start on. */
+/* Writes the robot's number or the bit rate of the bus, effective from the next start. */
 static enum nrc write(struct uds *uds, struct exchange *exchange)
 {
     struct choice next = uds->choices->now;
@@ -180,7 +180,7 @@ static enum nrc serve(struct uds *uds, struct exchange *exchange)
     case DOWNLOAD: return uds_download(uds, exchange);
     case TRANSFER: return uds_transfer(uds, exchange);
     case TRANSFER_EXIT: return uds_transfer_exit(uds);
-    default: return NRC_NONE;   /* the tester is present */
+    default: return NRC_NONE;   /* tester present */
     }
 }
 

@@ -1,4 +1,4 @@
-/* What changes the flash: erase, download, check. */
+/* Services that change the flash: erase, download, check. */
 #include "hal/boot/uds_parts.h"
 
 #include <string.h>
@@ -7,11 +7,11 @@
 
 enum {
     ROUTINE_ERASE = 0xFF00, ROUTINE_CHECK = 0xFF01, ROUTINE_FLOOR = 0xF000,
-    ROUTINE_OPTIONS = 4,          /* where they begin in a request */
+    ROUTINE_OPTIONS = 4,          /* their offset in a request */
     PLAIN = 0,                    /* not compressed, not encrypted */
-    FOUR_AND_FOUR = 0x44,         /* bytes of address and size */
+    FOUR_AND_FOUR = 0x44,         /* number of bytes of address and size */
     BLOCK_LENGTH_OF_2 = 0x20,
-    TRANSFER_DATA = 2             /* where data begin in a request */
+    TRANSFER_DATA = 2             /* offset of data in a request */
 };
 
 static uint32_t erased_at_once(void)
@@ -30,8 +30,8 @@ static enum nrc refuse(struct uds *uds, enum refusal why, enum nrc nrc)
     return nrc;
 }
 
-/* Erase: from which byte on, and the header of the image that is to come. All that can be wrong with that is found before
- * anything is lost. */
+/* Erase: takes the first byte, and the header of the new image. All possible errors are found before anything is
+ * erased. */
 static enum nrc begin_erase(struct uds *uds, const struct exchange *exchange)
 {
     const uint8_t *options = &exchange->request[ROUTINE_OPTIONS];
@@ -54,7 +54,7 @@ static enum nrc begin_erase(struct uds *uds, const struct exchange *exchange)
     return NRC_PENDING;
 }
 
-/* A person who has the key may go back to older versions. */
+/* The owner of the key may permit older versions. */
 static enum nrc set_floor(struct uds *uds, struct exchange *exchange)
 {
     struct choice next = uds->choices->now;
@@ -84,14 +84,14 @@ enum nrc uds_routine(struct uds *uds, struct exchange *exchange)
     }
 }
 
-/* From the byte on from which it was erased, to the end of the announced image. */
+/* Downloads from the first erased byte to the end of the announced image. */
 enum nrc uds_download(struct uds *uds, struct exchange *exchange)
 {
     uint32_t end = uds->image.size + IMAGE_SIGNATURE;
 
     if (exchange->request[1] != PLAIN || exchange->request[2] != FOUR_AND_FOUR)
         return NRC_RANGE;
-    if (!uds->erased && (!uds->loading || uds->took))   /* its answer was lost, and it comes again */
+    if (!uds->erased && (!uds->loading || uds->took))   /* repeated, since its answer was lost */
         return NRC_SEQUENCE;
     if (uds_number(&exchange->request[3]) != uds->at || uds_number(&exchange->request[7]) != end - uds->at)
         return NRC_RANGE;
@@ -104,7 +104,7 @@ enum nrc uds_download(struct uds *uds, struct exchange *exchange)
     return NRC_NONE;
 }
 
-/* The next unit of the block that comes; the bytes may lie anywhere. */
+/* Writes the next unit of the incoming block; the bytes need no alignment. */
 static bool write_unit(struct uds *uds, const uint8_t *block)
 {
     uint32_t words[FLASH_UNIT_MAX / 4];
@@ -117,7 +117,7 @@ static bool write_unit(struct uds *uds, const uint8_t *block)
     return true;
 }
 
-/* If that fails, it is tried again, and refused, once the block is complete. */
+/* Writes ahead of the complete block. If that fails, it is retried, and refused, once the block is complete. */
 bool uds_ahead(struct uds *uds, const uint8_t request[], uint16_t len)
 {
     uint32_t next = uds->ahead + flash_unit();
@@ -126,7 +126,7 @@ bool uds_ahead(struct uds *uds, const uint8_t request[], uint16_t len)
            next <= uds->image.size + IMAGE_SIGNATURE - uds->at && write_unit(uds, &request[TRANSFER_DATA]);
 }
 
-/* The block whose answer was lost comes again. */
+/* Whether a block is repeated because its answer was lost. */
 static bool came_before(const struct uds *uds, uint8_t number)
 {
     return number == (uint8_t)(uds->number - 1) && uds->took;
@@ -176,7 +176,7 @@ enum nrc uds_transfer_exit(struct uds *uds)
     return NRC_NONE;
 }
 
-/* Behind the image, what is blank stays: an erase takes as long as the frames that fill a page. */
+/* After the image, blank pages are skipped: erasing a page takes as long as the frames that fill it. */
 static enum nrc erase_one(struct uds *uds)
 {
     uint32_t page = uds->at / flash_page_size();
@@ -192,7 +192,7 @@ static enum nrc erase_one(struct uds *uds)
     return NRC_NONE;
 }
 
-/* The image that was there is given up before its first page is. */
+/* The old image is unlisted before its first page is erased. */
 static enum nrc step_erase(struct uds *uds)
 {
     struct choice cleared = choice_cleared(&uds->choices->now);

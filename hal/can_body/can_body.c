@@ -12,7 +12,7 @@ struct hal {
     struct wire wire;
     uint32_t heard_ms;   /* when senses last came, or silence was last reported */
     uint32_t silent_ms;  /* time since then, updated after each wait */
-    unsigned silences;   /* in a row; stays at LAPSE_SILENCES */
+    unsigned silences;   /* consecutive; stays at LAPSE_SILENCES */
     bool outage;         /* the senses have stopped arriving */
     bool announced;      /* boot has been sent */
     struct frame boot;
@@ -30,7 +30,7 @@ static int receive_frame(struct hal *hal, struct frame *frame, uint32_t wait_ms)
     return result;
 }
 
-/* A bus takes a while to come up, and there may be no other node yet: that is not a fault. */
+/* Failures to send are not faults here: a bus takes a while to come up, and may have no other node yet. */
 static void announce(struct hal *hal)
 {
     if (!hal->announced)
@@ -91,7 +91,7 @@ static void note_silence(struct hal *hal)
         wire_outage(&hal->wire);
 }
 
-/* The wheels are at rest, and no answer is awaited: time for slow work. */
+/* The wheels are at rest and no answer is awaited, so slow work is done here. */
 static int report_silence(struct hal *hal)
 {
     note_silence(hal);
@@ -102,7 +102,7 @@ static int report_silence(struct hal *hal)
     return INPUT_SILENCE;
 }
 
-/* A command that comes again is answered as before; it is not a new input. */
+/* A repeated command is answered as before; it is not a new input. */
 static enum input_kind read_frame(struct hal *hal, const struct frame *frame, struct input *in)
 {
     enum input_kind kind = wire_read(&hal->wire, frame, in);
@@ -112,8 +112,8 @@ static enum input_kind read_frame(struct hal *hal, const struct frame *frame, st
     return kind;
 }
 
-/* After an outage the queue holds stale senses, of which only the newest count. A command among them comes first; the
- * senses before it are out of date. */
+/* After an outage the queue holds stale senses, of which only the newest count. A command among them takes priority;
+ * senses before it are discarded. */
 static int take_newest(struct hal *hal, struct input *in)
 {
     struct frame frame;
@@ -127,7 +127,7 @@ static int take_newest(struct hal *hal, struct input *in)
         if (result == 1)
             kind = read_frame(hal, &frame, in);
         if (kind == INPUT_SENSES || kind == INPUT_COMMAND)
-            wire_count(&hal->wire, FAULT_STALE);   /* the senses before it */
+            wire_count(&hal->wire, FAULT_STALE);   /* the discarded senses */
         if (kind == INPUT_COMMAND)
             return INPUT_COMMAND;
     }
@@ -152,7 +152,7 @@ static int take_senses(struct hal *hal, struct input *in)
     return result;
 }
 
-/* A frame for the machine, and not for the robot on it. */
+/* Handles a frame for the boot loader or machine rather than the robot. */
 static void serve_port(struct hal *hal, const struct frame *frame)
 {
     struct frame answer;

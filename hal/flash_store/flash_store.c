@@ -18,13 +18,13 @@ struct record {
     uint32_t crc;
 };
 
-/* A record's place: as many whole write units as it takes. Words 1 and 2 are the eight bytes. */
+/* A place for one record: as many whole write units as needed. Words 1 and 2 are the eight bytes. */
 union place {
     struct record record;
     uint32_t words[FLASH_UNIT_MAX / 4];
 };
 
-/* A mark is a record whose CRC is inverted: firmware that knows no marks passes it over like any rubbish. */
+/* A mark is a record whose CRC is inverted: firmware without marks skips it as an invalid record. */
 enum content { BLANK, RECORD, MARK, RUBBISH };
 
 static uint32_t crc_of(const struct record *record)
@@ -60,7 +60,7 @@ static enum content look(unsigned page, uint32_t offset, union place *out)
     return difference == 0 && out->record.crc != NOT_WRITTEN ? RECORD : RUBBISH;
 }
 
-/* Where the blank rest of a page begins: everything before it is written, partly written or worn. */
+/* Offset of the blank rest of a page: everything before it is written, partly written or worn. */
 static uint32_t used_of(unsigned page, union place *scratch)
 {
     uint32_t size = size_of_place();
@@ -76,7 +76,7 @@ static bool has_record(const struct flash_store *store)
     return store->newest != FLASH_STORE_NOWHERE;
 }
 
-/* Numbers wrap; those of any two stored records are close together. */
+/* Compares sequence numbers, which wrap; those of any two stored records are close together. */
 static bool is_newer(const struct flash_store *store, uint32_t number)
 {
     return !has_record(store) || number - store->number - 1 < UINT32_MAX / 2;
@@ -101,8 +101,8 @@ static void make_record(union place *place, uint32_t number, const uint8_t memor
     place->record.crc = crc_of(&place->record);
 }
 
-/* Whether the page is blank after a mark. Without a mark it may be blank from an erase that lost power, and would not hold
- * for long what is written to it. */
+/* Whether the page is blank after a mark. Without a mark, it may look blank after an interrupted erase, and would not
+ * retain data for long. */
 static bool is_erased(unsigned page, union place *scratch)
 {
     return used_of(page, scratch) == size_of_place() && look(page, 0, scratch) == MARK;
@@ -126,7 +126,7 @@ static int erase(unsigned page, union place *scratch)
     return 0;
 }
 
-/* Continues in the page that can be spared. Returns 0, or as flash_store_save. */
+/* Continues in the other page. Returns 0, or an error as flash_store_save. */
 static int turn_page(struct flash_store *store, union place *scratch, bool may_erase)
 {
     uint8_t spare = (uint8_t)(2 * store->first + 1 - (has_record(store) ? store->kept : store->page));
@@ -166,7 +166,7 @@ int flash_store_open_at(struct flash_store *store, unsigned first_page, uint8_t 
     if (has_record(store))
         go_on_behind_newest(store, &place);
     if (store->next == flash_page_size())
-        (void)turn_page(store, &place, true);   /* saving tries again where this fails */
+        (void)turn_page(store, &place, true);   /* a failure is retried by the next save */
     if (has_record(store))
         return 1;
     return blank ? 0 : HAL_E_STORE;
@@ -177,7 +177,7 @@ int flash_store_open(struct flash_store *store, uint8_t memory[CELL_COUNT])
     return flash_store_open_at(store, 0, memory);
 }
 
-/* A later attempt that failed may read as valid after a reset: then this record is not the newest. */
+/* A failed later attempt may read as valid after a reset: then this record is not the newest. */
 static bool is_stored(const struct flash_store *store, union place *scratch, const uint8_t memory[CELL_COUNT])
 {
     return has_record(store) && look(store->kept, store->newest, scratch) == RECORD &&

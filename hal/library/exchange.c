@@ -10,7 +10,7 @@ void octet_init(struct octet *octet, uint8_t node, const uint8_t memory[CELL_COU
     (void)brain_adopt(&octet->robot.brain, memory);
     wire_init(&octet->wire, node);
     octet->wire.health.clock_exact = true;
-    wire_boot(&octet->wire, octet->answers);   /* there is no listener yet */
+    wire_boot(&octet->wire, octet->answers);   /* before anything listens */
 }
 
 struct octet *octet_open(uint8_t node, const uint8_t memory[CELL_COUNT])

@@ -51,7 +51,7 @@ int link_send(struct link *link, const struct frame *frame)
     return link->kind->send(link, frame);
 }
 
-/* The kernel, or the adapter, keeps all that to itself. */
+/* The kernel or the adapter does not report these values. */
 void link_health(const struct link *link, struct link_health *out)
 {
     (void)link;

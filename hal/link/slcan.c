@@ -7,7 +7,7 @@ enum { STANDARD_DIGITS = 3, EXTENDED_DIGITS = 8, TIME_DIGITS = 4, DATA_MAX = 8 }
 static const uint32_t STANDARD_MAX = 0x7FF;
 static const uint32_t EXTENDED_MAX = 0x1FFFFFFF;
 
-/* The rest of a line. Reading past its end, or reading anything but a digit, makes it bad; it stays bad. */
+/* The unread rest of a line. Reading past its end or reading a non-digit marks it as bad for good. */
 struct cursor {
     const char *at;
     const char *end;
@@ -45,7 +45,7 @@ static uint32_t read_id(struct cursor *text, char type)
     return id | (extended ? FRAME_EXTENDED : 0) | (remote ? FRAME_REMOTE : 0);
 }
 
-/* The time, if it is there, and nothing after it. */
+/* Reads the optional time stamp; nothing may follow. */
 static void read_end(struct cursor *text)
 {
     if (text->at < text->end)
@@ -70,14 +70,14 @@ static enum slcan_found read_frame(struct cursor text, struct frame *out)
     return SLCAN_FRAME;
 }
 
-/* Replies and set-up commands have a fixed length, which tells them from the tail of a frame's line. */
+/* Replies and set-up commands have a fixed length, which distinguishes them from the tail of a frame's line. */
 static bool is_aside(const char *line, size_t len)
 {
     static const struct {
         char letter;
         uint8_t len;
     } ASIDES[] = {
-        {'z', 1}, {'Z', 1},                                               /* sent, as the adapter replies */
+        {'z', 1}, {'Z', 1},                                               /* the adapter's reply to a frame sent */
         {'O', 1}, {'L', 1}, {'C', 1}, {'S', 2}, {'Y', 2}, {'s', 5},       /* open, close, speed */
         {'V', 1}, {'N', 1}, {'F', 1}, {'Z', 2}, {'M', 9}, {'m', 9} /* version, state, time on or off, filter */
     };
@@ -103,7 +103,7 @@ static enum slcan_found read_line(const char *line, size_t len, struct frame *ou
 
 enum slcan_found slcan_decode(struct slcan_decoder *decoder, char byte, struct frame *out)
 {
-    if (byte == '\r' || byte == '\a') { /* \a: "refused", a reply that ends itself */
+    if (byte == '\r' || byte == '\a') { /* \a: "refused", a reply without \r */
         enum slcan_found found = read_line(decoder->line, decoder->len, out);
         decoder->len = 0;
         return found;

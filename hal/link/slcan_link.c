@@ -14,7 +14,7 @@
 #include "hal/link/slcan.h"
 
 struct slcan_link {
-    struct link link;               /* first: a pointer to it is one to the whole */
+    struct link link;               /* must be first: its address is that of the whole struct */
     int fd;
     struct slcan_decoder decoder;
     char bytes[256];                /* read and not yet decoded: at..end */
@@ -39,7 +39,7 @@ static bool find_speed(const char *baud, speed_t *speed)
     return false;
 }
 
-/* Bytes as they are, both ways, and no waiting for a modem's consent. */
+/* Raw bytes in both directions, without modem control. */
 static int set_raw(int fd, speed_t speed)
 {
     struct termios line;
@@ -64,13 +64,13 @@ static struct slcan_link *open_line(const char *path, speed_t speed)
         made->fd = fd;
         return made;
     }
-    int error = errno;   /* which close may change */
+    int error = errno;   /* saved, since close may change it */
     close(fd);
     errno = error;
     return NULL;
 }
 
-/* PATH or PATH@BAUD; without one the speed stays. */
+/* Splits PATH or PATH@BAUD; without BAUD, the speed is not changed. */
 static bool split(const char *place, char path[PATH_MAX], speed_t *speed)
 {
     if (snprintf(path, PATH_MAX, "%s", place) >= PATH_MAX)
@@ -99,7 +99,7 @@ static int open_slcan(struct link **link, struct link_request *request)
     return 0;
 }
 
-/* As link_receive, out of what was already read. */
+/* As link_receive, from bytes already read. */
 static int decode(struct slcan_link *slcan, struct frame *out)
 {
     while (slcan->at < slcan->end) {
@@ -112,7 +112,7 @@ static int decode(struct slcan_link *slcan, struct frame *out)
     return 0;
 }
 
-/* Reads what there is, maybe nothing, or LINK_E_CLOSED. */
+/* Reads the available bytes, if any; returns LINK_E_CLOSED at the end. */
 static int refill(struct slcan_link *slcan)
 {
     ssize_t got = read(slcan->fd, slcan->bytes, sizeof slcan->bytes);
@@ -138,7 +138,7 @@ static int receive(struct link *link, struct frame *out, uint32_t wait_ms)
     return result;
 }
 
-/* As link_send. */
+/* Writes text by a deadline; returns as link_send. */
 static int write_by(int64_t deadline, int fd, const char *text, size_t len)
 {
     while (len > 0) {
@@ -146,7 +146,7 @@ static int write_by(int64_t deadline, int fd, const char *text, size_t len)
         if (took == 0 || (took < 0 && errno != EAGAIN && errno != EINTR))
             return LINK_E_CLOSED;
         if (took < 0 && errno == EINTR && deadline_left_ms(deadline) > 0)
-            continue;   /* a signal, not a full line: no rest */
+            continue;   /* interrupted by a signal, not a full line: retry at once */
         if (took < 0 && !deadline_pause(deadline))
             return LINK_E_FULL;
         if (took < 0)
@@ -157,7 +157,7 @@ static int write_by(int64_t deadline, int fd, const char *text, size_t len)
     return 0;
 }
 
-/* Ends a line that may be cut short first, or this one would be read as its tail. */
+/* Ends a line that may be cut short first; otherwise this one would be read as its tail. */
 static int send_frame(struct link *link, const struct frame *frame)
 {
     struct slcan_link *slcan = (struct slcan_link *)link;

@@ -1,4 +1,4 @@
-/* A frame is one struct can_frame, one datagram: from a CAN interface, or from the far end of a socket pair. */
+/* Each datagram is one struct can_frame, from a CAN interface or from the far end of a socket pair. */
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/can.h>
@@ -14,14 +14,14 @@
 #include "hal/link/deadline.h"
 #include "hal/link/link_kind.h"
 
-/* Our flags are the kernel's, so that an id passes as it is. */
+/* Our flags equal the kernel's, so that identifiers need no conversion. */
 typedef char flags_are_the_kernels
     [FRAME_EXTENDED == CAN_EFF_FLAG && FRAME_REMOTE == CAN_RTR_FLAG && FRAME_ERROR == CAN_ERR_FLAG ? 1 : -1];
 
 struct socket_link {
-    struct link link;   /* first: a pointer to it is one to the whole */
+    struct link link;   /* must be first: its address is that of the whole struct */
     int fd;
-    uint32_t wait_ms;   /* what the kernel was last told; 0: nothing yet */
+    uint32_t wait_ms;   /* timeout last set in the kernel; 0: none yet */
 };
 
 static int refuse(struct link_request *request, const char *why)
@@ -40,7 +40,7 @@ static int wrap(struct link **link, const struct link_kind *kind, int fd)
     return 0;
 }
 
-/* Lets exactly the wanted identifiers through: 11-bit, and no remote requests for them. */
+/* Accepts exactly the wanted 11-bit identifiers, without remote frames. */
 static int filter(int fd, const struct link_request *request)
 {
     struct can_filter wanted[LINK_IDS_MAX];
@@ -51,7 +51,7 @@ static int filter(int fd, const struct link_request *request)
     return setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FILTER, wanted, (socklen_t)(request->id_count * sizeof wanted[0]));
 }
 
-/* Filters before binding: nothing unwanted can slip in between. */
+/* Filters before binding, so that no unwanted frame arrives in between. */
 static int bind_filtered(int fd, const struct link_request *request)
 {
     struct sockaddr_can address = {.can_family = AF_CAN, .can_ifindex = (int)if_nametoindex(request->place)};
@@ -88,13 +88,13 @@ static int open_fd(struct link **link, struct link_request *request)
         return refuse(request, strerror(errno));
     if (type != SOCK_SEQPACKET && type != SOCK_RAW)
         return refuse(request, "neither a SOCK_SEQPACKET socket nor a raw one");
-    int blocking = fcntl((int)fd, F_SETFL, 0);   /* whatever it came as: receive leaves the waiting to the kernel */
+    int blocking = fcntl((int)fd, F_SETFL, 0);   /* in any case, since receive lets the kernel wait */
     if (blocking != 0)
         return refuse(request, strerror(errno));
     return wrap(link, &LINK_KIND_FD, (int)fd) == 0 ? 0 : refuse(request, strerror(errno));
 }
 
-/* Reading 0 bytes is an empty datagram as well as the end. */
+/* A read of 0 bytes means either an empty datagram or the end. */
 static int closed_or_empty(int fd)
 {
     struct pollfd watch = {.fd = fd, .events = POLLRDHUP};
@@ -110,7 +110,7 @@ static int unpack(struct frame *out, const struct can_frame *raw, size_t size)
     return 1;
 }
 
-/* One call for one frame: the kernel does the waiting, and is told of it only when the time differs from the last. */
+/* One call per frame: the kernel does the waiting; its timeout is set only when it changes. */
 static ssize_t receive_within(struct socket_link *socket, struct can_frame *raw, uint32_t wait_ms)
 {
     if (wait_ms != 0 && wait_ms != socket->wait_ms) {
@@ -136,7 +136,7 @@ static int receive(struct link *link, struct frame *out, uint32_t wait_ms)
         if (size == 0)
             return closed_or_empty(socket->fd);
         if (errno == ENETDOWN)
-            silence = LINK_E_DOWN;   /* said once; the bus may be back before the deadline */
+            silence = LINK_E_DOWN;   /* returned once; the bus may be back before the deadline */
         else if (errno != EINTR && errno != EAGAIN)   /* the kernel, which counts in its own ticks, may end a wait early */
             return LINK_E_CLOSED;
         left_ms = deadline_left_ms(deadline);
@@ -149,7 +149,7 @@ static int send_error(int error)
     return error == ENETDOWN ? LINK_E_DOWN : LINK_E_CLOSED;
 }
 
-/* A full queue is tried again each millisecond: poll does not tell when an interface has room. */
+/* A full queue is retried each millisecond: poll does not report when an interface has room. */
 static int send_frame(struct link *link, const struct frame *frame)
 {
     int fd = ((struct socket_link *)link)->fd;
@@ -159,7 +159,7 @@ static int send_frame(struct link *link, const struct frame *frame)
     while (send(fd, &raw, sizeof raw, MSG_DONTWAIT | MSG_NOSIGNAL) != (ssize_t)sizeof raw) {
         if (errno != EAGAIN && errno != ENOBUFS && errno != EINTR)
             return send_error(errno);
-        if (deadline == 0)   /* as a rule there is room, and nobody needs to know the time */
+        if (deadline == 0)   /* usually there is room, and the time is not needed */
             deadline = deadline_in_ms(LINK_SEND_MS);
         if (!deadline_pause(deadline))
             return LINK_E_FULL;

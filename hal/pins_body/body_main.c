@@ -1,4 +1,4 @@
-/* A body, for ever: sense, tell, and do what the brain at the other end of the bus says. */
+/* The body's main loop: sends senses to the brain at the other end of the bus, and follows its drives. */
 #include "hal/hal.h"
 #include "hal/pins_body/body_node.h"
 

@@ -9,17 +9,17 @@
 enum {
     TICK_MS_OF_BODY = 20,
     SILENT_TICKS = HAL_SILENCE_MS / TICK_MS_OF_BODY,
-    FRAMES_MAX = 4,      /* taken in one go */
+    FRAMES_MAX = 4,      /* handled per call */
     ORDERS = 2,
-    JUMP = 7             /* from a counter that an earlier session of ours has used */
+    JUMP = 7             /* counter step away from commands of an earlier session */
 };
 
-static struct wire wire;              /* there is one body */
+static struct wire wire;              /* one body per program */
 static struct link *bus;
-static struct command orders[ORDERS]; /* the first is under way; opcode 0: there is none */
-static uint8_t counter;               /* of the first */
+static struct command orders[ORDERS]; /* a queue; the first is in progress; opcode 0: empty */
+static uint8_t counter;               /* of the first order */
 static struct drive drive;
-static uint8_t silent;                /* ticks since it came; stays at SILENT_TICKS */
+static uint8_t silent;                /* ticks since the last drive; stays at SILENT_TICKS */
 static bool wants_ranges, running;
 
 int telemetry_open(const struct port *port)
@@ -37,7 +37,7 @@ int telemetry_open(const struct port *port)
     return link_open(&bus, port->link, ids, 2) < 0 ? HAL_E_BODY : 0;
 }
 
-/* Only the answer to the last senses counts: what is older has been overtaken. */
+/* Accepts only the answer to the last senses: older drives are obsolete. */
 static bool read_drive(const struct frame *frame)
 {
     struct octet_drive_t got;
@@ -72,7 +72,7 @@ static void read_answer(const struct frame *frame)
     counter = e2e_next(counter);
 }
 
-/* INPUT_PEER: a drive has come. */
+/* INPUT_PEER here means that a drive has arrived. */
 enum input_kind telemetry_receive(struct input *in)
 {
     (void)in;
@@ -118,7 +118,7 @@ static void say_ranges(const struct senses *senses, uint8_t with)
     (void)link_send(bus, &frame);
 }
 
-/* A frame that the bus does not take is not sent again: the next tick brings a newer one. */
+/* A frame that the bus does not accept is not repeated: the next tick brings a newer one. */
 void telemetry_senses(const struct senses *senses)
 {
     struct frame frame;

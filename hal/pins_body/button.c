@@ -8,7 +8,7 @@ static bool told(struct command *command, enum opcode opcode, uint8_t which)
     return true;
 }
 
-/* True if it goes down or up now. A contact bounces for some milliseconds. */
+/* Debounces the contact. Returns true if the button is now pressed or released. */
 static bool changes(struct button *button, bool pressed)
 {
     button->same = pressed == button->down ? 0 : (uint8_t)(button->same + 1);

@@ -5,14 +5,14 @@
 enum {
     SETTLING_TICKS = 10, LIGHT_TICKS = 16,
     LOW_DUTY = 16384, HIGH_DUTY = 49152,
-    PUSH = 64,                       /* what makes a push of a duty and millivolts, lest it be too long */
-    STAIR_BEATS = 100,               /* 0.5 s: the motors have settled long before */
-    LOW_MARK = 2,                    /* at the end of the lower one */
+    PUSH = 64,                       /* divisor of duty times millivolts, against overflow */
+    STAIR_BEATS = 100,               /* 0.5 s: the motors settle much sooner */
+    LOW_MARK = 2,                    /* index of the mark at the end of the lower stair */
     TURN_MM_S = 150,
     TURNS = 4,
-    TURN_BEATS = 8000,               /* nothing turns for longer */
-    COUNTS_1000 = (int)(1608495439LL * TURNS / WHEEL_COUNT_256),   /* 2 pi: a mm of track, in as many turns */
-    /* A unit of the feed-forward in push by counts of a stair, and one of the dead band in push. */
+    TURN_BEATS = 8000,               /* maximum duration of a turn */
+    COUNTS_1000 = (int)(1608495439LL * TURNS / WHEEL_COUNT_256),   /* counts for 1000 mm of track in this many turns (2 pi) */
+    /* Units of the feed-forward (push per count of a stair) and of the dead band (push). */
     FORWARD_1000 = (int)(1000LL * WHEEL_NOMINAL_MV * WHEEL_COUNT_256 / (PUSH * STAIR_BEATS * WHEEL_PERIOD_MS * 256)),
     DEAD_10 = (int)(10LL * WHEEL_NOMINAL_MV * TRAIT_DEAD_OF / TRAIT_DEAD_BY / PUSH)
 };
@@ -33,12 +33,12 @@ static int32_t rounded(int32_t dividend, int32_t divisor)
     return divisor > 0 ? (dividend + divisor / 2) / divisor : 0;
 }
 
-/* Notes a trait, unless it cannot be, or another one could not. */
+/* Stores a trait; a value out of range refuses the whole measurement. */
 static void take(struct calibration *calibration, struct traits *traits, unsigned number, int32_t value)
 {
     if (calibration->refused != 0)
         return;
-    if (!traits_fit((uint8_t)number, (uint32_t)value)) {   /* what is negative is too much then */
+    if (!traits_fit((uint8_t)number, (uint32_t)value)) {   /* negative values become too large */
         calibration->refused = (uint8_t)number;
         calibration->found = value;
     }
@@ -59,13 +59,13 @@ static bool measure_light(struct calibration *calibration, const struct calibrat
     return true;
 }
 
-/* Counts of a wheel between a mark and the next. */
+/* A wheel's counts between two successive marks. */
 static int32_t stair(const struct calibration *calibration, unsigned side, unsigned mark)
 {
     return (int16_t)(uint16_t)(calibration->marks[side][mark + 1] - calibration->marks[side][mark]);
 }
 
-/* Returns what the motor lacked of its speed after the step, ms; negative if it did not follow. */
+/* Returns the motor's lag after the step, ms; negative if it did not follow. */
 static int32_t take_motor(struct calibration *calibration, unsigned side, int32_t battery_mv, struct traits *traits)
 {
     int32_t low = stair(calibration, side, 0), high = stair(calibration, side, 2), more = high - low;
@@ -94,7 +94,7 @@ static bool measure_motors(struct calibration *calibration, const struct calibra
     return true;
 }
 
-/* It does not matter where turned begins: differences are taken. */
+/* The initial value of turned is irrelevant: only differences are used. */
 static void turn(struct calibration *calibration, const struct calibrate_look *look)
 {
     for (unsigned side = 0; side < PINS_SIDES; side++) {

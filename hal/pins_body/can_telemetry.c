@@ -1,18 +1,18 @@
-/* What a robot of its own says on a CAN bus is what robot and body say there otherwise, so that whoever knows the one can follow
- * the other. */
+/* A robot with a body on pins sends the same frames on a CAN bus as a separate robot and body, so that the same tools can
+ * follow it. */
 #include "hal/pins_body/telemetry.h"
 
 #include "hal/can_body/port.h"
 #include "hal/protocol/wire.h"
 #include "octet.h"
 
-enum { COMMANDS_MAX = 4 };   /* frames taken in one go */
+enum { COMMANDS_MAX = 4 };   /* frames handled per call */
 
-static struct wire wire;     /* there is one robot */
+static struct wire wire;     /* one robot per program */
 static struct link *bus;
 static struct frame boot;
 static bool announced;
-static struct frame frames[WIRE_FRAMES_MAX];   /* on their way out */
+static struct frame frames[WIRE_FRAMES_MAX];   /* being sent */
 
 int telemetry_open(const struct port *port)
 {
@@ -36,7 +36,7 @@ static void say(const struct frame *frame)
         wire_count(&wire, FAULT_UNSENT);
 }
 
-/* Another body with our number may send senses: ours are those of the pins. */
+/* Ignores senses from another body with our number: ours come from the pins. */
 static enum input_kind read_frame(const struct frame *frame, struct input *in)
 {
     enum input_kind kind;

@@ -1,4 +1,4 @@
-/* A body on pins: hal.h on the microcontroller's pins. */
+/* A body on pins: implements hal.h on the microcontroller's pins. */
 #include "hal/can_body/port.h"
 #include "hal/pins_body/button.h"
 #include "hal/pins_body/guard.h"
@@ -9,12 +9,12 @@
 enum {
     BEATS = 4,             /* in a tick of 20 ms: */
     BEAT_LIT = 0,          /* the LEDs have been on for a beat */
-    BEAT_DARK = 1,         /* and off for one: all that is sensed is known */
+    BEAT_DARK = 1,         /* and off for one: all senses are known */
     BEAT_SHINE = 3,
     FRONT = 2,             /* the bit of the front sensor in feel */
     BURSTS_SEEN = 3,       /* of the four strong bursts that the beacon sends in a tick */
-    BURSTS_NEAR = 6,       /* those that it sends weakly arrive too */
-    NEAR_MM = 100,         /* within reach */
+    BURSTS_NEAR = 6,       /* the weak bursts arrive too */
+    NEAR_MM = 100,         /* food is within reach */
     FAR_MM = 1000
 };
 
@@ -28,10 +28,10 @@ struct hal {
     uint8_t beat, tick;
     uint16_t bursts;       /* as of the last tick */
     bool running;
-    bool calibrates;       /* the button was pressed at power-up: its presses choose what is measured */
-    bool told_track;       /* the robot that the button has started is to be told its track next */
-    bool asked;            /* the command under way came from outside */
-    struct output told;    /* of the robot, with the body's answer in it; here it takes no stack */
+    bool calibrates;       /* the button was pressed at power-up: presses select a measurement */
+    bool told_track;       /* the robot started by the button must receive its track next */
+    bool asked;            /* the current command came from outside */
+    struct output told;    /* the robot's output with the body's answer; static to save stack */
     bool unstored;         /* storing memory was put off */
     uint8_t memory[CELL_COUNT];
 };
@@ -64,7 +64,7 @@ static void rest(struct hal *hal)
     }
 }
 
-/* A beat of the measurement under way, if there is one. */
+/* Runs a beat of the current measurement, if there is one. */
 static void measure(struct hal *hal, const struct guard_look *seen)
 {
     struct calibration *calibration = &hal->upkeep.calibration;
@@ -87,7 +87,7 @@ static void measure(struct hal *hal, const struct guard_look *seen)
     }
 }
 
-/* A beat of the wheels. What is not safe ends at once; the robot learns of it with the next senses. */
+/* Runs a beat of the wheels. Unsafe motion ends at once; the robot is informed with the next senses. */
 static void run_wheels(struct hal *hal)
 {
     uint32_t battery_mv = pins_battery_mv();
@@ -130,7 +130,7 @@ static void fill_senses(struct hal *hal, struct senses *senses)
     telemetry_senses(senses);
 }
 
-/* True once per tick, when all senses are known. */
+/* Returns true once per tick, when all senses are known. */
 static bool pass_beat(struct hal *hal)
 {
     pins_wait();
@@ -143,7 +143,7 @@ static bool pass_beat(struct hal *hal)
     return hal->beat == BEAT_DARK;
 }
 
-/* A body that calibrates does so instead of starting. */
+/* In calibration mode, a start selects a measurement instead. */
 static bool is_told(struct hal *hal, struct command *command)
 {
     struct calibration *calibration = &hal->upkeep.calibration;
@@ -169,7 +169,7 @@ static bool is_told(struct hal *hal, struct command *command)
     return true;
 }
 
-/* Commands to a robot at rest come before its next tick, which begins with them, so that no tick is in between. */
+/* Commands to a robot at rest are taken before its next tick, so that no tick comes in between. */
 static enum input_kind take_order(struct hal *hal, struct input *in)
 {
     enum input_kind kind = telemetry_receive(in);
@@ -199,7 +199,7 @@ int hal_receive(struct hal *hal, struct input *in)
     return INPUT_SENSES;
 }
 
-/* An erase stalls the machine for up to 40 ms: only while the wheels rest. */
+/* Stores only while the wheels rest, since an erase stalls the machine for up to 40 ms. */
 static void store_later(struct hal *hal)
 {
     if (hal->told_mm_s[0] != 0 || hal->told_mm_s[1] != 0)

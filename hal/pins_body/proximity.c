@@ -19,7 +19,7 @@ uint8_t proximity_feel(struct proximity *proximity, const uint16_t dark[FEEL_COU
     return proximity->feel;
 }
 
-/* Light falls with the square of the distance, from a point behind the sensor's window. */
+/* Light decreases with the square of the distance from a point behind the sensor's window. */
 uint8_t proximity_range_mm(const struct proximity *proximity, unsigned sensor)
 {
     uint32_t square, range_mm = 0;

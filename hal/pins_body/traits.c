@@ -8,7 +8,7 @@ static const struct {
     uint8_t min, max, initial;
 } ranges[] = {BODY_PARAMETERS(RANGE)};
 
-/* What is measured together is stored at once: light and track, then motors. */
+/* Traits measured together are stored together: light and track, then motors. */
 enum { EACH = 6, RECORDS = (TRAITS_KEPT + EACH - 1) / EACH };
 
 bool traits_fit(uint8_t number, uint32_t value)

@@ -3,12 +3,12 @@
 #include "robot_words.h"
 
 enum {
-    MODEL_PART = 8,            /* of what is missing, the model gains in a period: 37 ms */
+    MODEL_PART = 8,            /* fraction of the error that the model closes per period: 37 ms */
     MODEL_MS = MODEL_PART * WHEEL_PERIOD_MS,   /* feed-forward inverts the motor: it leads by the lag / this */
     BEHIND_MAX_UM = 4000,
-    BATTERY_MIN_MV = 3000,     /* less is no measurement */
-    PRECISION = 4096,          /* of what the duty gains at a lower voltage */
-    STILL_DUTY = 1000,         /* less is not worth a jump over the dead band */
+    BATTERY_MIN_MV = 3000,     /* a lower value is no valid measurement */
+    PRECISION = 4096,          /* fixed-point unit of the voltage compensation */
+    STILL_DUTY = 1000,         /* a smaller duty does not justify a jump over the dead band */
     UNIT_256 = 25600,          /* a unit of the odometer, 0.1 mm */
     SPAN_256 = ODOMETER_SPAN * UNIT_256
 };
@@ -18,13 +18,13 @@ static int32_t limited(int32_t x, int32_t limit)
     return x > limit ? limit : x < -limit ? -limit : x;
 }
 
-/* What a duty has to be multiplied by at this voltage. */
+/* Factor of the duty at this voltage, in units of 1 / PRECISION. */
 static int32_t stronger(uint32_t battery_mv)
 {
     return battery_mv < BATTERY_MIN_MV ? PRECISION : WHEEL_NOMINAL_MV * PRECISION / (int32_t)battery_mv;
 }
 
-/* How far the wheel has rolled since the last period, um. */
+/* Distance rolled by the wheel since the last period, um. */
 static int32_t moved_um(struct wheel *wheel, uint16_t count)
 {
     int32_t counts = wheel->known ? (int16_t)(uint16_t)(count - wheel->count) : 0;
@@ -56,7 +56,7 @@ int32_t wheel_run(struct wheel *wheel, uint16_t count, int16_t told_mm_s, uint32
         duty = 0;
     duty = limited(duty, WHEEL_DUTY_MAX * 2) * part / PRECISION;
     out = limited(duty, WHEEL_DUTY_MAX);
-    if (out == duty)   /* no more is gathered while the motor cannot give more */
+    if (out == duty)   /* anti-windup: no integration while the output is saturated */
         wheel->behind_um = behind_um;
     return out;
 }

@@ -1,6 +1,6 @@
 #include "hal/protocol/e2e.h"
 
-/* By halves of a byte: a quarter of the work of going bit by bit, for 16 bytes of table. */
+/* Works by half-bytes: a quarter of the work of a bitwise CRC, for a table of 16 bytes. */
 static uint8_t fed(uint8_t crc, uint8_t byte)
 {
     static const uint8_t table[16] = {

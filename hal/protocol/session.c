@@ -2,7 +2,7 @@
 
 #include "hal/protocol/e2e.h"
 
-enum { COMMANDS_AHEAD = 7 };   /* half of the counters: behind these lie the old ones */
+enum { COMMANDS_AHEAD = 7 };   /* half of the counter range: beyond it are old commands */
 
 static bool is_fresh(const struct session *session, unsigned ahead, uint8_t counter)
 {
@@ -32,7 +32,7 @@ static bool are_same(const struct request *one, const struct request *other)
         && one->command.value == other->command.value;
 }
 
-/* A stop from any sender is obeyed, except an old one of the owner's. */
+/* Obeys a stop from any sender, except an old one of the owner's. */
 static enum result judge(const struct session *session, const struct request *request)
 {
     unsigned ahead = e2e_ahead(session->request.counter, request->counter);

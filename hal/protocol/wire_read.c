@@ -5,7 +5,7 @@
 #include "octet.h"
 
 enum {
-    STRANGERS_MIN = 2,   /* within a second are a twin: one noisy frame in some thousands has a valid CRC */
+    STRANGERS_MIN = 2,   /* within a second indicate a twin: one noisy frame in some thousands has a valid CRC */
     MEMORY_FAMILY = (int)OCTET_MEMORY_FRAME_ID - 1,
     HALF = CELL_COUNT / 2
 };
@@ -116,7 +116,7 @@ static enum input_kind read_senses(struct wire *wire, const struct frame *frame,
     if (!e2e_is_whole(frame, OCTET_SENSES_LENGTH) || octet_senses_unpack(&got, frame->data, frame->len) != 0)
         return refused(wire, FAULT_DAMAGED);
     note_other(wire, frame, got.tick);
-    /* In lockstep both come again. */
+    /* In lockstep both are repeated. */
     if (wire->session.lockstep && wire->wants_ranges && !have_ranges(wire, got.tick))
         return refused(wire, FAULT_MISSED);
     switch (session_senses(&wire->session, got.tick, got.counter, &missed)) {
@@ -235,7 +235,7 @@ static enum input_kind meet_twin(struct wire *wire, const struct frame *frame, u
     return INPUT_COMMAND;
 }
 
-/* The first byte shows the kind of memory: with a cell per pattern, that of pattern 0 is empty. */
+/* The first byte indicates the kind of memory: with a cell per pattern, that of pattern 0 is empty. */
 static bool is_news_of_peer(struct wire *wire, const struct frame *frame)
 {
     uint32_t node = 1u << ((frame->id & LINK_FAMILY_BITS) - 1);

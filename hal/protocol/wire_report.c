@@ -5,7 +5,7 @@
 #include "hal/protocol/e2e.h"
 #include "octet.h"
 
-/* What a report is made of, in the order in which it is sent. */
+/* The parts of a report, in the order of sending. */
 enum part { PART_NONE, PART_HEARTBEAT, PART_MEMORY, PART_FAULTS_0, PART_FAULTS_1, PART_CRASH, PART_HEALTH };
 
 static void write_heartbeat(struct wire *wire, const struct output *out, struct frames *frames)
@@ -67,7 +67,7 @@ void wire_boot(struct wire *wire, struct frame *frame)
     fill_boot(wire, frames_add(&frames, wire, OCTET_BOOT_FRAME_ID, OCTET_BOOT_LENGTH));
 }
 
-/* Six counters a page; page 0 those of the link, page 1 the rest. */
+/* Six counters per page: page 0 those of the link, page 1 the rest. */
 static void write_faults(struct wire *wire, unsigned page, struct frames *frames)
 {
     struct frame *frame = frames_add(frames, wire, OCTET_FAULTS_FRAME_ID, OCTET_FAULTS_LENGTH);
@@ -99,7 +99,7 @@ static void write_health(struct wire *wire, const uint8_t memory[CELL_COUNT], st
     e2e_protect(frame);
 }
 
-/* One value with each report, in turn. */
+/* One value per report, in turn. */
 static void write_crash(struct wire *wire, struct frames *frames)
 {
     struct frame *frame = frames_add(frames, wire, OCTET_CRASH_FRAME_ID, OCTET_CRASH_LENGTH);
@@ -166,7 +166,7 @@ void wire_report_start(struct wire *wire)
     wire->told_lower = wire->told_upper = 0;
 }
 
-/* In silence, only a sign of life: all else would depend on how long it lasts. In a tick that sends a new memory, the
+/* In silence, only a sign of life: everything else would depend on its duration. In a tick that sends a new memory, the
    report waits. */
 void wire_report(struct wire *wire, const struct output *out, struct frames *frames)
 {

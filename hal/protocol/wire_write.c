@@ -83,7 +83,7 @@ static void note(struct wire *wire, const struct output *out)
         wire_count(wire, FAULT_REFUSED);
 }
 
-/* The answer to what was asked; a stop of the wire's own was not asked for. */
+/* Writes the answer to a command; a stop by the wire itself has none. */
 static void write_result(struct wire *wire, const struct output *out, struct frames *frames)
 {
     bool begins;

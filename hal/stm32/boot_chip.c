@@ -1,11 +1,11 @@
-/* What a boot loader and its images need of an STM32. */
+/* STM32 functions for a boot loader and its images. */
 #include "hal/boot/handover.h"
 #include "hal/boot/image.h"
 #include "hal/port/cortex_m/leave.h"
 #include "hal/stm32/clock.h"
 #include "hal/stm32/flash_table.h"
 
-enum { MARK = 0x53544159 };   /* with its complement; whatever is in the RAM at power-up, it is not this */
+enum { MARK = 0x53544159 };   /* stored with its complement; unlikely to be in RAM at power-up */
 
 extern volatile uint32_t HANDOVER[2];
 

@@ -1,4 +1,4 @@
-/* What this image is, readable in the image itself: tools/flash looks for it. */
+/* The identity of this image, searched for in the image by tools/flash. */
 #include "build_id.h"
 
 __attribute__((section(".build_id"), used))

@@ -10,10 +10,10 @@
 enum {
     FIFOS = 2,
 
-    MCR_INRQ = 1 << 0,            /* without TXFP beside it: the lowest identifier leaves first */
+    MCR_INRQ = 1 << 0,            /* TXFP stays clear: the lowest identifier is sent first */
     MSR_INAK = 1 << 0,
-    TSR_ABRQ0 = 1 << 7,           /* gives mailbox 0 up; the others' are 8 bits up each */
-    TSR_TME_AT = 26,              /* a bit for each mailbox: it is free */
+    TSR_ABRQ0 = 1 << 7,           /* aborts mailbox 0; the others' bits follow at intervals of 8 */
+    TSR_TME_AT = 26,              /* a bit per mailbox: it is free */
     RFR_FMP = 3,
     RFR_FOVR = 1 << 4,
     RFR_RFOM = 1 << 5,
@@ -51,7 +51,7 @@ enum can_state can_state(void)
     return CAN1.msr & MSR_INAK ? CAN_JOINING : CAN_JOINED;
 }
 
-/* A bank each, with a mask: data frames only. Families go to FIFO 1, where they push out nothing else. */
+/* One filter bank with a mask per entry, for data frames only. Families go to FIFO 1, where they displace no others. */
 static void set_filters(const uint16_t ids[], size_t count)
 {
     uint32_t families = 0;
@@ -96,7 +96,7 @@ static void read_mailbox(const volatile struct can_mailbox *received, struct fra
     uint32_t len = said < 8 ? said : 8;
 
     *out = (struct frame){.id = id_from(received->id), .len = (uint8_t)len};
-    memcpy(out->data, data, len);   /* the core has the first byte lowest, too */
+    memcpy(out->data, data, len);   /* the core is little-endian, too */
 }
 
 static int take_from(unsigned n, struct frame *out)
@@ -151,7 +151,7 @@ static bool holds(unsigned n, uint32_t waiting, uint32_t id)
     return waiting >> n & 1u && id_in(n) == id;
 }
 
-/* Equal identifiers leave by number of mailbox. */
+/* Equal identifiers are sent in the order of mailbox numbers. */
 bool can_put(const struct frame *frame)
 {
     uint32_t waiting = taken();

@@ -1,4 +1,4 @@
-/* Frames over the chip's own CAN controller. Nothing here waits without a bound. */
+/* Frames over the chip's own CAN controller. Every wait is bounded. */
 #include "hal/link/link.h"
 
 #include <stdbool.h>
@@ -9,10 +9,10 @@
 #include "hal/stm32/line.h"
 #include "hal/stm32/machine.h"
 
-enum { RECOVERY_MS = 250 };   /* between attempts to recover from bus-off: four times what a full bus needs */
+enum { RECOVERY_MS = 250 };   /* between attempts to recover from bus-off: four times the time that a full bus needs */
 
 struct link {
-    uint32_t off_ms;   /* when the last try to recover from bus-off began */
+    uint32_t off_ms;   /* start of the last attempt to recover from bus-off */
     bool off;          /* bus-off, and not yet recovered */
     uint8_t bus_offs;  /* as in struct link_health */
     struct can_queue queue;
@@ -20,7 +20,7 @@ struct link {
 
 static struct link the_link;   /* one controller */
 
-/* As the name says, in bit/s, or as built. */
+/* The bit rate in the name, bit/s, or that of the build. */
 static uint32_t bitrate_of(const char *name)
 {
     uint32_t bitrate = 0;
@@ -46,7 +46,7 @@ int link_open(struct link **link, const char *name, const uint16_t ids[], size_t
     return 0;
 }
 
-/* Waiting frames would be out of date by the time they are sent. */
+/* Drops waiting frames, which would be out of date when sent. */
 static void recover(struct link *link)
 {
     uint32_t now = machine_ms();
@@ -95,7 +95,7 @@ int link_send(struct link *link, const struct frame *frame)
     return can_queue_put(&link->queue, frame) ? 0 : LINK_E_FULL;
 }
 
-/* The controller keeps three received frames by itself. */
+/* Nothing to do: the controller buffers three received frames. */
 void line_pump(void)
 {
 }

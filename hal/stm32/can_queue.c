@@ -3,7 +3,7 @@
 #include "hal/stm32/can_controller.h"
 #include "hal/stm32/machine.h"
 
-enum { FRAME_BITS = 135 };   /* of a full frame with all its stuff bits, and the pause after it */
+enum { FRAME_BITS = 135 };   /* a full frame with maximum stuff bits and the interframe space */
 
 void can_queue_begin(struct can_queue *queue, uint32_t bitrate)
 {
@@ -37,7 +37,7 @@ void can_queue_drop(struct can_queue *queue)
     queue->count = 0;
 }
 
-/* The controller's last buffer is for what is urgent. */
+/* The controller's last buffer is reserved for urgent frames. */
 unsigned can_queue_pump(struct can_queue *queue)
 {
     uint32_t ids[CAN_BUFFERS];
@@ -55,13 +55,13 @@ unsigned can_queue_pump(struct can_queue *queue)
     return waiting;
 }
 
-/* Waits until no more frames than that are left to go. False: they do not go, or not in time. */
+/* Waits until at most this many frames are left. Returns false if they are not sent in time. */
 static bool drain(struct can_queue *queue, unsigned left)
 {
     uint32_t start = machine_ms();
 
     while (can_queue_pump(queue) > left) {
-        uint32_t now = machine_ms();   /* after the check, with whose time it is compared */
+        uint32_t now = machine_ms();   /* read after the check, whose time it is compared with */
 
         if (now - queue->moved_ms > queue->stuck_ms || now - start > queue->drain_ms)
             return false;
@@ -83,7 +83,7 @@ static bool is_urgent(const struct can_queue *queue, uint32_t id)
     return true;
 }
 
-/* Where all buffers are taken, the least urgent frame gives way. */
+/* If all buffers are in use, drops the least urgent frame. */
 static void make_room(struct can_queue *queue)
 {
     uint32_t ids[CAN_BUFFERS];
@@ -138,7 +138,7 @@ bool can_queue_put(struct can_queue *queue, const struct frame *frame)
     bool taken = put(queue, frame);
 
     if (taken)
-        queue->waiting++;   /* else one that leaves in its place would go unnoticed */
+        queue->waiting++;   /* otherwise a frame sent in its place would go unnoticed */
     else
         note_dropped(queue, 1);
     (void)can_queue_pump(queue);

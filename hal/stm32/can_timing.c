@@ -2,7 +2,7 @@
 
 enum { QUANTA_MIN = 8, QUANTA_MAX = 18 };
 
-/* The most there are: the finer the quanta, the closer the nodes keep step. */
+/* The maximum number of quanta per bit: finer quanta improve synchronisation. */
 uint32_t can_quanta(uint32_t clock_hz, uint32_t bitrate)
 {
     for (uint32_t quanta = QUANTA_MAX; quanta >= QUANTA_MIN; quanta--)

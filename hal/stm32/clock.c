@@ -2,7 +2,7 @@
 
 #include "hal/port/cortex_m/systick.h"
 
-/* On all chips. */
+/* Common to all chips. */
 enum {
     HSEON = 1u << 16,   /* CR */
     HSERDY = 1u << 17,
@@ -14,7 +14,7 @@ enum {
 
 static const struct clock_table *const chip = &CLOCK_TABLE;
 
-/* False: these bits of the register did not reach the wanted value in time. */
+/* Waits for bits of a register. Returns false if they do not reach the wanted value in time. */
 static bool comes_up(volatile const uint32_t *reg, uint32_t mask, uint32_t wanted, uint32_t limit_ms)
 {
     uint32_t start = machine_ms();
@@ -40,7 +40,7 @@ static bool start_pll(uint32_t setting)
     return comes_up(chip->cr, PLLRDY, PLLRDY, SWITCH_MS);
 }
 
-/* The flash, which says when it is (RM0090 3.5.1), is slowed down before the clock gets faster. */
+/* Slows down the flash, which confirms it (RM0090 3.5.1), before raising the clock. */
 static bool switch_to_pll(uint32_t setting)
 {
     *chip->acr = chip->caches | chip->waits;

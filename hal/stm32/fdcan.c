@@ -1,4 +1,4 @@
-/* FDCAN, the controller of STM32G0, G4 and their like (RM0440 44), in classic CAN mode. */
+/* FDCAN, the controller of STM32G0, G4 and similar (RM0440 44), in classic CAN mode. */
 #include "hal/stm32/can_controller.h"
 
 #include <string.h>
@@ -12,7 +12,7 @@ static const uint32_t FILTER_WITH_MASK = 1u << 31;
 enum {
     CCCR_INIT = 1 << 0,
     CCCR_CCE = 1 << 1,
-    RXGFC_REJECT = 1 << 0 | 1 << 1 | 2 << 2 | 2 << 4,   /* remote frames, and what no filter matches */
+    RXGFC_REJECT = 1 << 0 | 1 << 1 | 2 << 2 | 2 << 4,   /* remote frames, and frames that match no filter */
     RXGFC_FILTERS_AT = 16,
     FIFOS = 2,
     FILTER_TO_FIFO_0 = 1 << 27,
@@ -26,7 +26,7 @@ enum {
     RXFS_LOST = 1 << 25,
     IR_RF0L = 1 << 2,
     IR_RF1L = 1 << 5,
-    PSR_ACTIVITY = 3 << 3,         /* 0: not yet in step with the bus */
+    PSR_ACTIVITY = 3 << 3,         /* 0: not yet synchronised with the bus */
     PSR_EP = 1 << 5,
     PSR_BO = 1 << 7,
     ID_EXTENDED = 1 << 30,
@@ -36,7 +36,7 @@ enum {
     LENGTH_AT = 16
 };
 
-/* CCE gives access to all that sets it up. It also makes the controller forget what waits to be sent and what has come. */
+/* CCE enables access to the configuration. It also clears the transmit buffers and receive FIFOs. */
 bool can_stop(void)
 {
     uint32_t start = machine_ms();
@@ -64,7 +64,7 @@ enum can_state can_state(void)
     return status & PSR_ACTIVITY ? CAN_JOINED : CAN_JOINING;
 }
 
-/* Each with a mask. Families go to FIFO 1, where they push out nothing else. */
+/* One filter with a mask per entry. Families go to FIFO 1, where they displace no others. */
 static void set_filters(const uint16_t ids[], size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -104,7 +104,7 @@ static void read_element(const volatile struct fdcan_element *element, struct fr
     uint32_t len = said < 8 ? said : 8;
 
     *out = (struct frame){.id = id_from(element->id), .len = (uint8_t)len};
-    memcpy(out->data, data, len);   /* the core has the first byte lowest, too */
+    memcpy(out->data, data, len);   /* the core is little-endian, too */
 }
 
 static int take_from(unsigned n, struct frame *out)
@@ -142,7 +142,7 @@ static uint32_t id_in(unsigned n)
     return FDCAN_RAM.sent[n].id >> STANDARD_AT;
 }
 
-/* Equal identifiers leave by number of buffer. */
+/* Equal identifiers are sent in the order of buffer numbers. */
 static bool would_overtake(uint32_t buffer, uint32_t id)
 {
     uint32_t waiting = FDCAN.txbrp;

@@ -1,4 +1,4 @@
-/* The core stands still while a page is written or erased. */
+/* Flash access common to all chips. The core stalls during a write or an erase. */
 #include "hal/stm32/flash_table.h"
 #include "hal/stm32/line.h"
 #include "hal/stm32/machine.h"
@@ -9,7 +9,7 @@ static const struct flash_table *const chip = &FLASH_TABLE;
 
 bool flash_exists(void)
 {
-    return *chip->cr & chip->lock;   /* set by every reset, and by us whenever we are done */
+    return *chip->cr & chip->lock;   /* set by every reset, and by us after each operation */
 }
 
 uint32_t flash_page_size(void)
@@ -22,7 +22,7 @@ uint32_t flash_unit(void)
     return chip->unit;
 }
 
-/* 0, or -1: the supply is too low to begin a write or an erase. */
+/* Returns 0, or -1 if the supply is too low for a write or an erase. */
 static int unlock(uint32_t setting)
 {
     *chip->keyr = 0x45670123;
@@ -32,7 +32,7 @@ static int unlock(uint32_t setting)
     return *chip->supply & chip->supply_low ? -1 : 0;
 }
 
-/* Waits for what is under way. */
+/* Waits for the current operation. */
 static int wait(uint32_t limit_ms)
 {
     uint32_t start = machine_ms();

@@ -1,4 +1,4 @@
-/* An STM32 as the port's microcontroller. */
+/* The microcontroller functions of the port on an STM32. */
 #include "hal/port/cortex_m/mcu.h"
 #include "hal/stm32/machine.h"
 #include "hal/stm32/registers.h"
@@ -10,19 +10,19 @@ enum {
     WATCHDOG_BY_32 = 3,
     WATCHDOG_BY_128 = 5,
     WATCHDOG_COUNTS = 2000,      /* by the data sheets 1.07..2.13 s on an F103, 1.36..3.76 s on an F405, 1.88..2.17 s on a G431 */
-    WATCHDOG_WAIT_MAX = 200000   /* looks: its clock is slow, the change takes up to 5 periods of it */
+    WATCHDOG_WAIT_MAX = 200000   /* polls; the change takes up to 5 periods of the slow clock */
 };
 
 enum {                           /* in RCC_CSR: RM0008 7.3.10, RM0090 7.3.21, RM0440 7.4.28 */
     FLAG_PIN = 1 << 26,
-    FLAG_POWER_ON = 1 << 27,     /* or a supply that was too low */
+    FLAG_POWER_ON = 1 << 27,     /* or brown-out */
     FLAG_SOFTWARE = 1 << 28,
     FLAG_WATCHDOGS = 3 << 29
 };
 
-static struct clocks clocks;     /* there is one machine */
+static struct clocks clocks;     /* one machine per program */
 
-/* First of all: whatever hangs from here on ends in a reset. Where the update does not end, the longest period stays. */
+/* Called first, so that any later hang ends in a reset. If the update does not complete, the longest period remains. */
 static void start_watchdog(uint32_t divisor)
 {
     IWDG.kr = WATCHDOG_ON;
@@ -62,7 +62,7 @@ void mcu_feed(void)
     IWDG.kr = WATCHDOG_FEED;
 }
 
-/* Each reset sets the pin's flag too. */
+/* Every reset also sets the pin's flag. */
 enum reset_cause mcu_reset_cause(void)
 {
     uint32_t flags = chip_reset_flags();

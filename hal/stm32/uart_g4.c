@@ -1,5 +1,5 @@
-/* The serial port of STM32F0, F3, G4, L4 and their like (RM0440 37), with its FIFO: eight bytes, 0.7 ms at 115200 baud, wait
- * there while the core stands still for the flash. */
+/* The serial port of STM32F0, F3, G4, L4 and similar (RM0440 37). Its FIFO holds eight bytes, 0.7 ms at 115200 baud, while
+ * the core stalls for the flash. */
 #include "hal/stm32/uart.h"
 
 #include "hal/stm32/uart_g4_registers.h"
@@ -36,7 +36,7 @@ int uart_get(void)
 
     if (!(status & (ISR_RXFNE | ERRORS)))
         return UART_NOTHING;
-    UART.icr = status & ERRORS;   /* those of this byte; the next one brings its own */
+    UART.icr = status & ERRORS;   /* clears the errors of this byte */
     byte = UART.rdr & 0xFF;
     return status & ERRORS ? UART_DAMAGED : byte;
 }

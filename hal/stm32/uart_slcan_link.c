@@ -1,4 +1,4 @@
-/* Frames as slcan text over a serial line. A byte comes every 87 us at the most: every wait here takes it. */
+/* Frames as slcan text over a serial line. A byte arrives at most every 87 us, and every wait here receives it. */
 #include "hal/link/link.h"
 
 #include <stdbool.h>
@@ -11,17 +11,17 @@
 enum {
     BAUD = 115200,
     WAITING_MAX = 128,   /* bytes received and not yet decoded: four lines */
-    SPOILT = '?'         /* occurs in no line: makes the one that it is in garbled */
+    SPOILT = '?'         /* occurs in no valid line: marks a line as garbled */
 };
 
 struct link {
     struct slcan_decoder decoder;
     char waiting[WAITING_MAX];
-    uint8_t first, count;   /* of these bytes */
+    uint8_t first, count;   /* index of the first of these bytes, and their number */
     bool cut_short;         /* the last line sent lacks its end */
 };
 
-static struct link the_link;   /* one line */
+static struct link the_link;   /* one line per program */
 
 int link_open(struct link **link, const char *name, const uint16_t ids[], size_t id_count)
 {
@@ -56,7 +56,7 @@ void line_pump(void)
     pump(&the_link);
 }
 
-/* 1, 0 or LINK_E_GARBLED as link_receive, without waiting. */
+/* Returns 1, 0 or LINK_E_GARBLED as link_receive, without waiting. */
 static int decode(struct link *link, struct frame *out)
 {
     enum slcan_found found = SLCAN_NOTHING;
@@ -93,7 +93,7 @@ static bool send_byte(struct link *link, char byte, uint32_t start)
     return true;
 }
 
-/* Ends a line that was cut short first, or this one would be read as its tail. */
+/* Ends a line that was cut short first; otherwise this one would be read as its tail. */
 int link_send(struct link *link, const struct frame *frame)
 {
     char text[1 + SLCAN_TEXT_MAX];
@@ -110,7 +110,7 @@ int link_send(struct link *link, const struct frame *frame)
     return sent == len ? 0 : LINK_E_FULL;
 }
 
-/* A serial line has no error counters, and an adapter at its far end keeps its own to itself. */
+/* A serial line has no error counters, and an adapter at its far end does not report its own. */
 void link_health(const struct link *link, struct link_health *out)
 {
     (void)link;

@@ -1,9 +1,9 @@
-/* memcpy and memset, which the compiler calls for structs, and memcmp. Ours are some bytes long, for which a quarter of the library's
- * code does. */
+/* memcpy and memset, which the compiler calls for structs, and memcmp. Ours handle short blocks, with a quarter of the code
+ * of the library's. */
 #include <stdint.h>
 #include <string.h>
 
-typedef uint32_t word __attribute__((may_alias, aligned(1)));   /* these cores write words at any address */
+typedef uint32_t word __attribute__((may_alias, aligned(1)));   /* these cores support unaligned word writes */
 
 void *memcpy(void *restrict to, const void *restrict from, size_t count)
 {
@@ -25,7 +25,7 @@ int memcmp(const void *one, const void *other, size_t count)
     return 0;
 }
 
-/* What it clears is longer than what is copied: four bytes at a time. */
+/* Four bytes at a time, since cleared blocks are longer than copied ones. */
 void *memset(void *to, int value, size_t count)
 {
     char *at = to;

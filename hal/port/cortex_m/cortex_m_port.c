@@ -1,4 +1,4 @@
-/* A Cortex-M microcontroller as a port. */
+/* The port for Cortex-M microcontrollers. */
 #include "hal/can_body/port.h"
 
 #include "hal/flash_store/flash.h"
@@ -9,16 +9,16 @@
 #include "hal/port/cortex_m/mcu.h"
 #include "hal/port/cortex_m/systick.h"
 
-/* Else it does not compile. */
+/* Compile-time check. */
 enum { NODE_IS_IN_RANGE = 1 / (OCTET_NODE >= 1 && OCTET_NODE <= NODE_MAX) };
 
 enum { MORE_PAGE = FLASH_PAGES + 58 };
 
 enum { BLINK_SLOWLY = 9, BLINK_FAST = 7 };   /* bit of the milliseconds: about 1 Hz, 4 Hz */
 
-static struct flash_store store;                                /* there is one, */
-static struct flash_store more[PORT_MORE];                      /* and these before it, in a chip of 64 pages */
-static uint32_t entropy __attribute__((section(".noinit")));    /* power-up fills it at random; a reset leaves it */
+static struct flash_store store;                                /* the first store, */
+static struct flash_store more[PORT_MORE];                      /* and those before it, in a chip with 64 pages */
+static uint32_t entropy __attribute__((section(".noinit")));    /* random after power-up; kept by a reset */
 
 int port_open(struct port *port, int argc, char *const argv[])
 {

@@ -5,13 +5,13 @@
 #include "hal/port/cortex_m/core.h"
 
 enum {
-    KEPT = 0x4B455054,   /* whatever is in the RAM at power-up, it is not this */
+    KEPT = 0x4B455054,   /* unlikely to be in RAM at power-up */
     FRESH = 0x46524553
 };
 
-/* A reset finds it as it was left. */
+/* Not initialised, so that it survives a reset. */
 static struct {
-    uint32_t mark;       /* KEPT: of an earlier life; FRESH: not reset since; else nothing is kept */
+    uint32_t mark;       /* KEPT: record from before a reset; FRESH: no reset since; else there is no record */
     struct crash crash;
 } note __attribute__((section(".noinit")));
 

@@ -7,7 +7,7 @@ enum {
     AIRCR_RESET = 1 << 2
 };
 
-/* Takes a few cycles. The barrier forces the compiler and the core's write buffer to store all before it. */
+/* The reset takes a few cycles. The barrier completes all earlier stores of compiler and core. */
 void leave_by_reset(void)
 {
     __asm__ volatile("dsb" ::: "memory");

@@ -9,7 +9,7 @@
 #include "hal/port/cortex_m/systick.h"
 
 enum {
-    ICSR_VECTOR = 0x1FF       /* number of the exception under way */
+    ICSR_VECTOR = 0x1FF       /* number of the active exception */
 };
 
 /* From the linker script: addresses only. */
@@ -26,7 +26,7 @@ struct vectors {              /* PM0214 2.3.4, PM0056 2.3.4 */
     void (*handlers[15])(void);
 };
 
-/* No interrupt is ever taken: the core's own 15 exceptions are all. */
+/* No interrupt is ever taken: the table has only the core's 15 exceptions. */
 __attribute__((section(".vectors"), used))
 static const struct vectors vectors = {
     stack_top,
@@ -36,7 +36,7 @@ static const struct vectors vectors = {
     },
 };
 
-/* With PRIMASK set, what is pending ends the wait and is not taken. */
+/* With PRIMASK set, a pending interrupt ends the wait and is not taken. */
 void core_sleep(void)
 {
     __asm__ volatile("cpsid i\n\tdsb\n\twfi" ::: "memory");
@@ -49,10 +49,10 @@ void startup_reset(void)
     memset(bss_start, 0, (size_t)((char *)bss_end - (char *)bss_start));
     systick_start(mcu_start());
     (void)main(0, NULL);
-    leave_by_reset();   /* main ends if its body cannot be opened: start over */
+    leave_by_reset();   /* main returns if its body cannot be opened: restart */
 }
 
-/* The stack may be broken: begins a new one, in the half that does not hold the core's exception frame. */
+/* The stack may be corrupt: starts a new one in the half without the core's exception frame. */
 __attribute__((naked)) void startup_crash(void)
 {
     __asm__ volatile("mrs r0, msp\n\t"
@@ -64,7 +64,7 @@ __attribute__((naked)) void startup_crash(void)
                      "b startup_crashed");
 }
 
-/* Called by the lines above, which the linker cannot read. */
+/* Called by the assembly above, which the linker cannot see. */
 __attribute__((used, weak)) void startup_crashed(const uint32_t *frame)   /* a boot loader has its own */
 {
     crash_keep(SCB.icsr & ICSR_VECTOR, frame, stack_bottom, stack_top);

@@ -4,15 +4,15 @@
 
 enum {
     SPAN = 1 << 24,
-    ON = 1,         /* from an eighth of the core's clock, no interrupt */
+    ON = 1,         /* clocked by an eighth of the core clock, without interrupt */
     DIVISOR = 8
 };
 
 static struct {
     uint32_t per_ms;   /* counts */
-    uint32_t seen;     /* the timer, which counts down, as it was when the last whole millisecond ended */
+    uint32_t seen;     /* value of the down-counting timer at the end of the last whole millisecond */
     uint32_t ms;
-} timer;                /* there is only one, and those who ask for the time have nowhere to keep it */
+} timer;                /* the only timer; its callers have no place for its state */
 
 void systick_start(uint32_t core_hz)
 {

@@ -22,7 +22,7 @@ int file_store_load(const char *path, uint8_t memory[CELL_COUNT])
     return 1;
 }
 
-/* On the disk, not just on its way there. */
+/* Writes and syncs, so that the data is on the disk. */
 static int write_whole(const char *path, const uint8_t memory[CELL_COUNT])
 {
     int fd = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
@@ -32,7 +32,7 @@ static int write_whole(const char *path, const uint8_t memory[CELL_COUNT])
     return close(fd) == 0 && done ? 0 : -1;
 }
 
-/* A reader finds the old file or the new one, never half of one. */
+/* Replaces the file atomically: a reader finds the old or the new one. */
 static int replace(const char *path, const uint8_t memory[CELL_COUNT])
 {
     char fresh[PATH_MAX];
@@ -44,10 +44,10 @@ static int replace(const char *path, const uint8_t memory[CELL_COUNT])
     return -1;
 }
 
-/* fsync of the directory: only then is the rename durable. */
+/* Syncs the directory; only then is the rename durable. */
 static int sync_folder(const char *path)
 {
-    char copy[PATH_MAX] = {0};   /* dirname writes into it */
+    char copy[PATH_MAX] = {0};   /* modified by dirname */
     snprintf(copy, sizeof copy, "%s", path);
     int fd = open(dirname(copy), O_RDONLY | O_CLOEXEC);
     if (fd < 0)
@@ -66,7 +66,7 @@ int file_store_save(const char *path, const uint8_t memory[CELL_COUNT])
     if (sync_folder(path) == 0)
         return 0;
     if (had == 1)
-        replace(path, old);   /* refused means that the old one is still there */
+        replace(path, old);   /* a refused save must leave the old memory */
     if (had == 0)
         unlink(path);
     return HAL_E_STORE;

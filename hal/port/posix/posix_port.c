@@ -12,7 +12,7 @@
 #include "hal/can_body/port.h"
 #include "hal/port/posix/file_store.h"
 
-static const char *memory_path;   /* hal_store is not told where: there is one store to a machine */
+static const char *memory_path;   /* static, since hal_store has no path argument: one store per machine */
 
 static void print_usage(FILE *to)
 {
@@ -41,7 +41,7 @@ static int parse_node(const char *text, uint8_t *node)
     return 0;
 }
 
-/* A parent that ended before this call is missed by it, but closes or leaves the link, as any dead body does. */
+/* Misses a parent that ended earlier, but then the link is closed or silent, as with any dead body. */
 static int die_with_parent(void)
 {
     return prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 ? 0 : HAL_E_BODY;

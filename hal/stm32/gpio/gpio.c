@@ -1,4 +1,4 @@
-/* What each board has. */
+/* Pins common to all boards. */
 #include "hal/stm32/gpio/gpio.h"
 
 #include "hal/port/cortex_m/mcu.h"

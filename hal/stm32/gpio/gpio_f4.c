@@ -1,4 +1,4 @@
-/* A mode, a pull and a function for each pin. */
+/* Each pin has a mode, a pull and an alternate function. */
 #include "hal/stm32/gpio/gpio_f4.h"
 
 #include "hal/stm32/gpio/gpio.h"

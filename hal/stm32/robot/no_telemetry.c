@@ -1,4 +1,4 @@
-/* A robot of its own that talks to nobody: neither a bus nor a line. */
+/* No telemetry: a robot with a body on pins, without bus or serial line. */
 #include "hal/pins_body/telemetry.h"
 #include "hal/stm32/line.h"
 

@@ -1,5 +1,5 @@
-/* A robot of its own on an STM32F1 or G4 (RM0008, RM0440): TIM1 makes the PWM of both motors and the beat, TIM3 and TIM4 count the
- * encoders, TIM2 the beacon's bursts, and the converter fills samples by DMA, over and over. */
+/* A body on the pins of an STM32F1 or G4 (RM0008, RM0440): TIM1 generates the PWM of both motors and the beat, TIM3 and TIM4
+ * count the encoders, TIM2 the beacon's bursts, and the ADC fills samples continuously by DMA. */
 #include "hal/pins_body/pins.h"
 
 #include "hal/port/cortex_m/core.h"
@@ -9,16 +9,16 @@
 #include "hal/stm32/robot/timer_registers.h"
 
 enum {
-    PWM_HZ = 20000, PWM_PERIODS = 100,             /* in a beat of 5 ms */
+    PWM_HZ = 20000, PWM_PERIODS = 100,             /* per beat of 5 ms */
     CEN = 1u << 0, UIE = 1u << 0, UIF = 1u << 0, UG = 1u << 0, ARPE = 1u << 7,
-    TIM1_UP = 25,                                  /* its interrupt */
+    TIM1_UP = 25,                                  /* number of its interrupt */
     PWM_2 = 0x6800, PWM_3 = 0x0068,                /* in ccmr: mode 1, preloaded */
     CC2N_ON = 1u << 6, CC3N_ON = 1u << 10,         /* in ccer */
     BREAK_LOW = 1u << 12, OUTPUTS_ON = 1u << 15, IDLE_LOW = 1u << 10, BREAK_SEEN = 1u << 7,   /* in bdtr; the last in sr */
-    ENCODER = 3, FROM_INPUTS = 0x0101 | 0x3030,    /* both edges of both inputs, which last 8 counts of the clock */
+    ENCODER = 3, FROM_INPUTS = 0x0101 | 0x3030,    /* both edges of both inputs, filtered over 8 clock cycles */
     EXTERNAL_BY_INPUT_1 = 7u | 5u << 4, FROM_INPUT_1 = 0x0031,
     TOP = 0xFFFF,
-    CIRCULAR_HALVES = 1u << 0 | 1u << 5 | 1u << 7 | 1u << 8 | 1u << 10,   /* on, round and round, to memory, 16 bits each */
+    CIRCULAR_HALVES = 1u << 0 | 1u << 5 | 1u << 7 | 1u << 8 | 1u << 10,   /* on, circular, to memory, 16 bits each */
     BATTERY = FEEL_COUNT,
     SUPPLY_MV = 3300, BATTERY_PARTS = 3, SAMPLE_SPAN = 4096
 };
@@ -27,7 +27,7 @@ static const uint8_t CHANNELS[CONVERTER_SAMPLES] = {
     BOARD_PROXIMITY_RIGHT_CHANNEL, BOARD_PROXIMITY_FRONT_RIGHT_CHANNEL, BOARD_PROXIMITY_FRONT_CHANNEL,
     BOARD_PROXIMITY_FRONT_LEFT_CHANNEL, BOARD_PROXIMITY_LEFT_CHANNEL, BOARD_BATTERY_CHANNEL,
 };
-static volatile uint16_t samples[CONVERTER_SAMPLES];   /* the converter's */
+static volatile uint16_t samples[CONVERTER_SAMPLES];   /* written by the ADC's DMA */
 
 static const struct {
     uint8_t pin, mode, function;
@@ -63,7 +63,7 @@ static void start_counter(volatile struct timer_registers *timer, uint32_t input
     timer->cr1 = CEN;
 }
 
-/* An update at once takes over what is preloaded. The break input is the bridge's fault, low. */
+/* An update event loads the preloaded values at once. The break input is the bridge's fault signal, active low. */
 static void start_motors(void)
 {
     TIM1.arr = machine_clocks().core_hz / PWM_HZ - 1;
@@ -104,7 +104,7 @@ void pins_open(void)
     start_motors();
 }
 
-/* The watchdog bounds this: without its timer the robot must not go on. */
+/* Bounded by the watchdog: without its timer the robot must not continue. */
 void pins_wait(void)
 {
     while (!(TIM1.sr & UIF))
@@ -118,7 +118,7 @@ uint16_t pins_count(unsigned side)
     return (uint16_t)(side == 0 ? TIM3.cnt : TIM4.cnt);
 }
 
-/* Backward, the other half of the bridge is on for as long as this one is off. */
+/* Backward, the other half-bridge is on while this one is off. */
 void pins_push(unsigned side, int32_t duty)
 {
     uint32_t top = TIM1.arr + 1;

@@ -9,7 +9,7 @@
 
 enum {
     CFGR_APB1_BY_2 = 4u << 8,    /* 36 MHz, its limit */
-    PLL_FROM_HSE = 1u << 16,     /* else from half the internal oscillator */
+    PLL_FROM_HSE = 1u << 16,     /* otherwise half the internal oscillator */
     PLL_BY_9 = 7u << 18,
     PLL_BY_16 = 14u << 18
 };

@@ -1,4 +1,4 @@
-/* The converter of an STM32F1 (RM0008 11). */
+/* The ADC of an STM32F1 (RM0008 11). */
 #include "hal/stm32/robot/converter.h"
 
 #include "hal/stm32/stm32f103/registers.h"
@@ -11,7 +11,7 @@ enum {
     ADC_ON = 1u << 0, CONTINUOUS = 1u << 1, CALIBRATE = 1u << 2, RESET_CALIBRATION = 1u << 3, BY_DMA = 1u << 8,
     BY_SOFTWARE = 7u << 17 | 1u << 20, BEGIN = 1u << 22,
     SCAN = 1u << 8, LONGEST_SAMPLE = 7,            /* in cr1; 239.5 cycles of 12 MHz */
-    CALIBRATION_WAIT_MAX = 20000                   /* looks; it takes some 90 cycles of the converter */
+    CALIBRATION_WAIT_MAX = 20000                   /* polls; calibration takes some 90 ADC cycles */
 };
 
 const volatile uint32_t *converter_power(void)

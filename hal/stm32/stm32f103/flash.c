@@ -1,4 +1,4 @@
-/* 64 pages, the last two of them the store's (PM0075 2.3), written by halves of a word. */
+/* 64 pages, the last two for the store (PM0075 2.3), written by half-words. */
 #include "hal/stm32/flash_table.h"
 #include "hal/stm32/stm32f103/registers.h"
 
@@ -10,7 +10,7 @@ const struct flash_table FLASH_TABLE = {
     .keyr = &FLASH.keyr, .sr = &FLASH.sr, .cr = &FLASH.cr, .ar = &FLASH.ar, .supply = &PWR.csr,
     .supply_low = 1u << 2,
     .page_size = PAGE_SIZE,
-    .unit = 4,                   /* two halves of a word, one after the other */
+    .unit = 4,                   /* two half-words, one after the other */
     .at_once = 2,
     .erase_ms = 100,
     .busy = 1u << 0,
@@ -45,7 +45,7 @@ void flash_begin(unsigned page, uint32_t offset, const uint32_t words[])
     *(volatile uint16_t *)flash_place(page, offset) = (uint16_t)words[0];
 }
 
-/* Its address tells it. */
+/* A page is selected by its address. */
 uint32_t flash_number(unsigned page)
 {
     (void)page;

@@ -1,4 +1,4 @@
-/* Four bits of mode a pin (RM0008 9.2); what a peripheral is joined to, AFIO says. */
+/* Four mode bits per pin (RM0008 9.2); AFIO routes the peripherals. */
 #include "hal/stm32/gpio/gpio.h"
 
 #include "hal/stm32/stm32f103/registers.h"

@@ -9,7 +9,7 @@ enum {
     AFIO_ON = 1u << 0,            /* in apb2enr */
     GPIO_A_TO_C = 7u << 2,
     USART1_ON = 1u << 14,
-    MAPR_NO_JTAG = 2u << 24       /* SWD stays: the other pins of JTAG are free */
+    MAPR_NO_JTAG = 2u << 24       /* SWD stays enabled; the other JTAG pins are free */
 };
 
 void pins_start(void)

@@ -22,7 +22,7 @@ const struct clock_table CLOCK_TABLE = {
     .buses = CFGR_APB1_BY_4 | CFGR_APB2_BY_2,
     .switch_to_pll = 2,
     .from_pll = 2u << 2,
-    .caches = 3u << 8,           /* prefetch and instruction cache; a data cache would remember what the store was */
+    .caches = 3u << 8,           /* prefetch and instruction cache; a data cache would hold stale data of the store */
     .waits_mask = 7,
     .waits = 5,                  /* at 168 MHz and 3.3 V, 3.5.1 */
 };

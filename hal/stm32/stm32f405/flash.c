@@ -1,13 +1,13 @@
-/* Sectors 1 and 2 are the store's (RM0090 3.6); longer ones begin at multiples of their length. */
+/* Sectors 1 and 2 are for the store (RM0090 3.6); longer ones begin at multiples of their length. */
 #include "hal/stm32/flash_table.h"
 #include "hal/stm32/stm32f405/registers.h"
 
 enum {
     SECTOR_SIZE = 16384,
     FIRST_SECTOR = 1,
-    SMALL_SECTORS = 4,          /* one of 4 pages follows, and then those of 8 */
+    SMALL_SECTORS = 4,          /* followed by one of 4 pages, then those of 8 */
     LONG_PAGES = 8,
-    CR_WORDS = 2 << 8           /* four bytes at once, for 2.7 V and more */
+    CR_WORDS = 2 << 8           /* four bytes at once, for 2.7 V and above */
 };
 
 extern volatile uint32_t PAGES[][SECTOR_SIZE / 4];
@@ -34,7 +34,7 @@ static uint32_t place_of(unsigned page)
     return page < FLASH_PAGES ? FIRST_SECTOR + page : page - FLASH_PAGES;
 }
 
-__attribute__((noinline)) volatile void *flash_place(unsigned page, uint32_t offset)   /* once is small enough */
+__attribute__((noinline)) volatile void *flash_place(unsigned page, uint32_t offset)   /* not inlined, to save code */
 {
     return &PAGES[place_of(page)][offset / 4];
 }

@@ -1,7 +1,7 @@
 /* 80 MHz from the board's crystal, or from the internal 16 MHz.
  *
- * The chip can do 170 MHz, after a voltage boost and a rest at half speed; a tick takes 3,000 instructions, and from 80 MHz
- * a bit of CAN has 16 quanta. */
+ * 170 MHz would require a voltage boost and a pause at half speed; a tick takes only 3,000 instructions, and 80 MHz gives
+ * 16 quanta per CAN bit. */
 #include "hal/stm32/clock.h"
 
 #include "hal/stm32/stm32g431/registers.h"
@@ -21,7 +21,7 @@ enum {
     PLL_R_ON = 1u << 24,
     PLL = PLL_R_2 | PLL_R_ON | PLL_N_40,
     HSI_MHZ = 16,
-    ACR_CACHES = 3u << 8,        /* prefetch and instruction cache; a data cache would remember what the store was */
+    ACR_CACHES = 3u << 8,        /* prefetch and instruction cache; a data cache would hold stale data of the store */
     ACR_DEBUGGER = 1u << 18
 };
 

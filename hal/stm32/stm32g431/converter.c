@@ -1,4 +1,4 @@
-/* The converter of an STM32G4 (RM0440 21), and the multiplexer before DMA (13). */
+/* The ADC of an STM32G4 (RM0440 21), and the DMA request multiplexer (13). */
 #include "hal/stm32/robot/converter.h"
 
 #include "hal/stm32/stm32g431/registers.h"
@@ -14,9 +14,9 @@ enum {
     READY = 1u << 0,                               /* in isr */
     ROUND_BY_DMA = 3u << 0, KEEP_LAST = 1u << 12, CONTINUOUS = 1u << 13,   /* in cfgr */
     LONGEST_SAMPLE = 7,                            /* 640.5 cycles of 20 MHz */
-    PLACES_1 = 4,                                  /* of the order in sqr[0] */
-    WAIT_MAX = 20000,                              /* looks; calibration takes 116 cycles of the converter */
-    PAUSE = 2000                                   /* looks: more than 20 us, which the regulator takes */
+    PLACES_1 = 4,                                  /* of the sequence in sqr[0] */
+    WAIT_MAX = 20000,                              /* polls; calibration takes 116 ADC cycles */
+    PAUSE = 2000                                   /* polls: more than the regulator's 20 us */
 };
 
 const volatile uint32_t *converter_power(void)
@@ -29,7 +29,7 @@ const volatile uint32_t *converter_power(void)
     return &ADC1.dr;
 }
 
-/* A bit of cr is set beside its regulator, and some cycles pass. */
+/* Sets a bit of cr, keeping the regulator on, and waits for some cycles. */
 static void set(uint32_t bit)
 {
     ADC1.cr = REGULATOR_ON | bit;

@@ -1,7 +1,7 @@
-/* 64 pages, the last two of them the store's (RM0440 5.3).
+/* 64 pages, the last two for the store (RM0440 5.3).
  *
- * Eight bytes are written at once, with eight bits to correct an error in them. A write that a loss of power cut short can leave
- * eight bytes that no correction fits: reading them causes a non-maskable interrupt. */
+ * Eight bytes are written at once, with eight bits of error correction. A write interrupted by a power failure can leave
+ * eight bytes with an uncorrectable error: reading them raises a non-maskable interrupt. */
 #include "hal/stm32/flash_table.h"
 #include "hal/stm32/stm32g431/flash_errors.h"
 #include "hal/stm32/stm32g431/registers.h"
@@ -9,7 +9,7 @@
 enum {
     PAGE_SIZE = 2048,
     FIRST_PAGE = 62,
-    INTERRUPT_MAX = 100        /* looks at a flag until its interrupt has come, which is a matter of cycles */
+    INTERRUPT_MAX = 100        /* polls of a flag until its interrupt has arrived, within a few cycles */
 };
 
 static const uint32_t ECCR_TWO_BITS = 1u << 31;
@@ -21,7 +21,7 @@ const struct flash_table FLASH_TABLE = {
     .supply_low = 1u << 11,
     .page_size = PAGE_SIZE,
     .unit = 8,
-    .at_once = 8,               /* the second word starts it */
+    .at_once = 8,               /* the second word starts the write */
     .erase_ms = 100,
     .busy = 1u << 16,
     .errors = 0xC3FA,
@@ -35,7 +35,7 @@ const struct flash_table FLASH_TABLE = {
 
 static volatile bool reading, unreadable;
 
-__attribute__((used)) bool flash_forgives(void)   /* by nmi.c, in lines that the linker cannot read */
+__attribute__((used)) bool flash_forgives(void)   /* by assembly in nmi.c, which the linker cannot see */
 {
     if (!reading || !(FLASH.eccr & ECCR_TWO_BITS))
         return false;

@@ -1,9 +1,9 @@
-/* The one exception that does not end the program. It comes within flash_read only, and takes 56 bytes of the stack. */
+/* The only exception that does not end the program. It occurs only in flash_read, and takes 56 bytes of stack. */
 #include "hal/stm32/stm32g431/flash_errors.h"
 
 void startup_nmi(void);
 
-/* What is not forgiven is a crash, with the stack as the exception left it. */
+/* An error that is not forgiven is a crash, with the stack as left by the exception. */
 __attribute__((naked)) void startup_nmi(void)
 {
     __asm__ volatile("push {r4, lr}\n\t"

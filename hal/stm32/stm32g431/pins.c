@@ -8,7 +8,7 @@ enum {
     USART2_ON = 1u << 17,
     PWR_ON = 1u << 28,
     BELOW_2_9_V = 1u << 0 | 6u << 1,
-    CCIPR_FDCAN_PCLK1 = 2u << 24  /* else straight from the crystal, which may not be there */
+    CCIPR_FDCAN_PCLK1 = 2u << 24  /* otherwise the crystal, which may be missing */
 };
 
 void pins_start(void)
