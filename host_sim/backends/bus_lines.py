@@ -26,7 +26,7 @@ class BusLines:
         reconnect_s: Time to wait for a bus that is gone, s of wall-clock time.
         command: Program to start as each robot; empty for the firmware.
         program: The file with the program that is each robot's brain; empty for the firmware's own.
-        relay: What the robots hear of each other where there is no bus; None for one robot.
+        relay: Relays memories between the robots if there is no bus; None for one robot.
     """
 
     bus: str
@@ -43,7 +43,7 @@ class BusLines:
         self.relay = Relay(self.nodes) if len(self.nodes) > 1 else None
 
     def open(self, stack: ExitStack, node: int) -> tuple[Link, LineStats]:
-        """The line to a robot, and what happens to it.
+        """Opens the line to a robot; returns it with its statistics.
 
         Args:
             stack: Closes what is opened here.
@@ -63,7 +63,7 @@ class BusLines:
         return self._shared.share(node), self._shared_stats
 
     def _opened(self, stack: ExitStack, nodes: Sequence[int], stats: LineStats) -> Link:
-        # A run in this process needs neither of these, and python-can makes up a quarter of its imports' time.
+    # Loaded on demand: a run in this process needs neither, and python-can takes a quarter of the import time.
         from host_sim.transport.buses import open_bus_link  # noqa: PLC0415 - see above
         from host_sim.transport.reconnecting_link import ReconnectingLink  # noqa: PLC0415 - see above
 
@@ -76,6 +76,6 @@ class BusLines:
 
 
 def _ids(node: int) -> list[int]:
-    """The identifiers to listen for: a sender of what only simulators send commands the same robot."""
+    """The identifiers to listen for, including simulators' messages: their sender commands the same robot."""
     protocol = Protocol(node)
     return [*protocol.ids_from("ROBOT"), *protocol.ids_from("SIM")]

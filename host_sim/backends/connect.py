@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from host_sim.backends.robot_process import RobotProcess
 
 _EMULATED_S = 30.0
-"""An emulator on a busy machine may take its time."""
+"""Timeout for emulators, which may be slow on a busy machine, s."""
 
 
 def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
@@ -63,7 +63,7 @@ def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
     return _over_bus(stack, lines, robot, node)
 
 
-# Each way to a robot loads what it needs: a run in this process begins sooner without python-can and processes.
+# Modules are loaded on demand: a run in this process starts faster without python-can and processes.
 
 
 def _in_qemu(stack: ExitStack) -> Connection:

@@ -31,10 +31,10 @@ void programmed_tell(const void *program, char told[1024]);
 
 
 def load_library(ffi: Any, path: Path = LIBRARY) -> Any:
-    """The firmware as a library.
+    """Loads the firmware as a library.
 
     Raises:
-        OctetError: It is missing, or cannot be loaded.
+        OctetError: The library is missing, or cannot be loaded.
     """
     try:
         return ffi.dlopen(os.fspath(path))
@@ -56,13 +56,13 @@ class InProcessLink:
     def __init__(
         self, node: int = 1, memory: Sequence[int] = (0,) * 8, library: Path = LIBRARY, relay: Relay | None = None
     ) -> None:
-        """Wakes a robot.
+        """Starts a robot.
 
         Args:
             node: 1..31.
-            memory: Eight cells that it wakes up with.
+            memory: Its initial eight cells.
             library: The firmware.
-            relay: What it hears of other robots; None if it is alone.
+            relay: Relays memories from other robots; None if it is alone.
 
         Raises:
             OctetError: The library cannot be loaded.
@@ -70,7 +70,7 @@ class InProcessLink:
         self._ffi = c_interface(_DECLARATIONS)
         self._library = loaded = load_library(self._ffi, library)
         opened = self._open(node, bytes(memory))
-        # This function holds the library, which else might be unloaded before the robot is closed.
+    # This function keeps the library loaded until the robot is closed.
         self._octet = self._ffi.gc(opened, lambda octet: loaded.octet_close(octet))  # noqa: PLW0108 - see above
         self._state: Any = self._ffi.buffer(self._octet, loaded.octet_size(opened))
         self._in: Any = self._ffi.new("struct frame *")
@@ -83,7 +83,7 @@ class InProcessLink:
 
     @property
     def pointers(self) -> RobotPointers:
-        """Where the robot is; it stays there as long as this link exists."""
+        """Addresses of the robot, valid for as long as this link exists."""
         library = self._library
         things = (self._octet, library.octet_exchange, library.octet_answers)
         return RobotPointers(*(int(self._ffi.cast("uintptr_t", thing)) for thing in things))
@@ -109,15 +109,15 @@ class InProcessLink:
 
     @property
     def state(self) -> bytes:
-        """All that the robot is; for `go_back_to`."""
+        """The robot's complete state, for `go_back_to`."""
         return bytes(self._state)
 
     def go_back_to(self, state: bytes) -> None:
-        """Makes the robot what it was when this was its state."""
+        """Restores an earlier state of the robot."""
         self._state[:] = state
 
     def hear_others(self) -> None:
-        """Passes on what the robot has not heard yet from others."""
+        """Passes on memories from others that the robot has not received yet."""
         if self._relay is not None:
             for frame in self._relay.take(self._node):
                 self.send(frame)
@@ -130,7 +130,7 @@ class InProcessLink:
         return None
 
     def taken(self) -> list[Frame]:
-        """All that waits, at once."""
+        """Returns all waiting frames at once."""
         answers = list(self._answers)
         self._answers.clear()
         return answers

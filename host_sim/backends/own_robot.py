@@ -16,7 +16,7 @@ from host_sim.transport.link import Link
 from host_sim.transport.reconnecting_link import ReconnectingLink
 
 BOOT_S = 10.0
-"""A robot must send its first frame within this time."""
+"""Time within which a robot must send its first frame, s."""
 
 _SLICE_S = 0.1
 
@@ -29,7 +29,7 @@ class OwnRobot:
         command: Program and arguments.
         node: The robot's node number.
         process: The running program; None before the first start.
-        was_there: Whether it has ever said something.
+        was_there: Whether it has ever sent a frame.
     """
 
     command: str
@@ -39,14 +39,14 @@ class OwnRobot:
 
     @property
     def environment(self) -> dict[str, str]:
-        """Its environment variables besides those for the bus."""
+        """Its environment variables, apart from those for the bus."""
         return {"OCTET_NODE": str(self.node)}
 
     def on_socket_pair(self, stats: LineStats) -> BusLink:
-        """Starts it, anew if it runs, and waits for its first word.
+        """Starts or restarts it, and waits for its first frame.
 
         Raises:
-            UsageError: It never was there.
+            UsageError: It has never sent a frame.
             LinkDownError: It has ended again.
         """
         self.close()
@@ -59,10 +59,10 @@ class OwnRobot:
         return link
 
     def on_bus(self, bus: str, link: Link) -> None:
-        """Starts it on a bus, and waits for its first word.
+        """Starts it on a bus, and waits for its first frame.
 
         Raises:
-            UsageError: It never was there.
+            UsageError: It has never sent a frame.
         """
         self.process = BusProcess(self.command, bus, self.environment)
         self._first_word(link.receive)
@@ -94,7 +94,7 @@ class OwnRobot:
 
 @dataclass
 class _WatchedLink:
-    """A link over a bus that restarts the robot's program when it has ended, which a bus does not show."""
+    """A link over a bus that restarts the robot's program when it has ended: a bus does not report that."""
 
     link: Link
     robot: OwnRobot
@@ -114,7 +114,7 @@ class _WatchedLink:
             except LinkDownError as error:
                 self.stats.outages, self.stats.reason = self.stats.outages + 1, str(error)
                 self.robot.close()
-                with suppress(LinkDownError):  # it has ended again; the next one may not
+                with suppress(LinkDownError):  # it has ended again; the next start may succeed
                     self.robot.on_bus(self.bus, self.link)
         return frame
 
@@ -132,7 +132,7 @@ def own_robot(stack: ExitStack, lines: BusLines, node: int) -> Connection:
         node: The robot's node number.
 
     Raises:
-        UsageError: It cannot be started, ends at once, or says nothing; or the bus cannot be opened.
+        UsageError: It cannot be started, ends at once, or sends nothing; or the bus cannot be opened.
     """
     robot = OwnRobot(lines.command, node)
     stack.callback(robot.close)

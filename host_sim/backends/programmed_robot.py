@@ -13,7 +13,7 @@ from host_sim.base.regular_file import read_bytes
 
 _FOLDER = BUILD / "host" / "host_sim" / "program" / "native"
 LIBRARY, PROCESS = _FOLDER / "liboctet_programmed.so", _FOLDER / "octet-program"
-"""Such robots as a library, and as a process."""
+"""Programmable robots as a library and as a program."""
 
 _SIZE_MAX = 16_383
 _TOLD_MAX = 1024
@@ -25,16 +25,16 @@ class ProgrammedLink(InProcessLink):
     def __init__(
         self, program: Path | bytes, node: int = 1, relay: Relay | None = None, memory: Sequence[int] = (0,) * 8
     ) -> None:
-        """Wakes a robot.
+        """Starts a robot.
 
         Args:
             program: The file with its program, or its text.
             node: 1..31.
-            relay: What it hears of other robots; None if it is alone.
-            memory: Eight cells that it wakes up with.
+            relay: Relays memories from other robots; None if it is alone.
+            memory: Its initial eight cells.
 
         Raises:
-            UsageError: The file cannot be read, or the program has a mistake, which the message names with its line.
+            UsageError: The file cannot be read, or the program has an error; the message names it and its line.
             OctetError: The library cannot be loaded.
         """
         self._text = program if isinstance(program, bytes) else read_program(program)
@@ -46,7 +46,7 @@ class ProgrammedLink(InProcessLink):
         return self._library.programmed_open(node, memory, self._text, len(self._text))
 
     def told(self) -> str:
-        """The state of the program for people: its mistake, its end, what it shows; empty for nothing."""
+        """The state of the program for people: its error, its end, or its output; empty if there is none."""
         told = self._ffi.new("char[]", _TOLD_MAX)
         self._library.programmed_tell(self._library.programmed_state(self._octet), told)
         text: Any = self._ffi.string(told)
@@ -70,7 +70,7 @@ def read_program(path: Path) -> bytes:
 
 
 def check_program(program: str) -> None:
-    """Refuses a program with a mistake.
+    """Refuses a program with an error.
 
     Args:
         program: The file with it; empty for none.

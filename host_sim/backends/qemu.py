@@ -19,7 +19,7 @@ MACHINE = "netduinoplus2"
 _READY_S = 10.0
 _END_S = 2.0
 _PAUSE_S = 0.05
-"""The robot's first reports follow each other without gaps as long as this."""
+"""Gap that marks the end of the robot's first reports, s."""
 
 
 class Qemu:

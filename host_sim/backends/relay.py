@@ -11,7 +11,7 @@ class Relay:
     """Passes memories on. Each robot hears those of the others, in order, before the next frame for itself."""
 
     def __init__(self, nodes: Iterable[int]) -> None:
-        """Begins with nothing to pass on.
+        """Starts with nothing to pass on.
 
         Args:
             nodes: The robots.
@@ -19,7 +19,7 @@ class Relay:
         self._waiting: dict[int, list[Frame]] = {node: [] for node in nodes}
 
     def hear(self, node: int, frame: Frame) -> None:
-        """Notes what a robot has sent, if it is for the others."""
+        """Notes a frame sent by a robot, if it is for the others."""
         if frame.id not in MEMORY_IDS:
             return
         for other, waiting in self._waiting.items():
@@ -27,18 +27,18 @@ class Relay:
                 waiting.append(frame)
 
     def take(self, node: int) -> list[Frame]:
-        """What a robot has not heard yet; once."""
+        """Returns, once, the frames that a robot has not received yet."""
         waiting, self._waiting[node] = self._waiting[node], []
         return waiting
 
 
 @dataclass(frozen=True)
 class RelayedLink:
-    """A link to a robot that hears others.
+    """A link to a robot that receives memories from others.
 
     Attributes:
         link: Carries the frames.
-        relay: What the robots hear of each other.
+        relay: Relays memories between the robots.
         node: The robot.
     """
 

@@ -1,1 +1,1 @@
-"""What every other package uses: errors, paths, files, C interfaces."""
+"""Basics for all other packages: errors, paths, files, C interfaces."""

@@ -27,7 +27,7 @@ def replacing(path: Path) -> Iterator[Path]:
     A link stays a link: the file that it names is written. An existing file keeps its mode and its owner.
 
     Yields:
-        Where to write the new content: an empty file in the same folder. An exception leaves the old file as it is.
+        The path for the new content: an empty file in the same folder. An exception leaves the old file as it is.
 
     Raises:
         OctetError: The file cannot be written, or is not a regular file, such as a device.
@@ -54,7 +54,7 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 def _finish(name: str, before: os.stat_result | None) -> None:
-    """Gives the new file the old one's mode and owner, or those of a new file, and waits until it is on the disk."""
+    """Gives the new file the mode and owner of the old one, or of a new file, and syncs it to the disk."""
     descriptor = os.open(name, os.O_RDWR)
     try:
         give_mode(descriptor, before)

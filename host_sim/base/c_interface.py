@@ -11,23 +11,23 @@ from typing import Any
 from host_sim.base.paths import BUILD, INSTALLED
 
 FOLDER = BUILD / "cffi"
-"""What was read, as modules of Python."""
+"""Folder of parsed declarations, cached as Python modules."""
 
 
 @cache
 def c_interface(declarations: str) -> Any:
-    """An interface to C code: all that an `FFI` object of cffi has, except that it takes no more declarations.
+    """Creates an interface to C code: a cffi `FFI` object, except that it takes no more declarations.
 
     >>> ffi = c_interface("struct point { int x, y; };")
     >>> ffi.new("struct point *", (3, 4)).y
     4
 
     Args:
-        declarations: What the C code declares, as `FFI.cdef` reads it.
+        declarations: Declarations of the C code, as for `FFI.cdef`.
     """
     name = "octet_" + hashlib.sha256(declarations.encode()).hexdigest()[:16]
     path = FOLDER / f"{name}.py"
-    with contextlib.suppress(Exception):  # nothing is there, or of a cffi that this one cannot read, or damaged
+    with contextlib.suppress(Exception):  # missing, damaged, or written by an incompatible cffi
         return _load(path)
     if not INSTALLED:
         with contextlib.suppress(Exception):  # the folder is read-only, or the disk is full
@@ -45,11 +45,11 @@ def _read(declarations: str) -> Any:
 
 
 def _write(path: Path, declarations: str) -> None:
-    """Writes the module. Processes may do so at once, for cffi renames it when it is complete."""
+    """Writes the module. Concurrent processes are safe, since cffi renames it when complete."""
     path.parent.mkdir(parents=True, exist_ok=True)
     ffi = _read(declarations)
     ffi.set_source(path.stem, None)
-    with contextlib.redirect_stdout(io.StringIO()):  # where cffi says that it writes
+    with contextlib.redirect_stdout(io.StringIO()):  # cffi reports its writing there
         ffi.emit_python_code(str(path))
 
 

@@ -4,10 +4,10 @@ import zlib
 from typing import BinaryIO
 
 COMPRESSED = ".gz"
-"""What the name of a compressed log ends with."""
+"""File name suffix of a compressed log."""
 
 _CHUNK_BYTES = 1 << 16
-_LEVEL = 1  # a quarter of a log's size; the default takes three times as long to make it a fifth
+_LEVEL = 1  # compresses a log to a quarter; the default level takes three times as long for a fifth
 _GZIP = 16 + zlib.MAX_WBITS
 
 

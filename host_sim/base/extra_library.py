@@ -14,23 +14,23 @@ def missing(name: str, stage: str) -> str:
     """A one-line message that says how to install a missing library.
 
     Args:
-        name: Its module.
+        name: Its module name.
         stage: The stage of tools/setup that installs it in a checkout.
     """
     needed = name.partition(".")[0]
     needed = {"PIL": "pillow"}.get(needed, needed)
-    # By its own name: a registry may have something else that is called octet.
+# Names the library itself: a registry may have another project called octet.
     how = f"python -m pip install {needed}" if INSTALLED else f"tools/setup {stage}"
     return f"this needs {needed}, which is not installed: run {how}"
 
 
 def library(name: str, stage: str, build: Path = BUILD) -> Any:
-    """A library, loaded.
+    """Loads a library.
 
     Args:
-        name: Its module.
+        name: Its module name.
         stage: The stage of tools/setup that installs it, into a folder of that name.
-        build: Where that folder is.
+        build: Parent of that folder.
 
     Raises:
         UsageError: It is not installed.

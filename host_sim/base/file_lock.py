@@ -13,9 +13,9 @@ def lock(descriptor: int, name: str, instead: str) -> None:
     """Locks an open file or folder until it is closed.
 
     Args:
-        descriptor: What is open.
-        name: What the lock protects, for the message.
-        instead: What to do if it is locked already, for the message.
+        descriptor: Descriptor of the open file or folder.
+        name: Name of the protected object, for the message.
+        instead: Advice if it is locked already, for the message.
 
     Raises:
         UsageError: It cannot be locked, or another run has locked it.

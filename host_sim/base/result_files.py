@@ -16,10 +16,10 @@ class Case(NamedTuple):
     """One check.
 
     Attributes:
-        name: What was checked.
+        name: Name of the check.
         result: `passed`, `failed` or `skipped`.
         text: Details, such as why it failed.
-        seconds: How long it took, s; 0 if unknown.
+        seconds: Duration, s; 0 if unknown.
     """
 
     name: str
@@ -29,10 +29,10 @@ class Case(NamedTuple):
 
 
 def write_results(suite: str, cases: Sequence[Case], json_path: Path | None, junit_path: Path | None) -> None:
-    """Writes the files that are asked for.
+    """Writes the requested files.
 
     Args:
-        suite: What the checks test.
+        suite: Name of the tested object.
         cases: The checks.
         json_path: A list of objects with the fields of `Case`; None for no such file.
         junit_path: A `testsuite`; None for no such file.

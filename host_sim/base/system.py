@@ -1,4 +1,4 @@
-"""What differs between operating systems. No other module asks which one it runs on."""
+"""Functions that differ between operating systems. No other module asks which one it runs on."""
 
 import contextlib
 import os
@@ -85,7 +85,7 @@ def give_mode(descriptor: int, before: os.stat_result | None) -> None:
 
 
 def _umask() -> int:
-    """The process's umask, which can only be read by setting it."""
+    """The process's umask, which can be read only by setting it."""
     mask = os.umask(0)
     os.umask(mask)
     return mask
@@ -97,7 +97,7 @@ def is_own(about: os.stat_result) -> bool:
 
 
 def files_max() -> int:
-    """How many files this process may have open."""
+    """Maximum number of open files of this process."""
     return resource.getrlimit(resource.RLIMIT_NOFILE)[0] if resource is not None else _FILES
 
 

@@ -20,12 +20,12 @@ _LIST_IN_LIST = 2
 
 @dataclass(frozen=True)
 class TomlFile:
-    """A file that was read.
+    """A TOML file that was read.
 
     Attributes:
-        path: Where it is.
-        text: What is in it.
-        content: The same, as TOML.
+        path: Path of the file.
+        text: Its text.
+        content: Its parsed content.
     """
 
     path: Path

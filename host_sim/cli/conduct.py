@@ -44,7 +44,7 @@ def conduct(options: RunOptions) -> Summary:
         UsageError: The options are invalid; nothing was changed.
         OctetError: The run could not continue; what was recorded up to there was written.
     """
-    world_of(options.world)  # a mistake in it, or in the next ones, is found before anything is begun
+    world_of(options.world)  # errors in it, or in the next ones, are found before anything is started
     body_kind(options.body)
     check_program(options.program)
     with _memories(options) as loaded, run_folder(options.out):
@@ -78,7 +78,7 @@ def conduct(options: RunOptions) -> Summary:
 
 def _tell_of_programs(options: RunOptions, simulation: Simulation) -> None:
     for client in simulation.clients if options.program and options.talks else ():
-        with suppress(OctetError):  # the robot has ended, and that has been told
+        with suppress(OctetError):  # the robot has ended, which was reported
             _, stopped, told = client.connection.status().partition("the program: ")
             print(f"program   {options.program}: {told if stopped else 'runs'}")
 
@@ -122,7 +122,7 @@ def _announce(options: RunOptions, loaded: Sequence[Memory | None]) -> None:
 
 
 def _write_what_there_is(outputs: Outputs, end: BaseException) -> None:
-    """Writes what an interrupted run has; errors here are suppressed in favour of the original one."""
+    """Writes the data of an interrupted run; errors here are suppressed in favour of the original one."""
     with suppress(OctetError):
         if isinstance(end, KeyboardInterrupt):
             stop_soon(outputs.simulation.clients)
@@ -162,7 +162,7 @@ def _write_refused(path: Path, clients: Sequence[RobotClient]) -> None:
     if lines:
         write_bytes(path, "".join(f"{line}\n" for line in [*lines, *left_out]).encode())
     else:
-        with suppress(OSError):  # in a folder that is gone or not writable, there are greater worries
+        with suppress(OSError):  # a missing or read-only folder is reported elsewhere
             path.unlink(missing_ok=True)
 
 
@@ -185,7 +185,7 @@ def _first_memories(options: RunOptions, loaded: Sequence[Memory | None]) -> lis
 def _save_memories(
     stack: ExitStack, simulation: Simulation, options: RunOptions, loaded: Sequence[Memory | None]
 ) -> None:
-    """Saves each memory as soon as it has changed, and once more when the run ends, however it does."""
+    """Saves each memory as soon as it has changed, and again at the end of the run, however it ends."""
     savers = [
         MemorySaver(path, memory, lambda line: print(f"octet: {line}", file=sys.stderr))
         for path, memory in zip(_memory_paths(options), loaded, strict=True)

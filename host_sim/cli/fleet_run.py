@@ -33,7 +33,7 @@ def conduct_fleet(options: RunOptions) -> Summary:
         OctetError: The run failed.
     """
     config, line = options, ProgressLine(shown=options.talks)
-    world_of(config.world)  # a mistake in it is found before anything is begun
+    world_of(config.world)  # an error in it is found before anything is started
     results: list[FleetResult] = []
     film = FleetFilm()
     run = run_fleet(config, _progress_shown(line, config, results), film)
@@ -57,7 +57,7 @@ def conduct_fleet(options: RunOptions) -> Summary:
 def _progress_shown(
     line: ProgressLine, config: RunOptions, results: Sequence[FleetResult]
 ) -> Callable[[int], object]:
-    """A function that shows how far a fleet has come, given the ticks of all its robots."""
+    """Returns a function that shows a fleet's progress, given the ticks of all its robots."""
     planned, began = config.robots * config.environments, time.monotonic()
 
     def show(ticks: int) -> None:

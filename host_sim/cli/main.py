@@ -36,7 +36,7 @@ _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
 class _EndedBySignal(KeyboardInterrupt):
-    """SIGTERM or SIGHUP: ends a command as Ctrl-C does."""
+    """Raised on SIGTERM or SIGHUP: ends a command as Ctrl-C does."""
 
     def __init__(self, number: int) -> None:
         super().__init__()
@@ -145,7 +145,7 @@ def _version() -> str:
 
 
 def _overview(parsers: Mapping[str, Parser]) -> str:
-    """The commands that are loaded, in their groups."""
+    """The list of the loaded commands, in their groups."""
     lines = []
     for title, names in _GROUPS.items():
         lines += [f"{title}:", *(f"  {name:12} {parsers[name].summary}" for name in names if name in parsers), ""]
@@ -170,7 +170,7 @@ def _raise_end(number: int, _frame: FrameType | None) -> NoReturn:
 
 
 def _modules_for(arguments: Sequence[str]) -> list[str]:
-    """The module of the command that is called, so that it does not wait for the others to load; else all modules."""
+    """The module of the named command, so that others need not be loaded; otherwise all modules."""
     top = Path(__file__).parents[1]
     files = sorted((file for room in _ROOMS for file in top.glob(f"{room}/*_command.py")), key=lambda file: file.stem)
     name = arguments[0].replace("-", "") if arguments else ""

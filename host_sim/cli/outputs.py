@@ -34,7 +34,7 @@ _SUMMARY_MAX = 10_000_000
 
 @dataclass
 class Outputs:
-    """What a run leaves behind.
+    """The output files of a run.
 
     Attributes:
         options: The run's options.
@@ -110,12 +110,12 @@ class Outputs:
                 from host_sim.report.picture import write_picture
 
                 write_picture(self.options.out / PICTURE, trajectory)
-            except ModuleNotFoundError as error:  # what draws is an extra of a wheel
+            except ModuleNotFoundError as error:  # drawing libraries are an extra of the wheel
                 if self.options.talks:
                     print(f"left out  {PICTURE}: {missing(error.name or '', 'run')}")
 
     def _laboratory(self, trajectory: Trajectory) -> dict[str, Any] | None:
-        """What the page needs to ask "What if?"; None where the firmware was not built for pages."""
+        """The data with which the page answers "What if?"; None if the firmware was not built for pages."""
         if not PAGE_WASM.exists():
             return None
         from host_sim.report.laboratory import laboratory
@@ -126,7 +126,7 @@ class Outputs:
 
 
 def tell(options: RunOptions, summary: Summary, files: Sequence[Path]) -> None:
-    """Prints the result of a run in the format asked for, and which files there are."""
+    """Prints the result of a run in the requested format, and the list of files."""
     if options.json:
         sys.stdout.write(summary.to_json())
     elif options.talks:
@@ -136,7 +136,7 @@ def tell(options: RunOptions, summary: Summary, files: Sequence[Path]) -> None:
 
 
 def _next(options: RunOptions, there: Sequence[Path]) -> str:
-    """Suggestions for what to do with a run that is not a fleet's."""
+    """Suggested next commands for a run other than a fleet's."""
     if options.log not in there:
         return ""
     log = "" if options.log == RunOptions.out / LOGS[0] else f" --log {options.log}"
@@ -145,7 +145,7 @@ def _next(options: RunOptions, there: Sequence[Path]) -> str:
 
 
 def _linked(path: Path) -> str:
-    """The name of a file, as a hyperlink if this is a terminal that may support them."""
+    """The name of a file, as a hyperlink if the terminal may support it."""
     if not sys.stdout.isatty() or os.environ.get("TERM", "dumb") in ("dumb", "linux"):
         return str(path)
     return f"\x1b]8;;{path.absolute().as_uri()}\x1b\\{path}\x1b]8;;\x1b\\"
@@ -160,7 +160,7 @@ def _seed_of(summary: Path) -> str:
 
 
 def _beside(out: Path) -> Path:
-    """The folder that keeps the earlier contents of a run's folder."""
+    """The folder for the earlier contents of a run's folder."""
     folder = Path(os.path.realpath(out))
     return folder.with_name(f"{folder.name}.1")
 

@@ -33,7 +33,7 @@ class Parser(argparse.ArgumentParser):
     summary = ""
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
-        """As in `argparse.ArgumentParser`, but with the nearest choice."""
+        """As in `argparse.ArgumentParser`, but suggests the nearest choice."""
         if action.choices is not None and value not in action.choices:
             raise argparse.ArgumentError(action, f"there is no {value!r}: {meant(value, action.choices)}")
 

@@ -14,7 +14,7 @@ class ProgressLine:
     """One line on stderr, rewritten now and then; nothing if stderr is not a terminal."""
 
     def __init__(self, total: int | None = None, *, shown: bool = True) -> None:
-        """Begins.
+        """Creates the line.
 
         Args:
             total: Number of steps, for a bar and an estimate of the time left; None if it is not known.
@@ -31,7 +31,7 @@ class ProgressLine:
         """Rewrites the line.
 
         Args:
-            text: What it says.
+            text: Text of the line.
             done: Number of steps done.
         """
         if self._progress is not None:

@@ -142,7 +142,7 @@ def run_options(arguments: Namespace, **others: Any) -> RunOptions:
 
 
 def _argument(it: Any, row: Option) -> dict[str, Any]:
-    """An option as `ArgumentParser.add_argument` takes it."""
+    """An option as arguments for `ArgumentParser.add_argument`."""
     if it.type is bool:
         return {"action": "store_true", "help": row.text}
     kind = it.type

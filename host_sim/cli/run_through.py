@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _PAUSE_STEP_S = 0.05
 _MEMORIES_MAX = 4
 _SIGNS = ".LR"
-"""What a cell knows: nothing, left or right."""
+"""The content of a cell: nothing, left or right."""
 
 
 def open_listener(stack: ExitStack, options: RunOptions) -> "Listener | None":
@@ -65,7 +65,7 @@ def _run_unwatched(outputs: Outputs) -> None:
 
 
 def _progress_shown(line: ProgressLine) -> Callable[[Simulation], object]:
-    """A function that shows how far a run has come."""
+    """Returns a function that shows a run's progress."""
     began = time.monotonic()
 
     def show(simulation: Simulation) -> None:

@@ -87,7 +87,7 @@ def _complete(words: list[str]) -> None:
     try:
         import readline
     except ImportError:
-        return  # on Windows the console has both of its own
+        return  # the Windows console provides both
 
     def completed(begun: str, number: int) -> str | None:
         return next(islice((word for word in words if word.startswith(begun.lower())), number, None), None)

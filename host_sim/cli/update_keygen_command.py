@@ -159,7 +159,7 @@ def _save(path: Path, images: "dict[int, SlotImage]") -> None:
 
 
 class _Task(NamedTuple):
-    """What to do to each node."""
+    """The operations on each node."""
 
     arguments: argparse.Namespace
     images: "Images"
@@ -197,7 +197,7 @@ def _update_all(
 
 
 def _update_one(link: "Share", node: int, task: _Task) -> None:
-    """Runs in a thread of its own, one for each node."""
+    """Updates one node; runs in a thread of its own."""
     from host_sim.update.keys import is_development
     from host_sim.update.updater import Updater, check_images
 

@@ -113,7 +113,7 @@ class PinsBoard(EmulatedBoard):
             super()._receive(frame)
 
     def _take_pair(self, sensed: Frame, drive: Frame) -> None:
-        """Takes a tick's frames; while the robot rests, only the first tick after a command is reported."""
+        """Takes a tick's frames; at rest with nobody waiting, only the first tick after a command is reported."""
         decoded = self._protocol.decode_drive(drive)
         if self._protocol.decode(sensed) is None or decoded is None:
             return

@@ -21,7 +21,7 @@ class Passing(NamedTuple):
 
     Attributes:
         frame: The frame.
-        delay_s: How much later it arrives, s.
+        delay_s: Additional delay, s.
         behind: Number of later frames that overtake it.
     """
 
@@ -34,7 +34,7 @@ class Fault(Protocol):
     """A fault of one frame."""
 
     def apply(self, passing: Passing, dice: Random) -> list[Passing]:
-        """What arrives in the place of a frame.
+        """Returns the frames that arrive in place of a frame.
 
         Args:
             passing: The frame.
@@ -144,17 +144,17 @@ class Babble:
 
 
 class Forger(Protocol):
-    """A forger, who knows the messages of a bus, listens, and sends frames in another's name."""
+    """A forger, which listens on a bus, and sends frames in another's name."""
 
     def hear(self, frame: Frame) -> None:
-        """Somebody sends a frame."""
+        """Notes a frame on the bus."""
 
     def forge(self, dice: Random) -> Frame:
         """A frame with a valid CRC."""
 
 
 Forgers = Callable[[str], Forger]
-"""Makes a forger of what is named; of anything, for an empty name."""
+"""Creates a forger of the named command or message; of any, for an empty name."""
 
 
 class Forge:
@@ -183,11 +183,11 @@ def make_fault(name: str, size: str, forgers: Forgers) -> Fault:
 
     Args:
         name: One of `FAULTS`.
-        size: How large, in the fault's own terms; empty for its default.
-        forgers: Who forges frames.
+        size: Size in the fault's own unit; empty for its default.
+        forgers: Creates forgers.
 
     Raises:
-        UsageError: There is no such fault, or not of that size.
+        UsageError: There is no such fault, or the size is invalid.
     """
     if name not in FAULTS:
         raise UsageError(f"there is no fault {name!r}: {meant(name, FAULTS)}")
@@ -211,7 +211,7 @@ FAULTS: dict[str, Callable[[str, Forgers], Fault]] = {
     "babble": lambda size, _: Babble(size),
     "forge": Forge,
 }
-"""Makes each fault from its size and those who forge."""
+"""Creates each fault from its size and the forgers."""
 
 
 def _number(text: str, least: int, most: int) -> int:

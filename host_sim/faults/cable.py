@@ -28,7 +28,7 @@ class Cable:
     """
 
     def __init__(self, noise: float = 0.0) -> None:
-        """Lays it.
+        """Creates the ptys.
 
         Args:
             noise: Chance of each byte to be changed.
@@ -44,11 +44,11 @@ class Cable:
         self._thread.start()
 
     def unplug(self) -> None:
-        """Takes the second end away: a program that has it open sees the end; what the first end says is lost."""
+        """Unplugs the second end: a program that has it open sees the end; data from the first end is lost."""
         self._order(_UNPLUG)
 
     def plug(self) -> None:
-        """Gives the second end back, as another tty."""
+        """Plugs the second end in again, as another tty."""
         self._order(_PLUG)
 
     def close(self) -> None:
@@ -111,11 +111,11 @@ class Adapter:
     Attributes:
         host: Name of the tty where the adapter is plugged in.
         robots: Names of the robots' ttys, by node; they speak slcan too.
-        orders: What the host told the adapter itself.
+        orders: Commands from the host to the adapter itself.
     """
 
     def __init__(self, *nodes: int, node_of: Callable[[int], int]) -> None:
-        """Plugs it in.
+        """Starts the adapter.
 
         Args:
             *nodes: The robots on its bus.
@@ -171,7 +171,7 @@ class Socket:
     """A name for a tty that stays the same while cables are plugged in and out."""
 
     def __init__(self, path: Path) -> None:
-        """A name that leads nowhere yet.
+        """Creates a name that leads nowhere yet.
 
         Args:
             path: The name.
@@ -179,11 +179,11 @@ class Socket:
         self.path = path
 
     def plug(self, tty_name: str) -> None:
-        """From now on the name leads to this tty."""
+        """Makes the name lead to this tty."""
         fresh = self.path.with_suffix(".new")
         fresh.symlink_to(tty_name)
         fresh.replace(self.path)
 
     def unplug(self) -> None:
-        """From now on the name leads nowhere."""
+        """Makes the name lead nowhere."""
         self.path.unlink()

@@ -1,4 +1,4 @@
-"""Events: what happens to a robot, its line or this host at a tick, and how that is written."""
+"""Events that affect a robot, its line or this host at a tick, and their notation."""
 
 import re
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ _EVENT = re.compile(r"(?P<name>[a-z]+(?:-[a-z]+)*)(?::(?P<size>\d{1,5}))?@(?P<ti
 
 @dataclass(frozen=True)
 class Event:
-    """Something that happens once, after a tick.
+    """An event that occurs once, after a tick.
 
     `NAME[:SIZE]@TICK`; most sizes are a time in ms:
 
@@ -20,9 +20,9 @@ class Event:
     'reset@150'
 
     Attributes:
-        name: What happens.
-        size: How much, in the event's own unit; 0 for an event without one.
-        tick: Number of ticks that are over by then.
+        name: Name of the event.
+        size: Size in the event's own unit; 0 for an event without one.
+        tick: Number of ticks completed by then.
     """
 
     name: str

@@ -12,15 +12,15 @@ from host_sim.transport.clock import Clock, WallClock
 from host_sim.transport.link import Link
 
 _BEHIND_S = 0.3
-"""A frame that waits to be overtaken arrives after this time, even if no other frame has come."""
+"""Time after which a frame waiting to be overtaken arrives, even without other frames, s."""
 
 _LATE_MAX = 1000
-"""Number of frames that are taken in after a timeout; they may be without end, and all be lost here."""
+"""Maximum number of frames processed after a timeout: they may be endless, and all be lost here."""
 
 
 @dataclass
 class _Held:
-    """A frame that has not arrived yet: it is due at a time, or when enough frames have overtaken it."""
+    """A delayed frame, due at a time or when enough frames have overtaken it."""
 
     frame: Frame
     due_s: float
@@ -29,7 +29,7 @@ class _Held:
 
 @dataclass
 class _Way:
-    """One direction of a link: the frames that are held up, and those that have arrived."""
+    """One direction of a link: the delayed frames, and those that have arrived."""
 
     held: list[_Held] = field(default_factory=list)
     arrived: deque[Frame] = field(default_factory=deque)
@@ -66,14 +66,14 @@ class FaultyLink:
 
     Attributes:
         schedule: The faults, and a record of them.
-        link: Where the robot is.
+        link: The link to the robot.
     """
 
     def __init__(self, link: Link, schedule: Schedule, clock: Clock | None = None) -> None:
         """Takes over a link: `close` closes it.
 
         Args:
-            link: Where the robot is.
+            link: The link to the robot.
             schedule: The faults.
             clock: The clock for delays; by default the wall clock.
         """
@@ -115,7 +115,7 @@ class FaultyLink:
             self._ways[direction].put(passing, now)
 
     def _deliver(self) -> None:
-        """Hands over every frame that has arrived by now: the robot's at once, ours when they are asked for."""
+        """Passes on all arrived frames: to the robot at once, to us when received."""
         now = self._clock.now()
         for way in self._ways.values():
             way.deliver(now)

@@ -1,4 +1,4 @@
-"""Rules: which frames get which fault, and how that is written."""
+"""Rules that assign faults to frames, and their notation."""
 
 import re
 from dataclasses import dataclass, replace
@@ -30,7 +30,7 @@ _CERTAIN = 100.0
 
 @dataclass(frozen=True)
 class Rule:
-    """One fault, and the frames that may have it.
+    """One fault, and the frames that it may affect.
 
     `NAME[:CHANCE%][:SIZE][@FIRST[-[LAST]]][/to|/from]`:
 
@@ -42,7 +42,7 @@ class Rule:
     Attributes:
         name: Name of the fault.
         chance: Chance for each frame, percent.
-        size: How large the fault is, in the fault's own terms; empty for its default.
+        size: Size in the fault's own unit; empty for its default.
         first: Number of the first frame, from 1; each direction has its own numbers.
         last: Number of the last frame.
         directions: The directions in which frames are affected.
@@ -60,7 +60,7 @@ class Rule:
         """Reads a rule.
 
         Raises:
-            UsageError: It is not written as one.
+            UsageError: The text is malformed.
         """
         match = _RULE.fullmatch(text)
         if match is None:
@@ -87,7 +87,7 @@ class Rule:
         return self.first == self.last
 
     def at(self, number: int, direction: Direction) -> "Rule":
-        """The rule for a single frame, without chance: what is recorded when this rule has struck."""
+        """The rule for a single frame, without chance, as recorded when this rule has struck."""
         return Rule(self.name, _CERTAIN, self.size, number, number, (direction,))
 
     def covers(self, number: int, direction: Direction) -> bool:

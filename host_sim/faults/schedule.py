@@ -9,11 +9,11 @@ from host_sim.faults.bus_faults import Fault, Forge, Forgers, Passing, make_faul
 from host_sim.faults.rule import DIRECTIONS, Direction, Rule
 
 RECORD_MAX = 100_000
-"""Number of faults that are recorded; later ones are only counted."""
+"""Maximum number of faults recorded; later ones are only counted."""
 
 
 class _Rolled:
-    """One rule with its fault, and a chance of its own for each direction."""
+    """One rule with its fault, and an independent random sequence for each direction."""
 
     def __init__(self, place: int, rule: Rule, fault: Fault, seed: int) -> None:
         self.place, self.rule, self.fault, self._seed = place, rule, fault, seed
@@ -22,7 +22,7 @@ class _Rolled:
             self._chances = {direction: Random(f"{seed} {rule} {direction}") for direction in DIRECTIONS}
 
     def strikes(self, number: int, direction: Direction) -> bool:
-        """Whether the fault happens to a frame. To be called once for each frame that the rule covers."""
+        """Whether the fault affects a frame. Must be called once for each frame that the rule covers."""
         if not self.rule.covers(number, direction):
             return False
         return self.rule.is_certain or self._chances[direction].random() * 100 < self.rule.chance
@@ -45,10 +45,10 @@ class Schedule:
         Args:
             rules: Applied in this order, those for a single frame first.
             seed: Seed for all that is random.
-            forgers: Who forges frames.
+            forgers: Creates forgers.
 
         Raises:
-            UsageError: There is no such fault, or not of that size.
+            UsageError: There is no such fault, or its size is invalid.
         """
         self._rules = [*rules]
         rolled = [
@@ -71,7 +71,7 @@ class Schedule:
         return [self._rules[place].at(number, DIRECTIONS[way]) for place, number, way in each]
 
     def passing(self, frame: Frame, direction: Direction) -> list[Passing]:
-        """What arrives of the next frame in a direction, in order."""
+        """Returns the frames that arrive for the next frame in a direction, in order."""
         self._numbers[direction] += 1
         number = self._numbers[direction]
         arriving = [Passing(frame)]
@@ -85,7 +85,7 @@ class Schedule:
         return arriving
 
     def _record(self, place: int, number: int, direction: Direction) -> None:
-        """Notes a fault: as numbers, for a run of a day has tens of thousands."""
+        """Records a fault as numbers, since a run of a day has tens of thousands."""
         if self.count < RECORD_MAX:
             self._struck.extend((place, number, DIRECTIONS.index(direction)))
         self.count += 1

@@ -14,14 +14,14 @@ _Result = TypeVar("_Result")
 def fewer(
     items: list[_Item], attempt: Callable[[list[_Item]], _Result | None]
 ) -> Iterator[tuple[list[_Item], _Result]]:
-    """Delta debugging: ever smaller parts of the items are left out, as long as one can be.
+    """Delta debugging: leaves out ever smaller parts of the items for as long as possible.
 
     Args:
-        items: What brings it about.
-        attempt: Tries some of them; None if they do not bring it about.
+        items: Items that cause the effect.
+        attempt: Tries some of them; None if they do not cause it.
 
     Yields:
-        Ever fewer items that do, and what `attempt` gave for them.
+        Ever fewer items that cause it, and the result of `attempt` for them.
     """
     size = max(len(items) // 2, 1)
     while size:
@@ -38,7 +38,7 @@ def fewer(
 
 
 def in_ranges(rules: Sequence[Rule]) -> Iterator[Rule]:
-    """Strikes of one kind at frame after frame as one rule."""
+    """Joins strikes of one kind at consecutive frames into one rule."""
     kinds = sorted(rules, key=lambda rule: (rule.name, rule.size, rule.directions, rule.first))
     numbered = enumerate(kinds)
     for _, run in groupby(
@@ -49,7 +49,7 @@ def in_ranges(rules: Sequence[Rule]) -> Iterator[Rule]:
 
 
 def narrower(rule: Rule, holds: Callable[[Rule], bool]) -> Rule:
-    """The rule for as few frames as still do, taken away at its end, then at its beginning."""
+    """Narrows a rule to as few frames as possible, removing them at its end, then at its beginning."""
     step = (rule.last - rule.first + 1) // 2
     while step:
         ends = [replace(rule, last=rule.last - step), replace(rule, first=rule.first + step)]

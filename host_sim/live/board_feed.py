@@ -12,13 +12,13 @@ from host_sim.live.seats import Seats
 
 @dataclass
 class Class:
-    """What boards show besides the run.
+    """The content of boards besides the run.
 
     Attributes:
         live: The run.
-        listener: Has the addresses that pupils open.
-        seats: Who has which robot; None if the robots are everyone's.
-        curves: How each robot learns.
+        listener: Provides the addresses that pupils open.
+        seats: The assignment of robots to pages; None if the robots are shared.
+        curves: Each robot's learning curve.
     """
 
     live: PacedRun

@@ -1,4 +1,4 @@
-"""Shows a live run in the browser, and prints where it can be watched."""
+"""Shows a live run in the browser, and prints its address."""
 
 import asyncio
 import sys
@@ -19,7 +19,7 @@ def watch_run(live: PacedRun, listener: Listener, out: TextIO) -> None:
     Args:
         live: The run, before its first environment.
         listener: The socket that the page is served on.
-        out: Where the page's address is printed.
+        out: Stream for the page's address.
 
     Raises:
         RobotError: A robot has ended or does not answer.
@@ -43,12 +43,12 @@ def _on_a_desktop() -> bool:
 
 
 def announce(listener: Listener, robots: int, out: TextIO, *, waits: bool) -> None:
-    """Prints where a run can be watched.
+    """Prints the address at which a run can be watched.
 
     Args:
         listener: The socket that it is served on.
         robots: Number of its robots.
-        out: Where to print.
+        out: Stream to print to.
         waits: Whether the run waits for the first page.
     """
     first, *others = listener.urls

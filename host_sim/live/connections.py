@@ -32,12 +32,12 @@ class Connections:
     """
 
     def __init__(self, server: web.Server, headers: Mapping[str, str], logger: logging.Logger) -> None:
-        """Prepares for a running event loop.
+        """Creates the factory within a running event loop.
 
         Args:
             server: Handles the requests.
             headers: Headers of the answers to requests that are not HTTP.
-            logger: Gets the errors.
+            logger: Receives the errors.
         """
         self.most = min(CONNECTIONS_MAX, files_max() // 2)
         self._server, self._headers, self._logger = server, headers, logger
@@ -133,7 +133,7 @@ class _Masks:
         return True
 
     def _end_head(self) -> None:
-        """Goes on to the payload, if the head is whole."""
+        """Continues with the payload if the header is complete."""
         if len(self._head) <= _LENGTH_AT:
             return
         length = self._head[_LENGTH_AT] & ~_MASKED
@@ -144,7 +144,7 @@ class _Masks:
 
 
 class _Lines(logging.Handler):
-    """Prints each record as one line without a traceback; after some lines it only counts."""
+    """Prints each record as one line without a traceback; only counts records after a number of lines."""
 
     def __init__(self, out: TextIO) -> None:
         super().__init__(logging.WARNING)

@@ -10,7 +10,7 @@ SAMPLES_MAX = 600
 """Maximum number of samples; beyond it, every other one goes."""
 
 NAMES = ("trials", "blocked", "cells", "meals")
-"""What a sample has of each robot; blocked is in ticks."""
+"""The values in a sample of each robot; blocked is in ticks."""
 
 _REASON = ROW.index("reason")
 _AVOIDING = (Reason.REMEMBERED, Reason.TRIAL, Reason.BOREDOM)
@@ -74,7 +74,7 @@ class Curves:
         return trials, self._blocked[robot], cells, self._meals(robot)
 
     def _meals(self, robot: int) -> int:
-        """Pieces of food in all environments since the start; the current one is counted when it is left."""
+        """Pieces of food eaten in all environments since the start, including the current one."""
         live = self.live
         done = sum(episode.robots[robot].food_eaten for episode in live.episodes[live.started_over :])
         current = live.simulation.episode.robots[robot].food_eaten if live.ended_at is None else 0

@@ -30,19 +30,19 @@ _USUAL = (Reason.WANDER, Reason.LOOK_AROUND)
 
 
 class Memo:
-    """Parts of messages as JSON, made once for all pages that are sent the same."""
+    """Parts of messages as JSON, created once for all pages that receive the same."""
 
     def __init__(self) -> None:
         self._now: tuple[int, int] = (-1, -1)
         self._parts: dict[object, str] = {}
 
     def part(self, now: tuple[int, int], key: object, make: Callable[[], object]) -> str:
-        """A part of the messages of now.
+        """A part of the current messages.
 
         Args:
-            now: What changes whenever any part does.
-            key: What the part depends on besides.
-            make: Makes it.
+            now: A version that changes whenever any part does.
+            key: Further key on which the part depends.
+            make: Creates the part.
         """
         if now != self._now:
             self._now = now
@@ -58,8 +58,8 @@ class PageFeed:
 
     Attributes:
         live: The run that the page watches.
-        memo: What it shares with other pages.
-        rights: What the page may do.
+        memo: Parts shared with other pages.
+        rights: The page's rights.
         notes: Messages to show on the page, about commands that could not be carried out.
     """
 
@@ -229,7 +229,7 @@ def play_state(live: PacedRun) -> dict[str, Any]:
 
 
 def _ended(live: PacedRun) -> dict[str, Any] | None:
-    """How the environment that has just ended went, and all since the run was started over; else None."""
+    """The result of the environment that has just ended, and of all since the run was started over; else None."""
     since = live.episodes[live.started_over :]
     if live.ended_at is None or not since:
         return None

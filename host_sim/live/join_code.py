@@ -41,7 +41,7 @@ class JoinCode:
     """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
-        """Draws a code; `clock` gives the time, s."""
+        """Draws a code; `clock` returns the time, s."""
         self.text = f"{secrets.choice(_WORDS)}-{secrets.randbelow(10_000):04}"
         self._clock = clock
         self._wrong: deque[tuple[float, str]] = deque()
@@ -50,8 +50,8 @@ class JoinCode:
         """Whether a code is right; upper case and a missing hyphen do not matter.
 
         Args:
-            given: What was typed.
-            address: Who typed it.
+            given: The code typed.
+            address: Network address of its sender.
 
         Raises:
             TooManyGuessesError: There were too many wrong ones; a right one would not be taken either.

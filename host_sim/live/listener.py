@@ -67,7 +67,7 @@ class Listener:
             raise
 
     def _name(self) -> None:
-        """Finds the addresses by which others reach the socket."""
+        """Determines the addresses by which others reach the socket."""
         numbers = numbers_of(self.socket)
         homes = [f"[{number}]:{self.port}" if ":" in number else f"{number}:{self.port}" for number in numbers]
         self.urls = [f"http://{home}/?token={self.token}" for home in homes]
@@ -133,7 +133,7 @@ def numbers_of(listening: socket.socket) -> list[str]:
 
 
 def _own(kind: type[_Address]) -> list[_Address]:
-    """The addresses of all networks that others can be in; that of this machine alone if there is none."""
+    """The addresses in all networks with other machines; that of this machine alone if there is none."""
     adapters = library("ifaddr", "classroom").get_adapters()
     texts = [ip.ip if isinstance(ip.ip, str) else ip.ip[0] for adapter in adapters for ip in adapter.ips]
     found = [ipaddress.ip_address(text) for text in texts]

@@ -1,4 +1,4 @@
-"""Observes a robot that runs by itself, without sending anything: what it senses, knows and does, and why."""
+"""Observes a robot that runs by itself, without sending anything: its senses, memory, actions and reasons."""
 
 import shutil
 import time
@@ -34,7 +34,7 @@ _KEYS = "Ctrl-C ends it. Nothing is sent to the robot.\nIts way is by its wheels
 
 @dataclass(frozen=True)
 class Line:
-    """Where the robot is heard.
+    """The line on which a robot is observed.
 
     Attributes:
         bus: `INTERFACE:CHANNEL`.
@@ -48,14 +48,14 @@ class Line:
 
 
 class Observer:
-    """Follows one robot: its ticks, and its way from where it was first seen, the origin.
+    """Follows one robot: its ticks, and its path from the origin, where it was first seen.
 
     Attributes:
-        params: Its dimensions, as the simulated robot has them.
+        params: Its dimensions, those of the simulated robot.
     """
 
     def __init__(self, node: int) -> None:
-        """Begins without the robot's memory, until it is reported."""
+        """Starts without the robot's memory, until it is reported."""
         self.params = SimParams()
         self._node = node
         limit = PARAMETERS["boredom_limit"].default
@@ -78,7 +78,7 @@ class Observer:
             yield trajectory.at(trajectory.ticks - 1)
 
     def view(self, state: State) -> View:
-        """The picture of it: the robot in the middle, and around it where it came from and where it ate."""
+        """The picture: the robot in the middle, with its path and its meals around it."""
         trajectory, middle = self._recorder.trajectory, (self.params.width_mm / 2, self.params.height_mm / 2)
 
         def placed(x: float, y: float) -> Point:
@@ -93,17 +93,17 @@ class Observer:
 
 
 def observe(line: Line, log: FrameLog, out: TextIO, goes_on: Callable[[], bool]) -> None:
-    """Follows a robot on a bus, and records what is said: on a terminal as a picture, else a line for each change.
+    """Follows a robot on a bus, and records its frames; shows a picture on a terminal, else a line per change.
 
     Args:
-        line: Where it is.
-        log: Takes the frames, timed from the first one.
-        out: Where the picture or the lines go.
-        goes_on: Asked again and again.
+        line: The line to observe.
+        log: Records the frames, timed from the first one.
+        out: Stream for the picture or the lines.
+        goes_on: Called repeatedly; ends the observation by returning False.
 
     Raises:
         UsageError: The bus cannot be opened.
-        OctetError: The bus is gone, or the robot was not heard.
+        OctetError: The bus was closed or failed, or the robot was not heard.
     """
     protocol, observer = Protocol(line.node), Observer(line.node)
     tell = _draw if out.isatty() else _write
@@ -114,7 +114,7 @@ def observe(line: Line, log: FrameLog, out: TextIO, goes_on: Callable[[], bool])
 
 
 def _draw(observer: Observer, states: Iterable[State], out: TextIO) -> bool:
-    """Draws now and then; returns whether there were any."""
+    """Draws states now and then; returns whether there were any."""
     drawn_s = None
     with full_screen(out) as draw:
         for state in states:

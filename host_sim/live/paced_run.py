@@ -170,7 +170,7 @@ class PacedRun:
         self._enter(self._number + 1)
 
     def _end_episode(self) -> None:
-        """Ends the environment unless it has ended."""
+        """Ends the environment unless it has already ended."""
         if self.ended_at is None:
             self.ended_at = self.simulation.tick
             self._resume_s = time.monotonic() + PAUSE_S
@@ -180,7 +180,7 @@ class PacedRun:
             self.ended(episode)
 
     def _pauses(self) -> bool:
-        """Whether the pause after an environment goes on; begins the next one after it."""
+        """Whether the pause after an environment continues; after it, begins the next environment."""
         if self.ended_at is None:
             return False
         if self.speed != FULL_SPEED and time.monotonic() < self._resume_s:
@@ -218,7 +218,7 @@ class PacedRun:
             self.done = self._is_last
 
     def _has_decided(self, drive: Drive) -> bool:
-        """Whether the robot has made the decision that it was to stop at."""
+        """Whether the robot has made the decision at which to pause."""
         before = self._decided
         if before is None or drive.action == before.action:
             return False
@@ -244,7 +244,7 @@ class PacedRun:
         self.change += 1
 
     def _execute_all(self) -> None:
-        """Carries out the commands that wait, for at most `_SLICE_S`: pages must not wait for many."""
+        """Carries out waiting commands for at most `_SLICE_S`, so that many of them do not delay the pages."""
         began = time.monotonic()
         while self._commands and time.monotonic() - began < _SLICE_S:
             command, reject = self._commands.popleft()
@@ -285,7 +285,7 @@ class PacedRun:
         self.layout += 1
 
     def _start_over(self, seed: int, keep: bool) -> None:
-        """Begins anew. The memory is erased before the start: the erasure is not an event of the new run."""
+        """Starts over. The memory is erased before the start, so that this is not an event of the new run."""
         simulation = self.simulation
         self._end_episode()
         self.started_over = len(self.episodes)

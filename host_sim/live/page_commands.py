@@ -102,7 +102,7 @@ class Question:
 
 RobotCommand = WriteCell | EraseMemory | Freeze | MoveRobot
 PageCommand = Play | OneDecision | Speed | NextEnvironment | NewSeed | RobotCommand | Edit
-"""What a run carries out."""
+"""The commands that a run carries out."""
 
 
 def page_command_from(text: str) -> PageCommand | NameTag | Question:

@@ -23,8 +23,8 @@ def lines_for(text: str, out: TextIO) -> list[str]:
     """The code in half blocks for a terminal; nothing where it would not fit or could not be read.
 
     Args:
-        text: What the code says.
-        out: Where the lines are to be written.
+        text: Content of the code.
+        out: The stream to which the lines will be written.
     """
     code = _code(text)
     width, height = code.symbol_size(border=BORDER)
@@ -40,7 +40,7 @@ def _code(text: str) -> Any:
 
 
 def _takes_blocks(out: TextIO) -> bool:
-    """Whether this is a terminal that can show half blocks in colours of ours."""
+    """Whether this is a terminal that can show half blocks in given colours."""
     if not out.isatty() or os.environ.get("TERM", "dumb") == "dumb":
         return False
     return (out.encoding or "").replace("-", "").lower() == "utf8"

@@ -13,7 +13,7 @@ _DISCARDED_MAX = 256
 
 
 def edit(simulation: Simulation, command: MoveRobot | Edit) -> None:
-    """Changes the arena, or where a robot is.
+    """Changes the arena, or moves a robot.
 
     Raises:
         EditError: The change is not possible, or there is no such robot.

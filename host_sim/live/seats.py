@@ -28,7 +28,7 @@ class Seat:
     Attributes:
         node: The robot's node number.
         name: The name tag that the page gave it.
-        key: What the page is recognised by when it comes again; empty while the robot is free.
+        key: Key that identifies the page when it is opened again; empty while the robot is free.
         pages: Number of pages with that key that are open.
         left: When the last of them was closed, as a count of such events.
     """
@@ -48,7 +48,7 @@ class Seats:
     """
 
     def __init__(self, nodes: Iterable[int]) -> None:
-        """All robots are free.
+        """Starts with all robots free.
 
         Args:
             nodes: The robots' node numbers.
@@ -60,7 +60,7 @@ class Seats:
         """The robot of a page that has opened: its own, or a free one, or that of the page which left first.
 
         Args:
-            key: What the page is recognised by; anything else than 32 hexadecimal digits gets no robot.
+            key: Key that identifies the page; anything but 32 hexadecimal digits gets no robot.
         """
         seat = self._seat_for(key) if _KEY.fullmatch(key) else None
         if seat is None:
@@ -99,10 +99,10 @@ def name_from(text: str) -> str:
 
 @dataclass(frozen=True)
 class Rights:
-    """What a page may do.
+    """The rights of a page.
 
     Attributes:
-        seats: Who has which robot; None for a page that may do everything.
+        seats: The assignment of robots to pages; None for a page that may do everything.
         seat: The page's own robot; None if it has none.
     """
 
@@ -115,8 +115,8 @@ class Rights:
         """The rights of a page while it is open.
 
         Args:
-            seats: Where each page has a robot of its own; None for a page that may do everything.
-            key: What the page is recognised by.
+            seats: The assignment if each page has a robot of its own; None for a page that may do everything.
+            key: Key that identifies the page.
         """
         seat = seats.take(key) if seats else None
         try:

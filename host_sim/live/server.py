@@ -100,7 +100,7 @@ class LiveServer:
                 handler.close()
 
     async def _sample(self) -> None:
-        """Samples the curves, whether a board is open or not: one that is opened late shows all of them."""
+        """Samples the curves, even without an open board, so that one opened later shows all of them."""
         while True:
             self._class.curves.sample()
             await asyncio.sleep(_SAMPLE_S)
@@ -121,7 +121,7 @@ class LiveServer:
         return _html("board.html")
 
     async def _join(self, request: web.Request) -> web.StreamResponse:
-        """Takes who has typed the code to the page."""
+        """Redirects a visitor with the correct code to the page."""
         if self._listener.code is None:
             raise web.HTTPNotFound
         try:
@@ -168,17 +168,17 @@ class LiveServer:
         return socket
 
     def _begin_unless_the_board_does(self) -> None:
-        """The first page begins the run; while a board is open, its button does."""
+        """Begins the run for the first page, unless a board is open, whose button begins it."""
         if self.pages and not self.boards:
             self._live.seen()
 
     def _pause_s(self) -> float:
-        """Time between two messages to a page: longer the more there is to send to all of them."""
+        """Time between two messages to a page, s; it grows with the amount of data for all pages."""
         fastest = RACING_FRAME_S if self._live.speed == FULL_SPEED else FRAME_S
         return max(fastest, self.pages * len(self._live.simulation.nodes) * STATE_S)
 
     async def _accepted(self, request: web.Request) -> web.WebSocketResponse:
-        """The connection of a page, which is not counted yet.
+        """Accepts the connection of a page, which is not counted yet.
 
         Raises:
             web.HTTPException: The page is not ours, or there are too many.
@@ -216,7 +216,7 @@ async def _say_goodbye(page: web.WebSocketResponse) -> None:
 
 
 def _told(what: str) -> str:
-    """A refusal in all languages: it comes before any page that knows its reader's."""
+    """A refusal in all languages, since no page has determined the reader's yet."""
     return "".join(f"{words.get('refused', {}).get(what, what)}\n" for words in languages().values())
 
 

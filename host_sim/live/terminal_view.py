@@ -78,7 +78,7 @@ async def _show(live: PacedRun, screen: "curses.window") -> None:
 
 
 def _press(live: PacedRun, key: int) -> None:
-    """Carries out the command of a key; those about a robot are about the first."""
+    """Carries out the command of a key; robot commands apply to the first robot."""
     state = states(live.simulation, live.recorder.histories)[0]
     node = state["node"]
     put = Edit("put", at=(state["x"], state["y"]), heading=state["heading"])
@@ -136,7 +136,7 @@ def _view(live: PacedRun) -> View:
 
 
 def _news(live: PacedRun, first_tick: int) -> str:
-    """How the run or the environment ended or, while it goes on, what last changed in it."""
+    """The result of the run or environment or, before its end, the last change in it."""
     since = live.episodes[live.started_over :]
     if live.done:
         return f"ALL DONE: {sum(episode.finished for episode in since)} of {len(since)} environments finished"

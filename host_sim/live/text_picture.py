@@ -36,7 +36,7 @@ class View:
         boredom_limit: Number of remembered turns in a row at which a robot is bored.
         pace: The speed, in words.
         keys: The keys and their meaning, two lines.
-        news: What has just changed or ended, in a sentence; empty if nothing did.
+        news: A sentence about the latest change or end; empty if there was none.
     """
 
     params: SimParams
@@ -176,5 +176,5 @@ def _draw_cell(state: State, cell: int) -> str:
 
 
 def _padded(lines: Sequence[str], count: int) -> list[str]:
-    """Exactly `count` lines: cut, or filled up with empty ones."""
+    """Cuts or pads the lines to exactly `count`."""
     return [*lines, *[""] * (count - len(lines))][:count]

@@ -31,7 +31,7 @@ def _path() -> Path:
 
 
 def _stored(path: Path, new: str) -> str:
-    """The token in a file; writes a new one if the file does not exist.
+    """Returns the token in a file; writes a new one if the file does not exist.
 
     Raises:
         OSError: The file cannot be used, or others may read or change it.

@@ -17,7 +17,7 @@ _REFUSALS_MAX = 100
 
 
 class Feed(Protocol):
-    """What a page is sent."""
+    """The messages to a page."""
 
     notes: deque[str]
 
@@ -31,11 +31,11 @@ class Visitor:
 
     Attributes:
         socket: Its connection.
-        feed: What it is sent.
-        rights: What it may do.
-        pause_s: Gives the minimum time between two messages to it.
+        feed: The messages to it.
+        rights: Its rights.
+        pause_s: Returns the minimum time between two messages to it, s.
         begins: Whether its Play command begins a waiting run.
-        ask: Takes what the page says to a robot; None for a board, which does not talk.
+        ask: Receives the page's questions to a robot; None for a board, which does not talk.
     """
 
     socket: web.WebSocketResponse

@@ -82,7 +82,7 @@ class Protocol:
     """
 
     def __init__(self, node: int = 1) -> None:
-        """Works out the node's identifiers.
+        """Computes the node's identifiers.
 
         Raises:
             ValueError: node is out of range.
@@ -133,7 +133,7 @@ class Protocol:
         """The frame that tells the robot its senses.
 
         Args:
-            senses: What is sensed.
+            senses: The senses.
             counter: Alive counter, 0..14; it goes on with the tick.
         """
         word = counter << _COUNTER_START
@@ -155,7 +155,7 @@ class Protocol:
         return self.encode("RANGES", {"counter": counter, "tick": tick, **distances})
 
     def decode(self, frame: Frame) -> DecodedFrame | None:
-        """What a frame says; None if it is not this node's, of a wrong length, or damaged."""
+        """Decodes a frame; None if it is of another node, of a wrong length, or damaged."""
         message = self._by_id.get(frame.id)
         if message is None or len(frame.data) != message.length:
             return None

@@ -9,10 +9,10 @@ from host_sim.protocol.generated import CELL_COUNT, MESSAGES, PARAMETERS, PROFIL
 
 
 class Forger:
-    """A forger, who has listened, and sends commands and senses in another's name as the robot expects them."""
+    """A forger, which listens, and sends commands and senses in another's name as the robot expects them."""
 
     def __init__(self, what: str, protocol: Protocol) -> None:
-        """Has heard nothing yet.
+        """Starts without frames heard.
 
         Args:
             what: Name of a command, in lower case, or of a message; empty for any message.
@@ -33,7 +33,7 @@ class Forger:
             raise UsageError(f"no command or message {what!r} to forge; there are {commands}, {', '.join(MESSAGES)}")
 
     def hear(self, frame: Frame) -> None:
-        """Somebody sends a frame."""
+        """Notes a frame on the bus."""
         if frame.id in self._followed and (decoded := self._protocol.decode(frame)) is not None:
             self._heard[decoded.name] = decoded
 
@@ -56,12 +56,12 @@ class Forger:
 
 
 def forgers(protocol: Protocol) -> Callable[[str], Forger]:
-    """Makes forgers of what is named, as `Forger` has it, for one node."""
+    """Returns a factory of forgers for one node, with names as for `Forger`."""
     return lambda what: Forger(what, protocol)
 
 
 def _content(dice: Random) -> dict[str, int]:
-    """What a robot with a turn for each pattern does not refuse, whatever the command is."""
+    """Signal values that a robot with a turn per pattern does not refuse, for any command."""
     parameter, half = dice.choice(tuple(PARAMETERS.values())), dice.randrange(2)
     return {
         "profile": dice.randrange(len(PROFILES)),

@@ -55,12 +55,12 @@ def frame_bits(frame: Frame) -> int:
 
 
 def _stuff_bits(bits: str) -> int:
-    """How many stuff bits there are: one after five equal bits; it counts as the first of the bits that follow."""
+    """Number of stuff bits: one after five equal bits, which counts as the first of the following run."""
     return sum(1 + (len(run) - _RUN) // (_RUN - 1) for run in _STUFFED.findall(bits))
 
 
 def frames_a_second(message: Message) -> float:
-    """How often a message is sent regularly. One with pages is sent once for each page in every cycle."""
+    """Regular rate of a message, frames per second. A message with pages is sent once per page and cycle."""
     if not message.cycle_ms:
         return 0.0
     pages = {page for signal in message.signals for page in signal.multiplexer}

@@ -7,10 +7,10 @@ _HALVES = 2
 
 
 class MemoryReport:
-    """Joins the two halves of a memory, in whichever order they come."""
+    """Joins the two halves of a memory, in either order."""
 
     def __init__(self) -> None:
-        """Has not seen any half yet."""
+        """Starts without any half."""
         self._halves: dict[int, DecodedFrame] = {}
 
     def join(self, decoded: DecodedFrame) -> tuple[int, ...] | None:

@@ -10,7 +10,7 @@ UNSAID = ("crc", "counter")
 
 
 class _Field(NamedTuple):
-    """A signal's place; `sign` is the bit that makes it negative, 0 for a signal that never is."""
+    """A signal's position; `sign` is its sign bit, 0 for an unsigned signal."""
 
     name: str
     start: int
@@ -27,7 +27,7 @@ class MessageLayout:
     """Packs and unpacks one message, all signals that are in a frame together."""
 
     def __init__(self, message: Message) -> None:
-        """Works out which signals are there with each value of the message's selector, if it has one."""
+        """Determines the signals present for each value of the message's selector, if it has one."""
         self._message = message
         self._common = tuple(_field(signal) for signal in message.signals if not signal.multiplexer)
         self._selector = next((_field(signal) for signal in message.signals if signal.selector), None)

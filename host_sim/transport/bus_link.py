@@ -29,7 +29,7 @@ class BusLink:
 
         Args:
             bus: The bus.
-            stats: Counts what happens to the line.
+            stats: Counts the line's outages and errors.
             is_socket: Whether the bus is a socket that carries a frame a datagram, as SocketCAN does.
         """
         self.explain: Callable[[], object] = lambda: None
@@ -69,7 +69,7 @@ class BusLink:
         return Frame(message.arbitration_id, bytes(message.data))
 
     def _heard(self, timeout_s: float) -> can.Message | None:
-        """The next message. python-can itself waits by the wall clock: for hours, if that is set back meanwhile."""
+        """The next message. python-can waits by the wall clock: for hours, if that is set back meanwhile."""
         if not self._is_socket:
             return self._bus.recv(timeout_s)
         give_up = time.monotonic() + timeout_s
@@ -100,6 +100,6 @@ class BusLink:
 
 
 def _has_no_room(error: Exception) -> bool:
-    """Whether a frame could not be sent because others wait, on a line that is there."""
+    """Whether a frame could not be sent because the queue of a working line is full."""
     code = getattr(error, "error_code", None) or getattr(error, "errno", None)
     return code == errno.ENOBUFS or (code is None and isinstance(error, can.CanOperationError))

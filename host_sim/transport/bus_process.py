@@ -33,13 +33,13 @@ class BusProcess:
     def __init__(
         self, command: str, bus: str, environment: Mapping[str, str], folder: Path | None = None, fd: int = -1
     ) -> None:
-        """Starts it.
+        """Starts the program.
 
         Args:
             command: Program and arguments, as in a shell, but without one.
             bus: `INTERFACE:CHANNEL`, for the program to open.
-            environment: What the program is told besides.
-            folder: Where it begins; by default here.
+            environment: Additional environment variables.
+            folder: Working directory; by default the current one.
             fd: The socket that it inherits, if the bus is one; else -1.
 
         Raises:

@@ -21,7 +21,7 @@ _HINTS = {
     errno.EAFNOSUPPORT: "; this kernel has no CAN: tools/with-vcan COMMAND has a bus, socketcan:vcan0",
     errno.ENODEV: "; `ip link` lists the interfaces that there are",
 }
-"""What to do, by the number of the error."""
+"""Advice by error number."""
 
 
 def open_bus_link(bus: str, ids: Sequence[int], stats: LineStats, bitrate: int = BIT_RATE) -> Link:
@@ -96,7 +96,7 @@ def receive(bus: can.BusABC, timeout_s: float) -> can.Message | None:
 
 
 def _forget_unfiltered(bus: can.BusABC) -> None:
-    """A socket hears everything between being bound and getting its filters; what came by then is of no use."""
+    """Discards frames received between binding a socket and setting its filters."""
     try:
         for _ in range(_STALE_MAX):
             if bus.recv(0.0) is None:
@@ -107,7 +107,7 @@ def _forget_unfiltered(bus: can.BusABC) -> None:
 
 
 def _silence_python_can() -> None:
-    """What python-can logs without being asked is in its exceptions as well, in one line."""
+    """Silences python-can's logging, since its exceptions carry the same text in one line."""
     logger = logging.getLogger("can")
     if not logger.handlers:
         logger.addHandler(logging.NullHandler())

@@ -13,8 +13,8 @@ class LineStats:
         outages: Number of times that the line was gone.
         unsent: Number of frames that could not be sent; a frame that matters is sent again.
         garbled: Number of lines of text that were not frames: noise.
-        copies: How many times a serial line sends each frame at once: more than once while it is noisy.
-        reason: Why the line was gone last.
+        copies: Number of copies of each frame that a serial line sends at once: more than one while it is noisy.
+        reason: Reason of the last outage.
     """
 
     outages: int = 0

@@ -21,7 +21,7 @@ class ReconnectingLink:
         Args:
             name: Name of the line, for messages.
             open_link: Opens it.
-            stats: Counts what happens to it.
+            stats: Counts its outages and errors.
             patience_s: Time to wait for it when it is gone, s of wall-clock time.
 
         Raises:
@@ -86,7 +86,7 @@ class ReconnectingLink:
         self._link = None
 
     def _wait(self) -> None:
-        """Waits until the line can be opened. One that is open may be back: whatever is sent next will tell."""
+        """Waits until the line can be opened. Whether an open line works again shows with the next send."""
         assert self._gone_since is not None
         time.sleep(_PAUSE_S)
         while self._link is None:

@@ -21,7 +21,7 @@ class SharedLine:
 
         Args:
             line: The line.
-            ids: The identifiers that each robot's link is to hear, by node.
+            ids: The identifiers for each robot's link, by node.
         """
         self._line = line
         self._waiting: dict[int, deque[Frame]] = {node: deque(maxlen=_WAITING_MAX) for node in ids}

@@ -56,7 +56,7 @@ class SlcanLink:
 
         Args:
             end: The stream.
-            stats: Counts what happens to the line.
+            stats: Counts the line's outages and errors.
             ids: The identifiers to listen for, none for all; frames with others are skipped.
         """
         self.explain: Callable[[], object] = lambda: None
@@ -101,7 +101,7 @@ class SlcanLink:
         self._end.close()
 
     def _next(self) -> Frame | None:
-        """The next frame of those that have come; None if there is none for us."""
+        """The next received frame; None if there is none for us."""
         while self._lines:
             line = self._lines.pop()
             if line in _ACKNOWLEDGED:

@@ -91,7 +91,7 @@ class SocketPairBus(can.BusABC):
         return (None if packed is None else self._message_from(packed)), False
 
     def _try_receive(self) -> bytes | None:
-        """The next datagram that is a frame, if it has come."""
+        """The next datagram that is a frame; None if none has arrived."""
         while True:
             try:
                 packed = self._socket.recv(_FRAME.size + 1, socket.MSG_DONTWAIT)
@@ -111,7 +111,7 @@ class SocketPairBus(can.BusABC):
         return None
 
     def _await(self, event: int, deadline: float) -> bool:
-        """Whether the event comes before the deadline, on the monotonic clock."""
+        """Waits for an event until a deadline on the monotonic clock; returns whether it occurred."""
         if deadline == math.inf:
             return self._poll(event, None)
         left_s = deadline - time.monotonic()

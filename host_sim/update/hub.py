@@ -16,10 +16,10 @@ class Share:
     """One node's share of the link, as a `Link`. Another thread may use it."""
 
     def __init__(self, outbox: "SimpleQueue[Frame]") -> None:
-        """Nothing has come yet.
+        """Starts without frames.
 
         Args:
-            outbox: Takes what is to be sent.
+            outbox: Receives the frames to send.
         """
         self.inbox: SimpleQueue[Frame] = SimpleQueue()
         self.ended = False
@@ -46,10 +46,10 @@ class Hub:
     """Passes frames between a link and updates, each in a thread; only the caller's thread uses the link."""
 
     def __init__(self, link: Link) -> None:
-        """Nobody has a share yet.
+        """Starts without shares.
 
         Args:
-            link: Open; the caller closes it.
+            link: An open link; the caller closes it.
         """
         self._link = link
         self._outbox: SimpleQueue[Frame] = SimpleQueue()
@@ -63,10 +63,10 @@ class Hub:
         """Runs the jobs concurrently.
 
         Returns:
-            What each of them raised.
+            The exception raised by each job; None if it succeeded.
 
         Raises:
-            LinkDownError: The link is gone.
+            LinkDownError: The link is down.
         """
         with ThreadPoolExecutor(len(jobs)) as pool:
             futures: dict[int, Future[None]] = {name: pool.submit(job) for name, job in jobs.items()}

@@ -21,15 +21,15 @@ _BLANK = b"\xff"
 
 @dataclass(frozen=True)
 class Layout:
-    """How a chip's flash is divided.
+    """The division of a chip's flash.
 
     Attributes:
-        number: That of `struct layout`.
-        chip: Such as `stm32f103`.
-        boot: Where the boot loader ends, bytes from the begin of the flash.
-        slots: Where each slot begins.
+        number: Number of the layout, as in `struct layout`.
+        chip: Name of the chip, such as `stm32f103`.
+        boot: End of the boot loader, bytes from the start of the flash.
+        slots: Start of each slot, likewise.
         slot_bytes: Size of a slot.
-        page: Size of what is erased at once.
+        page: Size of an erase unit.
         link: The link of its CAN controller.
     """
 
@@ -57,10 +57,10 @@ class SlotImage:
     """The content of one slot: header, program, signature.
 
     Attributes:
-        data: All of it.
+        data: All bytes of the slot.
         slot: 0 or 1.
         version: Its version number; later ones are higher.
-        board: What it is for.
+        board: Name of its board.
     """
 
     data: bytes
@@ -83,11 +83,11 @@ def sign(program: bytes, board: str, slot: int, version: int, key: Ed25519Privat
     """Puts a header in front of a program and a signature behind it.
 
     Args:
-        program: As it lies in the flash from its vectors on.
-        board: Such as `blue_pill`.
-        slot: The one that it was linked for, 0 or 1.
+        program: The program as in flash, from its vectors on.
+        board: Name of the board, such as `blue_pill`.
+        slot: The slot for which it was linked, 0 or 1.
         version: 0..2^32 - 1.
-        key: The signer's.
+        key: Key of the signer.
 
     Raises:
         UsageError: The board has no boot loader, or the program does not fit.

@@ -16,7 +16,7 @@ except ImportError as error:
     raise OctetError("udsoncan or can-isotp is not installed: run tools/setup images") from error
 
 REQUEST_ID, ANSWER_ID = 0x6E0, 0x060
-"""And the node: hal/boot/server.h has them."""
+"""Identifiers, to which the node number is added, as in hal/boot/server.h."""
 
 _SLICE_S = 0.002
 _OTHERS_S = 0.05
@@ -36,14 +36,14 @@ class IsoTpConnection(BaseConnection):
     """
 
     def __init__(self, link: Link, node: int) -> None:
-        """Over an open link, which the caller closes.
+        """Creates a connection over an open link, which the caller closes.
 
         Args:
             link: Carries frames to the node and back.
-            node: Its number.
+            node: Number of the node.
         """
         super().__init__(f"node {node}")
-        self.logger.setLevel(logging.CRITICAL)  # what fails is said by who asks
+        self.logger.setLevel(logging.CRITICAL)  # failures are reported by the caller
         logging.getLogger(isotp.TransportLayerLogic.LOGGER_NAME).setLevel(logging.CRITICAL)
         self._link = link
         self.now: Callable[[], float] = getattr(link, "now", time.monotonic)
@@ -102,7 +102,7 @@ class IsoTpConnection(BaseConnection):
         self._link.send(Frame(message.arbitration_id, bytes(message.data)))
 
     def _receive(self, timeout_s: float) -> "isotp.CanMessage | None":
-        frame = None if self._layer.available() else self._link.receive(timeout_s)  # what was asked for is there
+        frame = None if self._layer.available() else self._link.receive(timeout_s)  # the message is complete
         if frame is None or frame.id != self._answer_id:
             return None
         return isotp.CanMessage(arbitration_id=frame.id, data=frame.data)

@@ -38,12 +38,12 @@ _ERASE, _CHECK, _FLOOR = 0xFF00, 0xFF01, 0xF000
 _PURPOSE = b"octet challenge\0"
 _PROGRAMMING, _CRC_FROM = 2, 16
 _BLOCKS = (1024, 128, 32)
-"""Bytes of a block: shorter ones where frames are lost."""
+"""Block sizes, bytes: shorter blocks if frames are lost."""
 
 _TRIES, _FEW, _ROUNDS = 40, 3, 8
 _QUICK_S, _WAIT_S, _WAIT_S_MAX, _LONG_S, _START_S = 0.1, 0.3, 1.0, 5.0, 20.0
 _UNUSED = (0xBA, 0xBB, 0xBC, 0xBD, 0xBE, 0xBA, 0xBB, 0xBC, 0xBD, 0xBE)
-"""Services that no board has: the answers tell how many boards there are."""
+"""Services that no board supports: the number of refusals is the number of boards."""
 
 _NOT_NOW, _OUT_OF_RANGE, _LOCKED, _WRONG_KEY = 0x22, 0x31, 0x33, 0x35
 _TOO_MANY, _DELAYED, _NO_SESSION = 0x36, 0x37, 0x7F
@@ -53,12 +53,12 @@ class Updater:
     """Talks to one node."""
 
     def __init__(self, link: Link, node: int, key: Ed25519PrivateKey) -> None:
-        """Says nothing yet.
+        """Creates an updater; nothing is sent yet.
 
         Args:
             link: Carries frames to the node and back; the caller closes it.
-            node: Its number.
-            key: The one whose public half the board has.
+            node: Number of the node.
+            key: The key whose public half the board has.
         """
         self.node = node
         self._key = key
@@ -124,7 +124,7 @@ class Updater:
         return self._read(_BOARD).decode("ascii", "replace")
 
     def status(self) -> Status:
-        """What the boot loader says."""
+        """Requests the boot loader's status."""
         return Status.unpack(self._read(_STATUS_ID))
 
     def lower_floor(self, version: int) -> None:
@@ -143,12 +143,12 @@ class Updater:
         """Writes an image to the free slot and selects it. Call `enter` first.
 
         Args:
-            image: For that slot.
+            image: The image for that slot.
             progress: Called with the number of bytes written.
 
         Raises:
             UpdateError: The board refuses it.
-            TimeoutException: The bus loses too much.
+            TimeoutException: The bus loses too many frames.
         """
         for number in range(_ROUNDS):
             try:
@@ -171,7 +171,7 @@ class Updater:
         """Version of the running image, and whether it is on trial; waits until one runs.
 
         Raises:
-            UpdateError: None does.
+            UpdateError: No image runs.
         """
         deadline = self._connection.now() + _START_S
         while self._connection.now() < deadline:
@@ -184,7 +184,7 @@ class Updater:
         """The version that runs once its trial is over.
 
         Raises:
-            UpdateError: It is not that one, or still on trial.
+            UpdateError: It is another version, or still on trial.
         """
         runs, trial = self.running()
         deadline = self._connection.now() + _START_S
@@ -257,7 +257,7 @@ class Updater:
         return self._persist(ask, tries)
 
     def _persist(self, ask: Callable[[], _T], tries: int = _TRIES, wait_s: float = _WAIT_S) -> _T:
-        """Repeats a request without an answer, with longer pauses after a few times."""
+        """Repeats an unanswered request, with longer pauses after a few attempts."""
         for number in range(tries):
             self._client.config["p2_timeout"] = min(wait_s * 2 ** (number // _FEW), _WAIT_S_MAX)
             if number == tries - 1:

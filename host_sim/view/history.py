@@ -1,4 +1,4 @@
-"""What a robot has learned in a run: its trials and their results, its lessons, and the use of each cell."""
+"""A robot's learning history in a run: its trials and their results, its lessons, and the use of each cell."""
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
@@ -10,7 +10,7 @@ from host_sim.world.world_library import world_library
 
 
 class Cell(NamedTuple):
-    """What is known of a cell from a tick on: see `State.uses`, `learned` and `by_hand`."""
+    """State of a cell from a tick on: see `State.uses`, `learned` and `by_hand`."""
 
     tick: int
     cell: int
@@ -25,7 +25,7 @@ class Note(NamedTuple):
     Attributes:
         tick: Number of the tick.
         reason: Reason of the action that began.
-        cell: That of the pattern when it was decided.
+        cell: Cell of the pattern when the action was decided.
         trial: The last trial, after it.
     """
 
@@ -55,7 +55,7 @@ class LearningHistory:
     """
 
     def __init__(self, node: int = 1, memory: Sequence[int] = (0,) * CELL_COUNT) -> None:
-        """Begins with the eight bytes of a memory, whatever kind of memory the robot has."""
+        """Starts with the eight bytes of a memory of any kind."""
         self.node, self.forgotten, self.ticks = node, 0, 0
         self.lessons: list[Lesson] = []
         self._ffi, self._library = world_library()
@@ -88,7 +88,7 @@ class LearningHistory:
         return int(self._in_c.trials)
 
     def known(self) -> Learned:
-        """What the robot knows now."""
+        """The robot's current knowledge."""
         now = self._in_c
         return Learned(
             memory=list(now.sides),
@@ -155,13 +155,13 @@ class LearningHistory:
 
 
 def _note(it: Any) -> Note:
-    """A note, from a `struct history_note`."""
+    """Converts a `struct history_note`."""
     cell = Cell(int(it.tick), it.cell, it.uses, int(it.learned), it.by_hand)
     return Note(cell.tick, it.reason, cell, _trial(it.trial))
 
 
 def _trial(it: Any) -> Trial | None:
-    """A trial, from a `struct history_trial`."""
+    """Converts a `struct history_trial`."""
     if it.tick < 0:
         return None
     helped = None if it.helped < 0 else it.helped

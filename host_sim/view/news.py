@@ -1,4 +1,4 @@
-"""What changed in the world and the bodies during a run, in plain sentences."""
+"""Changes of the world and the bodies during a run, in plain sentences."""
 
 from itertools import groupby
 
@@ -13,7 +13,7 @@ _SHOWN = ("plant", "move_plant", "grow_plant", "remove_plant", "body")
 
 
 def news_of(record: WorldRecord) -> list[News]:
-    """All that changed, in order, and what could not; what a person moved by hand is not among it."""
+    """All changes in order, including impossible scheduled ones, but not things moved by hand."""
     told = [(tick, sentence) for (tick, sentence), _ in groupby(_sentences(record))]
     refused = [(refused.tick, f"{refused.what} could not happen: {refused.why}.") for refused in record.refused]
     return sorted([*told, *refused], key=lambda news: news[0])

@@ -1,4 +1,4 @@
-"""What a robot does and why, in its own words. The pages use the same sentences, those of robot.toml."""
+"""A robot's actions and reasons, in its own words. The pages use the same sentences, those of robot.toml."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -13,7 +13,7 @@ class Words:
     """The words of a language.
 
     Attributes:
-        sentences: By their names in robot.toml.
+        sentences: Sentences by their names in robot.toml.
         patterns: The patterns of the front sensors.
         sides: The sides of a turn.
         point: The decimal point.
@@ -65,7 +65,7 @@ def _name(state: State) -> str:
 
 
 def verdict(trial: Trial | None, words: Words = ENGLISH) -> str:
-    """How a trial went, in two sentences; empty if there was none, or if it still goes on."""
+    """The outcome of a trial in two sentences; empty without a trial, or before its end."""
     if trial is None or trial["helped"] is None:
         return ""
     helped = "helped_frozen" if trial["frozen"] else "helped"
@@ -73,7 +73,7 @@ def verdict(trial: Trial | None, words: Words = ENGLISH) -> str:
 
 
 def body_sentence(what: str) -> str:
-    """What has happened to a body, a fault of `host_sim.world.body_faults`, in one sentence."""
+    """A fault of a body, as in `host_sim.world.body_faults`, in one sentence."""
     name, *details = what.replace("/", " of ").split(":")
     return BODY_SENTENCES[name].format(*details)
 

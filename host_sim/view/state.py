@@ -62,7 +62,7 @@ def state(  # noqa: PLR0913, PLR0917 - everything that a display shows
         tick: Number of the tick.
         pose: Its position and heading, after its move.
         row: The numbers of `ROW`.
-        known: What the robot knows.
+        known: The robot's knowledge.
         eaten: For each piece of food, 1 if it was eaten, else 0.
     """
     x, y, heading = pose

@@ -18,7 +18,7 @@ class Food:
     """Pieces of food by id: 0, 1, ... as in the layout; a view of those in C."""
 
     def __init__(self, inside: NativeWorld) -> None:
-        """Shows the food of a world."""
+        """Creates a view of the food of a world."""
         self._inside, self._pieces = inside, inside.food
 
     @property
@@ -74,7 +74,7 @@ class Arena:
             before: For each robot that comes from another arena, its body there, whose odometer and faults are
                 kept; empty for robots that have not moved yet.
             physics: One of `PHYSICS`; both have the same results.
-            kind: What the bodies are like; None: ideal. Those that come from no other arena are ideal until `draw`.
+            kind: Properties of the bodies; None: ideal. Bodies not from another arena are ideal until `draw`.
         """
         self._starts, self.params = layout.starts, params
         self._kind = kind

@@ -27,12 +27,12 @@ class Body:
     """
 
     def __init__(self, inside: NativeWorld, index: int, before: "Body | None" = None) -> None:
-        """Shows a body of a world.
+        """Creates a view of a body of a world.
 
         Args:
             inside: The world.
             index: Its number there, from 0.
-            before: The robot's body in an earlier arena, whose odometers and faults go on.
+            before: The robot's body in an earlier arena, whose odometers and faults continue.
         """
         self.lifted, self._index = False, index
         self._inside, self._library, self._world = inside, inside.library, inside.world
@@ -125,7 +125,7 @@ class Body:
 
 @cache
 def _readers() -> tuple[Struct, Struct, Struct]:
-    """What reads a pose, the odometers, and the senses."""
+    """The formats of a pose, the odometers, and the senses in memory."""
     ffi, _ = world_library()
     body, senses = "struct body", "struct senses"
     return members(ffi, body, _POSE), members(ffi, body, _ODOMETER), members(ffi, senses, Senses._fields)

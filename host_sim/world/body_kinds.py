@@ -33,7 +33,7 @@ class BodyKind:
         return replace(params, sensor_reach_mm=reach_mm, front_extra_mm=0.0)
 
     def in_c(self) -> Any:
-        """The same as a `struct kit_kind *`."""
+        """This kind as a `struct kit_kind *`."""
         return world_library()[0].new("struct kit_kind *", [*zip(*self.traits.values(), strict=True)])
 
 
@@ -41,7 +41,7 @@ def draw_body(kind: BodyKind | None, seed: int, robot: int) -> Any:
     """A robot's own body, a `struct kit *`.
 
     Args:
-        kind: What it is like; None: ideal.
+        kind: Kind of the body; None: ideal.
         seed: Seed of the run.
         robot: Number of the robot, from 0.
     """
@@ -52,7 +52,7 @@ def draw_body(kind: BodyKind | None, seed: int, robot: int) -> Any:
 
 
 def body_kind(text: str) -> BodyKind | None:
-    """The kind of body with a name, or that a file describes; None for the ideal one.
+    """The kind of body of a name or a file; None for the ideal one.
 
     A file is TOML: a line such as `lag_ms = 40`, or with a tolerance `lag_ms = [40, 10]`, for each trait that is not
     ideal; `base = "kit"` takes the others from the kit. docs/bodies.md has all.

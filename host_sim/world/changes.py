@@ -12,7 +12,7 @@ from host_sim.world.body_faults import check_fault
 
 PLANT, GROW = "plant", "grow"
 CHANGE_NAMES = (PLANT, GROW, *BODY_FAULTS)
-"""What can happen."""
+"""The possible changes."""
 
 _WHEN = r"(?:(?P<from_start>\d{1,6}(?:\.\d{1,3})?)s|env(?P<number>\d{1,4})(?:\+(?P<after>\d{1,6}(?:\.\d{1,3})?)s)?)"
 _CHANGE = re.compile(rf"(?P<what>[^@\s]+)@{_WHEN}(?:/(?P<robot>\d{{1,2}}))?")
@@ -36,8 +36,8 @@ class Change:
     'plant@120s'
 
     Attributes:
-        what: What happens, with its details.
-        number: The environment that it happens in; None for a time that counts from the start of the run.
+        what: Name and details of the change.
+        number: Number of its environment; None for a time that counts from the start of the run.
         after_s: Robot time since the start of that environment, or of the run, s.
         robot: The robot that it happens to, counted from 1; None for all.
     """
@@ -68,7 +68,7 @@ class Change:
 
     @property
     def name(self) -> str:
-        """What happens, without its details."""
+        """Name of the change, without details."""
         return self.what.partition(":")[0]
 
     @property
@@ -83,7 +83,7 @@ class Change:
 
 
 def _problem(what: str) -> str | None:
-    """What is wrong with a change, and what was meant; None if nothing is."""
+    """The error in a change, with a suggestion; None if there is none."""
     name = what.partition(":")[0]
     if name not in CHANGE_NAMES:
         return meant(name, CHANGE_NAMES)
@@ -103,7 +103,7 @@ def read_changes(text: str) -> list[str]:
     A file is a word without an @, or after one: changes.txt, @changes.txt. In it, # begins a comment.
 
     Raises:
-        UsageError: The file cannot be read, or something in it is not a change; the message names the line.
+        UsageError: The file cannot be read, or has an invalid change; the message names the line.
     """
     if "@" in text.removeprefix("@"):
         return [str(Change.parse(text))]
