@@ -1,4 +1,4 @@
-/* Registers of the bxCAN, what they are after a reset, and its modes. */
+/* Registers of the bxCAN, their reset values, and its modes. */
 #include "host_sim/emulator/models/bxcan_parts.h"
 
 #include <string.h>

@@ -75,7 +75,7 @@ bool bxcan_write_filters(struct bxcan *can, uint32_t offset, uint32_t value)
     return true;
 }
 
-/* A full FIFO keeps what it has with RFLM; otherwise the newest frame takes the place of the one before. */
+/* With RFLM a full FIFO keeps its frames; otherwise the new frame overwrites the newest one. */
 void bxcan_store(struct can_node *node, const struct frame *frame)
 {
     struct bxcan *can = (struct bxcan *)node;

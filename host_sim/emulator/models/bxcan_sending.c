@@ -29,7 +29,7 @@ static struct frame frame_in(const struct bxcan_mailbox *box)
     return frame;
 }
 
-/* By time of request with TXFP, else by identifier and then by number. */
+/* Priority: with TXFP by time of request, otherwise by identifier and then by mailbox number. */
 static bool goes_before(const struct bxcan *can, unsigned a, unsigned b)
 {
     const struct bxcan_mailbox *boxes = can->mailboxes;
@@ -40,7 +40,7 @@ static bool goes_before(const struct bxcan *can, unsigned a, unsigned b)
     return id_a < id_b || (id_a == id_b && a < b);
 }
 
-/* The first or the last to send of the pending mailboxes that `mask` has; -1: none. */
+/* The pending mailbox in `mask` that is sent first, or last; -1 if there is none. */
 static int pick(const struct bxcan *can, unsigned mask, bool last)
 {
     int picked = -1;
@@ -84,10 +84,10 @@ uint32_t bxcan_read_tsr(const struct bxcan *can)
         free_box = can->mailboxes[n].pending ? free_box : n;
     }
     status |= (free_box < BXCAN_MAILBOXES ? free_box : (uint32_t)last) << 24 | (~pending & 7u) << 26;
-    return pending & (pending - 1) ? status | 1u << (29 + last) : status;   /* LOW means something among several */
+    return pending & (pending - 1) ? status | 1u << (29 + last) : status;   /* LOW is valid only if several are pending */
 }
 
-/* A request is given up at once, unless its frame is on the wire: that one is let go to its end. */
+/* Aborts a request at once, unless its frame is on the wire: that transmission is completed. */
 void bxcan_write_tsr(struct bxcan *can, uint32_t value)
 {
     for (unsigned n = 0; n < BXCAN_MAILBOXES; n++) {

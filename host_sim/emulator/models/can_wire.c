@@ -5,9 +5,9 @@
 #include "host_sim/emulator/models/can_node.h"
 
 enum {
-    STANDARD_BITS = 47,   /* of a frame without data, with the pause after it */
+    STANDARD_BITS = 47,   /* of a frame without data, with the intermission after it */
     EXTENDED_BITS = 67,
-    ERROR_BITS = 40       /* of a frame that is destroyed early, with error flags and the pause after them */
+    ERROR_BITS = 40       /* of a frame destroyed early, with error flags and intermission */
 };
 
 static bool push(struct frame_queue *queue, const struct frame *frame)
@@ -36,7 +36,7 @@ static uint64_t bits(const struct frame *frame)
     return frame->id & FRAME_REMOTE ? fixed : fixed + 8 * bytes;
 }
 
-/* The lowest wins. As the bits come: 11 of the identifier, whether it is extended, its rest, whether it is remote. */
+/* The arbitration field, in the order of its bits: base identifier, IDE, identifier extension, RTR. The lowest value wins. */
 static uint32_t priority(const struct frame *frame)
 {
     uint32_t remote = frame->id & FRAME_REMOTE ? 1 : 0;
@@ -63,7 +63,7 @@ bool wire_fetch(struct can_wire *wire, struct frame *out)
     return pop(&wire->heard, out);
 }
 
-/* Every controller that takes part but the sender. Returns how many. */
+/* Delivers the frame to each active controller but the sender. Returns to how many. */
 static unsigned deliver(struct can_wire *wire, bool destroyed)
 {
     unsigned listeners = 0;

@@ -28,7 +28,7 @@ static bool matches(uint32_t filter, uint32_t id)
     }
 }
 
-/* What becomes of frames that no filter matches: 0 and 1 are the FIFOs. */
+/* Where frames go that no filter matches: 0 and 1 are the FIFOs. */
 static int without_filter(const struct fdcan *can, bool extended)
 {
     uint32_t to = can->rxgfc >> (extended ? 2 : 4) & 3u;
@@ -110,7 +110,7 @@ bool fdcan_release(struct fdcan *can, unsigned n, uint32_t place)
     return true;
 }
 
-/* By identifier, and equal ones by number. */
+/* Priority: by identifier, then by buffer number. */
 static int next_to_send(struct fdcan *can)
 {
     int next = -1;
@@ -186,7 +186,7 @@ bool fdcan_ask_to_send(struct fdcan *can, uint32_t buffers)
     return true;
 }
 
-/* At once, unless a frame is on the wire: that one is let go to its end. */
+/* Aborts a request at once, unless its frame is on the wire: that transmission is completed. */
 void fdcan_ask_to_give_up(struct fdcan *can, uint32_t buffers)
 {
     uint32_t under_way = can->node.on_wire >= 0 ? 1u << can->node.on_wire : 0;

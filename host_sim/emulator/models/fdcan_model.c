@@ -1,4 +1,4 @@
-/* Registers of FDCAN, what they are after a reset, and its modes. */
+/* Registers of FDCAN, their reset values, and its modes. */
 #include "host_sim/emulator/models/fdcan_parts.h"
 
 #include <string.h>
@@ -17,7 +17,7 @@ enum {
 
 static const uint32_t ENDIANNESS = 0x87654321u;
 
-/* CCE makes the controller forget what waits to be sent and what has come. */
+/* Setting CCE discards the frames that wait to be sent and those received. */
 static void forget_all(struct fdcan *can)
 {
     can->pending = can->aborting = can->sent = can->given_up = 0;
@@ -62,7 +62,7 @@ static uint32_t read_ecr(const struct can_node *node)
     return tec | rec << 8 | (node->rec >= NODE_PASSIVE ? (uint32_t)RP : 0);
 }
 
-/* Reading it makes it forget the last error. */
+/* Reading PSR resets its last error code. */
 static uint32_t read_psr(struct can_node *node)
 {
     uint32_t status = DATA_NO_CHANGE | node->last_error;

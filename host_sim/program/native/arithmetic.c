@@ -6,7 +6,7 @@ int32_t machine_whole(double number)
 {
     if (number >= INT32_MAX)
         return INT32_MAX;
-    return number > INT32_MIN ? (int32_t)number : number <= INT32_MIN ? INT32_MIN : 0;   /* what is no number is 0 */
+    return number > INT32_MIN ? (int32_t)number : number <= INT32_MIN ? INT32_MIN : 0;   /* NaN becomes 0 */
 }
 
 static uint32_t bits(double number)

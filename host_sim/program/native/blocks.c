@@ -10,7 +10,7 @@ static struct block *open(struct compiler *compiler, const struct token *word, e
     struct block *block = &compiler->blocks[compiler->block_count];
 
     if (compiler->block_count == BLOCKS_MAX)
-        compiler_fail_at(compiler, word, EXPECTED_PLAIN);   /* and nothing is made of the block */
+        compiler_fail_at(compiler, word, EXPECTED_PLAIN);   /* the next block overwrites this one */
     else
         compiler->block_count++;
     *block = (struct block){.kind = kind, .word = *word, .otherwise = NO_PLACE, .ends = NO_PLACE};
@@ -54,7 +54,7 @@ void compile_unclosed(struct compiler *compiler)
         compiler_fail_at(compiler, &block->word, ends[block->kind]);
 }
 
-/* A condition, and the jump if it does not hold. */
+/* Compiles a condition, and the jump that is taken if it is false. */
 static uint16_t condition(struct compiler *compiler)
 {
     compile_expression(compiler);
@@ -80,7 +80,7 @@ static void compile_if(struct compiler *compiler, const struct token *word)
         compiler_fail(compiler, EXPECTED_LINE_END);
 }
 
-/* The end of what is done if a condition holds. */
+/* Ends the branch that runs if a condition is true. */
 static void turn_over(struct compiler *compiler, struct block *block)
 {
     block->ends = compiler_emit(compiler, OP_JUMP, block->ends, 0);
@@ -163,14 +163,14 @@ static void compile_for(struct compiler *compiler, const struct token *word)
 static void end_for(struct compiler *compiler, const struct block *block)
 {
     if (compiler->token.kind == TOKEN_WORD && !compiler_ends_statement(compiler))
-        compiler_advance(compiler);   /* which for it belongs to may be said */
+        compiler_advance(compiler);   /* NEXT may name its variable */
     (void)compiler_emit(compiler, (enum op)block->load.op, block->load.operand, 0);
     (void)compiler_emit(compiler, OP_LOAD, block->step, 0);
     (void)compiler_emit(compiler, OP_BINARY, DO_ADD, 0);
     (void)compiler_emit(compiler, (enum op)block->store.op, block->store.operand, 0);
 }
 
-/* The word that ends a block. */
+/* Compiles the word that ends a block. */
 static void compile_end(struct compiler *compiler, const struct token *word, enum block_kind kind,
                         enum program_expected otherwise)
 {

@@ -5,7 +5,7 @@
 bool programmed_brain_start(struct brain *brain, uint8_t profile, uint32_t seed);
 struct action programmed_brain_next(struct brain *brain, const struct config *config, const struct senses *senses);
 
-/* The memory of a program is the article's. */
+/* A program uses the memory layout of the article. */
 bool programmed_brain_start(struct brain *brain, uint8_t profile, uint32_t seed)
 {
     if (profile != PROFILE_ARTICLE || !brain_start(brain, profile, seed))

@@ -43,7 +43,7 @@ void machine_take_memory(struct machine *machine)
         program->cells[program->memory + p] = machine->brain->memory.cell[p];
 }
 
-/* The cell of an array that the index on the stack says; negative if there is none. */
+/* The cell of an array that the index on the stack selects; negative if there is no such cell. */
 static int cell_of(struct machine *machine, uint16_t name)
 {
     const struct program_name *array = &machine->program->names[name];
@@ -106,7 +106,7 @@ static void begin_line(struct program *program, uint16_t line)
     step(program, NO_CELL, 0);
 }
 
-/* Values and variables. False: it is another instruction. */
+/* Executes instructions of values and variables. Returns false for any other instruction. */
 bool machine_moves(struct machine *machine, const struct instruction *it)
 {
     struct program *program = machine->program;

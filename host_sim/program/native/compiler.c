@@ -30,7 +30,7 @@ static void quote(struct program_mistake *mistake, const char *text, size_t len)
     size_t most = len < PROGRAM_WORD_MAX - 1 ? len : PROGRAM_WORD_MAX - 1;
 
     while (most > 0 && most < len && ((unsigned char)text[most] & 0xC0u) == 0x80u)
-        most--;   /* not within a letter of several bytes */
+        most--;   /* do not cut a UTF-8 character */
     memcpy(mistake->word, text, most);
     mistake->word[most] = '\0';
 }

@@ -1,4 +1,4 @@
-/* What a program may ask of the robot. Its pixels are 5 mm each, as in the article. */
+/* The commands of a program to its robot. A pixel is 5 mm, as in the article. */
 #include "host_sim/program/native/machine.h"
 
 #include "firmware/motion/wheels.h"
@@ -7,18 +7,18 @@
 
 enum {
     PIXEL_MM = 5,
-    STEP_MAX_MM = 150,      /* in one action: odometers wrap */
-    WAY_MAX = 800,          /* of a command, pixels */
+    STEP_MAX_MM = 150,      /* per action: odometers wrap */
+    WAY_MAX = 800,          /* per command, pixels */
     DEGREES_MAX = 720,
     DELAY_MAX_MS = 60000,
-    RESTS_MAX = 250,        /* ticks of one action */
+    RESTS_MAX = 250,        /* per action, ticks */
     CHOICES_MAX = 1000000,
     ROUND = 360
 };
 
 static const double RAD_PER_DEG = 3.14159265358979323846 / 180;
 
-/* As the firmware draws; of more than it can draw from, a remainder of 32 bits. */
+/* A random number, drawn as the firmware draws; for more choices than that allows, 32 bits modulo their number. */
 static double draw(struct machine *machine, double choices)
 {
     if (!(choices >= 1 && choices <= CHOICES_MAX)) {
@@ -84,7 +84,7 @@ void machine_function(struct machine *machine, enum function function, unsigned 
     machine_push(machine, value, -1);
 }
 
-/* Rounded to a whole number; one that is out of range is a mistake, and 0. */
+/* Rounds to a whole number. One out of range is an error, and becomes 0. */
 static int32_t limited(struct machine *machine, double number, double most, enum program_expected expected)
 {
     if (number >= -most && number <= most)
@@ -177,7 +177,7 @@ static void delay(struct machine *machine, double argument)
         rest(machine);
 }
 
-/* The heading is 0..359, and up if it is not said. */
+/* The heading is 0..359 degrees; 0, which is up, by default. */
 static void locate(struct machine *machine, unsigned count)
 {
     struct program *program = machine->program;
@@ -220,7 +220,7 @@ bool machine_continue(struct machine *machine)
     struct program *program = machine->program;
 
     if (program->way_left_mm > 0 && pattern_of(machine->senses->feel) != 0)
-        program->way_left_mm = 0;   /* it is not driven on into what is ahead */
+        program->way_left_mm = 0;   /* do not drive into an obstacle */
     if (program->state != PROGRAM_RUNS || (program->way_left_mm == 0 && program->rest_left == 0))
         return false;
     if (program->way_left_mm != 0)

@@ -1,6 +1,6 @@
 #include "host_sim/program/native/compiler.h"
 
-/* A name that is defined here: a label or a sub. */
+/* Defines a label or a sub. */
 static struct program_name *define(struct compiler *compiler, const struct token *word, enum name_kind kind)
 {
     struct program_name *name = &compiler->program->names[compiler_name(compiler, word, kind)];
@@ -67,7 +67,7 @@ void compile_sub(struct compiler *compiler)
     sub->parameters = (uint8_t)compiler->parameter_count;
 }
 
-/* gosub and call: the name of where to, and what goes along. */
+/* Compiles GOSUB and CALL: the destination, and the arguments. */
 void compile_call(struct compiler *compiler, enum name_kind kind)
 {
     struct token word = compiler->token;

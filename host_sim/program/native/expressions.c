@@ -1,6 +1,6 @@
 #include "host_sim/program/native/compiler.h"
 
-/* Operators, the weakest first. */
+/* Operators, in ascending order of precedence. */
 static const struct {
     const char *sign;
     enum operation operation;
@@ -12,7 +12,7 @@ static const struct {
     {"-", DO_SUBTRACT, 8}, {"*", DO_MULTIPLY, 9}, {"/", DO_DIVIDE, 9}, {"%", DO_MODULO, 9}, {"mod", DO_MODULO, 9},
 };
 
-enum { ANY = 1, NOT = 3, SIGNED = 10 };   /* strengths; NOT: of what not is said of */
+enum { ANY = 1, NOT = 3, SIGNED = 10 };   /* precedences; NOT: of the operand of NOT */
 
 static void expression(struct compiler *compiler, unsigned strength);
 
@@ -179,7 +179,7 @@ static void signed_value(struct compiler *compiler)
     }
 }
 
-/* Operators of this strength and stronger ones. */
+/* Compiles an expression of operators of at least this precedence. */
 static void expression(struct compiler *compiler, unsigned strength)
 {
     if (compiler->depth == DEPTH_MAX) {

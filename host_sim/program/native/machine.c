@@ -20,7 +20,7 @@ static void loop_on(struct machine *machine)
     machine_push(machine, by >= 0 ? at <= limit : at >= limit, NO_CELL);
 }
 
-/* Its arguments are the parameters; those that are not by reference come from nowhere. */
+/* Calls a sub, whose arguments become its parameters, or a label. Only a parameter by reference keeps its variable's cell. */
 static void call(struct machine *machine, const struct instruction *it)
 {
     struct program *program = machine->program;
@@ -55,7 +55,7 @@ static void go_back(struct machine *machine)
     program->stack_count = from->stack;
 }
 
-/* Where to go on. False: it is another instruction. */
+/* Executes jumps, calls and returns. Returns false for any other instruction. */
 static bool leads(struct machine *machine, const struct instruction *it)
 {
     struct program *program = machine->program;

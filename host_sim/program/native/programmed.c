@@ -13,7 +13,7 @@ struct octet *programmed_open(uint8_t node, const uint8_t memory[CELL_COUNT], co
     programmed->octet.respond = programmed_robot_respond;
     programmed->octet.size = sizeof *programmed;
     (void)program_compile(&programmed->program, text, len);
-    return &programmed->octet;   /* its first member: free takes it */
+    return &programmed->octet;   /* the first member: free() accepts its address */
 }
 
 const struct program *programmed_state(const struct octet *octet)
@@ -21,7 +21,7 @@ const struct program *programmed_state(const struct octet *octet)
     return &((const struct programmed *)octet)->program;
 }
 
-/* The caller asks programmed_state when it likes. */
+/* Nothing to do: the caller reads programmed_state. */
 void programmed_decided(const struct program *decided)
 {
     (void)decided;

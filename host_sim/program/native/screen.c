@@ -17,7 +17,7 @@ static size_t put_whole(char *to, uint32_t number)
     return count;
 }
 
-/* With up to three decimals, without zeros at the end. */
+/* Up to three decimals, without trailing zeros. */
 static size_t put_parts(char *to, uint32_t parts)
 {
     size_t count = 0;
@@ -61,7 +61,7 @@ void machine_show_text(struct machine *machine, const char *text, size_t len)
     shown->text[used + len] = '\0';
 }
 
-/* The place where something is shown already, or a free one; else the last one. */
+/* Selects the line already shown at this position, or a free one, or else the last one. */
 void machine_show_at(struct machine *machine, double x, double y)
 {
     struct program *program = machine->program;

@@ -38,7 +38,7 @@ void machine_push(struct machine *machine, double number, int cell)
         program->stack[program->stack_count++] = (struct program_value){number, (int16_t)cell};
 }
 
-/* The compiler has pushed what is popped, unless the stack was full. */
+/* Compiled code never pops more than it has pushed, unless the stack was full. */
 double machine_pop(struct machine *machine)
 {
     struct program *program = machine->program;

@@ -16,7 +16,7 @@ static void compile_shown(struct compiler *compiler)
     }
 }
 
-/* The place on the screen first, then what is shown there. */
+/* Compiles the position on the screen, then what to show there. */
 static void compile_show(struct compiler *compiler)
 {
     compile_expression(compiler);
@@ -43,7 +43,7 @@ static void give(struct compiler *compiler, struct instruction store)
     (void)compiler_emit(compiler, (enum op)store.op, store.operand, 0);
 }
 
-/* x++ and x--, of a variable or a parameter. */
+/* Compiles x++ and x-- for a variable or a parameter. */
 static void compile_count(struct compiler *compiler, struct instruction store, enum operation operation)
 {
     enum op load = store.op == OP_STORE ? OP_LOAD : OP_LOAD_PARAMETER;
@@ -93,7 +93,7 @@ static void compile_keyword(struct compiler *compiler, const struct token *word,
         compiler_fail_at(compiler, word, EXPECTED_STATEMENT);
 }
 
-/* What only divides or closes a block is no step of its own; nor is a sub. */
+/* Whether it counts as a step: what only divides or closes a block does not, nor does SUB. */
 static bool is_step(int keyword)
 {
     return keyword < 0 || keyword == KEY_IF || keyword == KEY_WHILE || keyword == KEY_FOR

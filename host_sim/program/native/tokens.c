@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* What a magazine prints for a quote, a minus and a blank. */
+/* Typographic forms of quote, minus and space in printed listings. */
 static const struct {
     const char *printed;
     char meant;
@@ -13,7 +13,7 @@ static const struct {
 
 enum { ASCII_MAX = 0x7F };   /* letters of other alphabets have bytes above it */
 
-static const double FINEST = 1e9;   /* parts of one: further digits say nothing */
+static const double FINEST = 1e9;   /* further decimals have no effect */
 
 static const char *const PAIRS[] = {"==", "<>", "!=", "<=", ">=", "<<", ">>", "++", "--"};
 
@@ -107,7 +107,7 @@ static size_t read_word(const char *at)
     return len;
 }
 
-/* The kind of what begins with this character. */
+/* The kind of token that begins with this character. */
 static enum token_kind kind_of(char c)
 {
     switch (c) {

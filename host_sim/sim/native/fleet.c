@@ -81,7 +81,7 @@ static void note_contact(struct fleet_robot *robot, enum reason reason)
         robot->blocked_longest = robot->blocked_now;
 }
 
-/* What the core makes of its senses, and what that does in the world. */
+/* Has the core decide by its senses, and carries out its decision in the world. */
 static void act(struct fleet_robot *robot)
 {
     struct output out;

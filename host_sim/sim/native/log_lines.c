@@ -5,7 +5,7 @@ static const char STAMP[LOG_STAMP] = {
     ' ', 'o', 'c', 't', 'e', 't', ' ',
 };
 
-enum { SECONDS_END = 11, MICROS_END = 18 };   /* in a stamp */
+enum { SECONDS_END = 11, MICROS_END = 18 };   /* within a time stamp */
 
 static void put_digits(char *end, uint64_t number, unsigned count)
 {

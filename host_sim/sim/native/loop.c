@@ -15,7 +15,7 @@ static void sense(const struct loop *loop, struct turn turns[])
 #define SENSED(member, signal) (int16_t)turn->senses.member,
 #define DRIVEN(member, signal) (int16_t)turn->drive.member,
 
-/* What a robot senses and does: the first numbers of a row. */
+/* Writes senses and drive, the first numbers of a row. */
 static void fill_row(const struct turn *turn, int16_t row[])
 {
     const int16_t numbers[ROW_PATTERN] = {ROBOT_SENSED(SENSED) ROBOT_DRIVEN(DRIVEN)};

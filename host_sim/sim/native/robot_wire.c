@@ -34,7 +34,7 @@ bool robot_wire_drive(const struct frame *frame, uint8_t tick, struct drive *out
         && octet_drive_reason_is_in_range(message.reason);
 }
 
-enum { KIND = 1, CONTENT = 2 };   /* bytes: the counter and, in its upper half, which page this is; all that is told */
+enum { KIND = 1, CONTENT = 2 };   /* bytes: counter (low half) and page (high half); first byte of the content */
 
 static bool same_kind(const struct frame *a, const struct frame *b)
 {

@@ -15,7 +15,7 @@ static bool is_answer(const struct loop_robot *robot, const struct frame *frame,
         || (robot->halted && drive->tick == tick && drive->reason == REASON_STOP);
 }
 
-/* Takes one frame of a robot. A drive that answers other senses is refused. */
+/* Takes one frame from a robot. Refuses a drive that answers other senses. */
 static void take_frame(struct loop *loop, struct loop_robot *robot, const struct frame *frame, struct turn *turn)
 {
     bool is_drive = frame->id == robot->drive_id;
@@ -42,7 +42,7 @@ static bool has_driven(const struct loop_robot *robot, const struct frame *answe
     return false;
 }
 
-/* Takes all that a robot has said if its drive is there, or else nothing. */
+/* Takes all frames of a robot if its drive is among them, otherwise none. */
 static bool take_answers(struct loop *loop, struct loop_robot *robot, struct turn *turn)
 {
     const struct frame *answers = loop->answers(robot->octet);
@@ -59,7 +59,7 @@ static bool take_answers(struct loop *loop, struct loop_robot *robot, struct tur
     return true;
 }
 
-/* A robot that has stopped by itself is asked how it is, then sent its senses again. True if its drive is there now. */
+/* Asks a robot that has stopped by itself for a report, then sends its senses again. Returns whether its drive has come. */
 static bool asks_on(struct loop *loop, size_t index, struct turn *turn)
 {
     struct loop_robot *robot = &loop->robots[index];
@@ -71,7 +71,7 @@ static bool asks_on(struct loop *loop, size_t index, struct turn *turn)
     return take_answers(loop, robot, turn);
 }
 
-/* As on a bus, the others hear what a robot says of its memory. They answer nothing, so that their own answers stay. */
+/* As on a bus, the other robots hear a robot's memory reports. They do not answer, so that their own answers stay. */
 static void pass_on(struct loop *loop, size_t from, const struct frame *frame)
 {
     for (size_t i = 0; i < loop->robot_count; i++)
@@ -90,7 +90,7 @@ static void pass_memories_on(struct loop *loop)
     }
 }
 
-/* All robots hear their senses, and of each other, before the first one's answer is read. */
+/* Sends all robots their senses, and each other's reports, before the first answer is read. */
 bool turns_in_process(struct loop *loop, struct turn turns[])
 {
     for (loop->sent = 0; loop->sent < loop->robot_count; loop->sent++)

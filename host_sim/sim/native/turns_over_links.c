@@ -5,7 +5,7 @@
 #include "host_sim/sim/native/robot_wire.h"
 #include "host_sim/sim/native/turn.h"
 
-/* The next robot that has not been sent its senses; true if its bus has them. */
+/* Sends the next robot its senses. Returns whether its bus accepted them. */
 static bool send_senses(struct loop *loop, const struct senses *senses)
 {
     struct loop_robot *robot = &loop->robots[loop->sent];
@@ -18,7 +18,7 @@ static bool send_senses(struct loop *loop, const struct senses *senses)
     return true;
 }
 
-/* No body does more: what is faster is looked at in Python. */
+/* Whether the body can do these speeds: Python checks faster ones. */
 static bool is_slow(const struct loop *loop, const struct drive *drive)
 {
     double limit = loop->world->params.max_wheel_speed_mm_s;
@@ -26,14 +26,14 @@ static bool is_slow(const struct loop *loop, const struct drive *drive)
     return abs(drive->left_mm_s) <= limit && abs(drive->right_mm_s) <= limit;
 }
 
-/* Whether a frame answers the senses of this tick, and fills *drive. A robot says so only once. */
+/* Whether a frame answers the senses of this tick, and fills *drive. A robot answers once. */
 static bool is_answer(const struct loop_robot *robot, const struct frame *frame, uint8_t tick, struct drive *drive)
 {
     return frame->id == robot->drive_id && e2e_is_whole(frame, sizeof frame->data) &&
            e2e_counter(frame) == robot->senses_counter && robot_wire_drive(frame, tick, drive);
 }
 
-/* Receives frames of the next robot that has not answered; true if they are what is usual, and end with its drive. */
+/* Receives frames from the next robot that has not answered. Returns whether they are routine and end with its drive. */
 static bool take_drive(struct loop *loop, struct turn *turn)
 {
     struct loop_robot *robot = &loop->robots[loop->answered];

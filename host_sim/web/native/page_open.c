@@ -2,7 +2,7 @@
 
 #include "octet.h"
 
-/* Room for a block's lines: senses, drive and report of each tick, and in one of the ticks all waiting frames. */
+/* Space for a block's lines: senses, drive and report of each tick, and all waiting frames once. */
 enum { LINES_A_TICK = 3, LOG_LINES = PAGE_ROBOTS_MAX * (LINES_A_TICK * PAGE_TICKS_MAX + PAGE_WAITING_MAX) };
 
 void page_bind(struct loop_robot *robot, struct octet *octet)

@@ -3,7 +3,7 @@
 #include "host_sim/world/native/trig.h"
 
 static const double TAU = 6.283185307179586476925286766559;
-/* A pushed-out body stays this deep in the obstacle, so that it goes on touching and does not bounce. */
+/* How deep a body that is pushed out stays in the obstacle, so that it keeps touching and does not bounce. */
 static const double TOUCH_MM = 0.01;
 
 enum { PUSHES = 8 };
@@ -14,7 +14,7 @@ void body_face(struct body *body)
     body->ahead = trig_along(body->heading_rad);
 }
 
-/* The same direction within half a turn. Up to a turn and a half this is what remainder() says, to the last bit. */
+/* Wraps an angle to -pi..pi. Up to 3 pi the result equals that of remainder() to the last bit. */
 static double within_half_a_turn(double angle_rad)
 {
     while (angle_rad > TAU / 2)
@@ -28,7 +28,7 @@ void body_roll(struct body *body, double left_mm, double right_mm, double track_
 {
     double turn = (left_mm - right_mm) / track_mm, way_mm = (left_mm + right_mm) / 2;
     double half = turn / 2, square = half * half;
-    /* Sine by angle, and cosine: their series, for what a body can turn in a tick. */
+    /* Taylor series of sin(x)/x and cos(x), for angles that a body can turn in a tick. */
     double part = 1.0 + square * (-1.0 / 6 + square * (1.0 / 120 + square * (-1.0 / 5040 + square * (1.0 / 362880))));
     double cosine = 1.0 + square * (-1.0 / 2 + square * (1.0 / 24 + square * (-1.0 / 720 + square * (1.0 / 40320))));
     double sine = half * part, chord_mm = way_mm * part;

@@ -13,12 +13,12 @@ static const char *const NAMES[] = BODY_FAULT_NAMES;
 static const char *const FEELS[] = FEEL_NAMES;
 static const char *const SIDE_NAMES[BODY_SIDES] = {"left", "right"};
 
-/* What follows the name of a fault: S stands for a sensor, D for a side, N for a number, all else for itself. */
+/* The text after the name of a fault: S is a sensor, D a side, N a number; anything else is literal. */
 static const struct form {
     const char *details;
     const char *meant;
-    const char *range;   /* of a single number, */
-    int32_t most;        /* from 0 */
+    const char *range;   /* what a single number may be, in words */
+    int32_t most;        /* and its maximum */
 } FORMS[] = {
     [BODY_FAULT_SWAP_MOTORS] = {"", "write swap-motors", NULL, 0},
     [BODY_FAULT_MIRROR] = {"", "write mirror", NULL, 0},
@@ -40,7 +40,7 @@ static const struct form {
 
 enum { FAULTS = sizeof FORMS / sizeof *FORMS };
 
-/* The place of a word among those of a list; -1: it is none of them. */
+/* Index of a word in a list; -1 if it is not there. */
 static int32_t find(const char *word, size_t len, const char *const names[], size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -75,7 +75,7 @@ static bool read_value(char kind, const char *word, size_t len, int32_t *out)
     return *out >= 0;
 }
 
-/* Reads what a form has numbers and names for. */
+/* Reads the numbers and names that a form has. */
 static bool read_details(const char *at, const char *form, int32_t values[])
 {
     for (; *form; form++) {
@@ -128,7 +128,7 @@ static const char *show_food(struct body_faults *faults, int32_t away_mm)
     return NULL;
 }
 
-/* What is late, loose or slips: a number of at most so many. */
+/* Sets lag, slack, slip or latency; returns the allowed range if the number is not in it. */
 static const char *loosen(struct body_faults *faults, enum body_fault fault, int32_t much)
 {
     if (much < 0 || much > FORMS[fault].most)

@@ -4,7 +4,7 @@
 
 #include "firmware/io.h"
 
-enum { STREAMS = 8, FULL_PERCENT = 100 };   /* random numbers of a tick: at least one for each sensor */
+enum { STREAMS = 8, FULL_PERCENT = 100 };   /* random numbers per tick: at least one for each sensor */
 
 static uint8_t mirror(uint8_t feel)
 {
@@ -24,7 +24,7 @@ uint64_t body_faults_mix(uint64_t number)
     return mixed ^ mixed >> 31;
 }
 
-/* The sensors that are wrong in a tick. */
+/* The sensors that read wrong in a tick. */
 static uint8_t wrong(const struct body_faults *faults, uint32_t tick)
 {
     uint64_t first = faults->noise_key + (uint64_t)tick * STREAMS;

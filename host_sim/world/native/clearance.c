@@ -15,7 +15,7 @@ static double walls_mm(const struct obstacles *obstacles, struct vector at)
     return lesser(lesser(at.x, obstacles->width_mm - at.x), lesser(at.y, obstacles->height_mm - at.y));
 }
 
-/* From the nearest point of a bar's centre line to a place. */
+/* Vector from the nearest point of a bar's centre line to a point. */
 static struct vector off_line(const struct bar *bar, struct vector at)
 {
     double dx = bar->b.x - bar->a.x, dy = bar->b.y - bar->a.y;
@@ -46,7 +46,7 @@ double clearance_mm(const struct obstacles *obstacles, struct vector at)
     return nearest;
 }
 
-/* A square root is only worth its time where it could change the answer. */
+/* Computes the square root only where it could change the answer. */
 static bool is_clear(struct vector off, double radius_mm, double room_mm)
 {
     double squared = off.x * off.x + off.y * off.y, limit = (room_mm + radius_mm) * (room_mm + radius_mm);

@@ -11,7 +11,7 @@ enum { ARC_STEPS = 4, FRONT = 2 };
 static void set_cone(struct cone *cone, double bearing_deg, double reach_mm)
 {
     double step = WIDTH_DEG * RAD_PER_DEG / ARC_STEPS, first = (bearing_deg - WIDTH_DEG / 2) * RAD_PER_DEG;
-    /* The corners are as far outside the arc as the middles of the edges are inside it. */
+    /* The corners are as far outside the arc as the midpoints of the edges are inside it. */
     double corner_mm = 2 * reach_mm / (1 + trig_cos(step / 2));
 
     cone->corners[0] = (struct vector){0.0, 0.0};
@@ -49,7 +49,7 @@ static bool is_close(const struct capsule *thing, struct vector point)
     return vector_dot(way, way) <= limit;
 }
 
-/* Whether all corners are farther from the line of a thing's middle, on the same side, than its radius. */
+/* Whether all corners are on the same side of an obstacle's centre line, farther away than its radius. */
 static bool is_aside(const struct cone *cone, const struct capsule *thing)
 {
     struct vector way = vector_to(thing->a, thing->b);
@@ -67,7 +67,7 @@ static bool is_aside(const struct cone *cone, const struct capsule *thing)
     return left == 0 || right == 0;
 }
 
-/* Whether an end of a thing is within its radius of an edge. */
+/* Whether an end of an obstacle is within its radius of an edge. */
 static bool touches_edge(const struct cone *cone, const struct capsule *thing)
 {
     for (unsigned i = 0; i < CONE_CORNERS; i++) {
@@ -80,7 +80,7 @@ static bool touches_edge(const struct cone *cone, const struct capsule *thing)
     return false;
 }
 
-/* Whether a piece of a thing's middle line is inside: cuts off what is outside of each edge in turn. */
+/* Whether part of an obstacle's centre line is inside: clips it at each edge in turn. */
 static bool passes_through(const struct cone *cone, const struct capsule *thing)
 {
     double begins = 0.0, ends = 1.0;

@@ -23,7 +23,7 @@ static bool is_inside(const struct arena *arena, struct vector at)
     return at.x >= 0 && at.x <= arena->furniture->width_mm && at.y >= 0 && at.y <= arena->furniture->height_mm;
 }
 
-/* The place of an id in a list; count: it is not there. */
+/* Index of an id in a list; `count` if it is not there. */
 static size_t place_of(const uint32_t ids[], size_t count, uint32_t id)
 {
     size_t place = 0;
@@ -33,7 +33,7 @@ static size_t place_of(const uint32_t ids[], size_t count, uint32_t id)
     return place;
 }
 
-/* Whether a standing robot has no room beside these obstacles alone. */
+/* Whether these obstacles overlap a robot that stands on the floor. */
 static bool is_on_robot(const struct arena *arena, const struct obstacles *obstacles)
 {
     for (size_t i = 0; i < arena->world->body_count; i++) {
@@ -46,7 +46,7 @@ static bool is_on_robot(const struct arena *arena, const struct obstacles *obsta
     return false;
 }
 
-/* Robots press against a bar that they push: it may stand where they are. */
+/* Places a bar. One that robots push may touch them. */
 static const char *put_bar(const struct arena *arena, size_t place, const struct edit *edit)
 {
     struct bar bar = {edit->a, edit->b};

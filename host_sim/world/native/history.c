@@ -43,7 +43,7 @@ void history_restart(struct history *history, const uint8_t sides[CELL_COUNT])
     forget_cells(history, sides);
 }
 
-/* Ends the trial that is under way with the senses that decide the next action. */
+/* Ends the current trial with the senses that decide the next action. */
 static void judge(struct history *history)
 {
     struct history_trial *trial = &history->trial;
@@ -114,7 +114,7 @@ static bool is_of_one_side(int32_t pattern)
     return ((pattern ^ pattern >> 2) & 1) != 0;
 }
 
-/* Whether it learned that turn from a trial: in its cell, or, where the robot generalizes, in all cells of a thing on one side. */
+/* Whether a trial taught that turn: in its own cell or, if the robot generalizes, in all cells of an obstacle on one side. */
 static bool taught(const struct history_trial *trial, int32_t cell, uint8_t side)
 {
     bool mirrored = ((trial->cell ^ cell) & 1) != 0;
@@ -127,7 +127,7 @@ static bool taught(const struct history_trial *trial, int32_t cell, uint8_t side
     return side == (mirrored ? SIDE_LEFT + SIDE_RIGHT - trial->side : trial->side);
 }
 
-/* Whether it has learned that from a trial that has just ended, or has erased what it used. */
+/* Whether the robot changed the cell itself: learned from a trial that has just ended, or erased the turn that it used. */
 static bool did_itself(const struct history *history, int32_t cell, uint8_t side)
 {
     return taught(&history->judged, cell, side) || (history->forgets && side == SIDE_NOTHING);

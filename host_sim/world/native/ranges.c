@@ -4,17 +4,17 @@
 #include "host_sim/world/native/vector_sums.h"
 
 static const double RAD_PER_DEG = 3.141592653589793 / 180.0;
-static const double APART_DEG = 45.0;   /* from one cone's middle to the next one's */
-static const double FAR_MM = 1e9;   /* nothing is there */
+static const double APART_DEG = 45.0;   /* between the middles of neighbouring cones */
+static const double FAR_MM = 1e9;   /* no obstacle */
 
 enum { FRONT = 2 };
 
-/* A body that measures: cone 0 is rightmost. */
+/* The view of a body that measures; cone 0 is rightmost. */
 struct view {
     const struct ranges *ranges;
     struct vector at;
     struct vector right[FEEL_COUNT], left[FEEL_COUNT];   /* the edges of the cones */
-    bool is_seamless;              /* each cone's right edge is the left one of the cone before */
+    bool is_seamless;              /* whether each cone's right edge is the left edge of the cone before */
     double found_mm[FEEL_COUNT];   /* from the centre of the body, so far */
 };
 
@@ -33,7 +33,7 @@ static double to_circle(struct vector ray, struct vector middle, double radius_m
     return ahead_mm - vector_root(radius_mm * radius_mm - aside_mm * aside_mm);
 }
 
-/* The distance along a ray to the nearer side of a capsule, without its round ends. */
+/* The distance along a ray to the nearer straight side of a capsule. */
 static double to_side(struct vector ray, struct vector a, struct vector b, double radius_mm)
 {
     double length_mm = vector_length(vector_to(a, b)), line_mm, side_mm, toward, distance_mm, from_a_mm;
@@ -42,7 +42,7 @@ static double to_side(struct vector ray, struct vector a, struct vector b, doubl
     if (length_mm == 0.0)
         return FAR_MM;
     way = vector_scale(vector_to(a, b), 1.0 / length_mm);
-    line_mm = vector_cross(way, a);   /* from the ray's beginning to the line, square to it */
+    line_mm = vector_cross(way, a);   /* signed distance from the ray's origin to the line */
     toward = vector_cross(way, ray);
     side_mm = line_mm > 0.0 ? line_mm - radius_mm : line_mm + radius_mm;
     if (line_mm * side_mm <= 0.0 || toward * side_mm <= 0.0)
@@ -71,8 +71,8 @@ static double reach_mm(const struct ranges *ranges, unsigned cone)
     return cone == FRONT ? ranges->reach_mm + ranges->front_extra_mm : ranges->reach_mm;
 }
 
-/* Seen from outside, a capsule is near in one direction and farther away the more one looks past it to either side. So
- * the nearest of it within a cone is in that direction, or else on one of the cone's two edges. */
+/* Seen from outside, a capsule is nearest in one direction, and farther away the more one looks to either side. So
+ * its nearest point within a cone is in that direction, or else on one of the cone's two edges. */
 static void measure_thing(struct view *view, const struct capsule *thing)
 {
     struct vector nearest = vector_to(view->at, capsule_nearest(thing, view->at));
@@ -107,7 +107,7 @@ static struct vector turned(struct vector ahead, struct vector way)
 
 static void look_around(struct view *view, double heading_rad, double width_deg)
 {
-    /* One millimetre along each edge of seamless cones, as a body sees them that faces +x: 112.5 to -112.5 degrees. */
+    /* Unit vectors along the edges of seamless cones, 112.5 to -112.5 degrees, for a body that faces +x. */
     static const double COS_67 = 0.38268343236508984, SIN_67 = 0.9238795325112867;
     const struct vector seamless[] = {{-COS_67, SIN_67}, {COS_67, SIN_67}, {SIN_67, COS_67}, {SIN_67, -COS_67}, {COS_67, -SIN_67}, {-COS_67, -SIN_67}};
     struct vector ahead = trig_along(heading_rad);
@@ -122,7 +122,7 @@ static void look_around(struct view *view, double heading_rad, double width_deg)
     }
 }
 
-/* What a robot can be told of a distance from the centre of its body. */
+/* Converts a distance from the centre of a body to the number sent to its robot. */
 static uint8_t range_to(const struct ranges *ranges, double found_mm, unsigned cone)
 {
     double range_mm = vector_whole(found_mm - ranges->body_radius_mm);

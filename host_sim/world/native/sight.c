@@ -2,14 +2,14 @@
 #include "host_sim/world/native/kit/kit.h"
 #include "host_sim/world/native/vector_sums.h"
 
-static const double FAR_MM = 8191.0;   /* farther food is not seen: a robot could not be told */
+static const double FAR_MM = 8191.0;   /* the most that a message can hold: farther food is not seen */
 
 static struct vector way_to(const struct body *body, const struct food *food)
 {
     return (struct vector){food->x_mm - body->x_mm, food->y_mm - body->y_mm};
 }
 
-/* Whether food is in the corridor, ahead or behind: asked first, for it seldom is. */
+/* Whether food is in the beam, ahead or behind: checked first, because it seldom is. */
 static bool is_in_line(const struct world *world, const struct body *body, const struct food *food)
 {
     struct vector way = way_to(body, food);
@@ -20,7 +20,7 @@ static bool is_in_line(const struct world *world, const struct body *body, const
     return __builtin_fabs(aside_mm) <= beam_mm / 2;
 }
 
-/* Distance to food in the corridor, whole mm; 0 for food that is eaten, behind or too far away. */
+/* Distance to food in the beam, whole mm; 0 for food that is eaten, behind or too far away. */
 static int32_t distance_mm(const struct body *body, const struct food *food)
 {
     struct vector way = way_to(body, food);
@@ -34,7 +34,7 @@ static int32_t distance_mm(const struct body *body, const struct food *food)
     return whole_mm < 1.0 ? 1 : (int32_t)whole_mm;
 }
 
-/* Sees a piece of food, if it is nearer than what was seen before and nothing hides it. */
+/* Notes a piece of food if it is nearer than the one seen so far and nothing hides it. */
 static void look_at(const struct world *world, struct body *body, size_t number)
 {
     const struct food *food = &world->food[number];

@@ -10,10 +10,10 @@
 #define QUARTER_3RD 0x1.3198a2e037073p-69
 #define QUARTERS_PER_RAD 0x1.45f306dc9c883p-1
 
-/* An angle, less whole quarter turns. */
+/* An angle reduced by whole quarter turns. */
 struct reduced {
     double rad;    /* -pi/4..pi/4 */
-    double rest;   /* what was rounded off rad */
+    double rest;   /* rounding error of rad */
     unsigned quarters;
 };
 

@@ -18,7 +18,7 @@ void world_settle(struct world *world)
         body_place(world, &world->bodies[i]);
 }
 
-/* The wheel's counter after a distance. */
+/* A wheel's odometer after a distance. */
 static uint16_t odometer(double rolled_mm)
 {
     return (uint16_t)((long long)vector_whole(rolled_mm * ODOMETER_COUNTS_PER_MM) & (ODOMETER_SPAN - 1));

@@ -7,9 +7,9 @@ enum { ABOUT_DEG = 180 };
 struct doing {
     const struct config *config;
     const uint8_t *deeds;
-    size_t under_way;       /* robots that have not ended their deeds */
-    bool rests[NODE_MAX];   /* those that have */
-    uint32_t end_tick;      /* of the step */
+    size_t under_way;       /* robots whose actions have not ended */
+    bool rests[NODE_MAX];   /* by robot: whether its action has ended */
+    uint32_t end_tick;      /* tick after the step */
 };
 
 static struct action action_of(uint8_t deed, const struct config *config)

@@ -4,7 +4,7 @@
 
 #include "host_sim/world/native/trig.h"
 
-/* It fits inside the walls with its round ends. */
+/* It fits between the walls, round ends included. */
 static struct bar draw_bar(struct draws *draws, const struct layout_params *params)
 {
     double radius = params->bar_thickness_mm / 2;

@@ -4,7 +4,7 @@
 
 static const double CORRIDOR_MM = 800.0, DOOR_MIN_MM = 450.0, DOOR_MAX_MM = 650.0;
 
-/* A wall in two parts, along y. */
+/* A wall along y, in two parts. */
 static void draw_wall(struct draws *draws, double at_mm, double length_mm, struct bar parts[2])
 {
     double door = draws_between(draws, DOOR_MIN_MM, DOOR_MAX_MM);

@@ -13,7 +13,7 @@ static uint32_t count_of(const struct reach *reach)
     return count;
 }
 
-/* The middle of a cell that can be reached, counted from 0. */
+/* The middle of the nth cell that can be reached, from 0. */
 static struct vector place(const struct reach *reach, uint32_t which)
 {
     uint32_t cell = 0;
@@ -23,7 +23,7 @@ static struct vector place(const struct reach *reach, uint32_t which)
     return reach_middle(reach, cell);
 }
 
-/* A place from which all food can be reached; where the food is, there is room. */
+/* Draws a position from which all food can be reached. There is room where the food is. */
 static struct vector draw_place(struct draws *draws, const struct layout_params *params, struct reach *reach,
                                 const struct layout *layout)
 {

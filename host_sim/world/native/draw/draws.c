@@ -8,7 +8,7 @@ enum { MIDDLE = 397, KEY_WORDS = (DRAWS_TEXT_MAX + SHA512_BYTES) / 4 };
 
 static const uint32_t TWIST = 0x9908b0df, HIGH = 0x80000000;
 
-/* Python's key: the text and its digest as one large number, lowest word first. Returns its length in words. */
+/* The key of Python's random.seed(): text and digest as one number, lowest word first. Returns its length in words. */
 static unsigned make_key(uint32_t key[KEY_WORDS], const char *text)
 {
     uint8_t bytes[DRAWS_TEXT_MAX + SHA512_BYTES];
@@ -29,7 +29,7 @@ static uint32_t mixed(uint32_t word)
     return word ^ word >> 30;
 }
 
-/* The place after a place, once around. */
+/* The next index, cyclic. */
 static unsigned after(struct draws *draws, unsigned i)
 {
     if (i + 1 < DRAWS_WORDS)

@@ -21,7 +21,7 @@ static void append_number(char *text, int64_t number)
     strcat(text, at);
 }
 
-/* What is drawn: the rest of a text that begins with seed and number. */
+/* Seeds the draws with a text: seed, number, and what is drawn. */
 static void seed_draws(struct draws *draws, const struct layout_which *which, const char *what)
 {
     char text[DRAWS_TEXT_MAX] = "octet";
@@ -50,7 +50,7 @@ static void draw(struct draws *draws, const struct layout_kind *kind, struct rea
     }
 }
 
-/* Leaves behind where a robot can get to from the start. */
+/* Whether all food can be reached from the start; leaves in `reach` all cells that can be. */
 static bool is_fair(const struct layout *layout, const struct layout_params *params, struct reach *reach)
 {
     struct obstacles obstacles = layout_obstacles(layout, params);
@@ -68,7 +68,7 @@ static bool is_fair(const struct layout *layout, const struct layout_params *par
     return true;
 }
 
-/* Whether a start is out of sensor reach of the other robots. */
+/* Whether a start is out of the other robots' sensor range. */
 static bool is_apart(struct vector at, const struct layout *layout, const struct layout_params *params)
 {
     for (uint32_t i = 0; i < layout->start_count; i++) {
@@ -80,7 +80,7 @@ static bool is_apart(struct vector at, const struct layout *layout, const struct
     return true;
 }
 
-/* They have draws of their own, so that those of the layout are the same for any number of robots. */
+/* Start poses have random numbers of their own: the layout is the same for any number of robots. */
 static void add_starts(const struct layout_kind *kind, const struct layout_which *which, const struct reach *reach,
                        struct layout *out)
 {

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { BORDER = 2 };   /* rows, and columns, around those of the arena */
+enum { BORDER = 2 };   /* rows and columns around those of the arena */
 enum { BLOCKED, REACHED, FREE };
 
 struct box {
@@ -22,7 +22,7 @@ size_t reach_size(double width_mm, double height_mm)
     return (size_t)cells_along(height_mm) * cells_along(width_mm);
 }
 
-/* The row, or the column, of a place: of the border for those beyond it. */
+/* The row or column of a position, clamped to the border. */
 static uint32_t line_of(double at_mm, uint32_t lines)
 {
     double line = floor(at_mm / REACH_CELL_MM) + 1;
@@ -45,7 +45,7 @@ struct vector reach_middle(const struct reach *reach, uint32_t cell)
     return (struct vector){middle_of(cell % reach->columns), middle_of(cell / reach->columns)};
 }
 
-/* Blocks the cells of a box whose middles are too near. */
+/* Blocks the cells of a box whose middles are too near an obstacle. */
 static void block(struct reach *reach, const struct obstacles *obstacles, struct box box, double room_mm)
 {
     uint32_t left = line_of(box.low.x, reach->columns), right = line_of(box.high.x, reach->columns);
@@ -61,7 +61,7 @@ static void block(struct reach *reach, const struct obstacles *obstacles, struct
     }
 }
 
-/* Whether the middles of a row, or of a column, are too near to a wall along it. */
+/* Whether the middles of a row or column are too near the wall along it. */
 static bool is_at_wall(uint32_t line, double size_mm, double room_mm)
 {
     return middle_of(line) < room_mm || size_mm - middle_of(line) < room_mm;
@@ -102,13 +102,13 @@ void reach_keep_clear(struct reach *reach, const struct obstacles *obstacles, do
     }
 }
 
-/* The blocked cell after a cell: the border has one at the end of each row. */
+/* The next blocked cell: the border has one at the end of each row. */
 static uint8_t *end_of(uint8_t *cell, uint32_t columns)
 {
     return memchr(cell, BLOCKED, columns);
 }
 
-/* Puts one cell of each free stretch beside another one on the stack. */
+/* Pushes one cell of each free run of cells on the stack. */
 static uint32_t *add_stretches(const struct reach *reach, uint32_t *top, uint8_t *first, const uint8_t *end)
 {
     for (uint8_t *cell = first; cell < end; cell++) {
@@ -120,7 +120,7 @@ static uint32_t *add_stretches(const struct reach *reach, uint32_t *top, uint8_t
     return top;
 }
 
-/* Stretch by stretch of a row, from one blocked cell to the next. Two of them in a row have one between them, so that there
+/* Fills run by run of free cells in a row. Between two runs there is a blocked cell, so that there
  * are never more cells on the stack than in the arena. */
 static void flood(struct reach *reach, uint32_t start)
 {
@@ -143,7 +143,7 @@ static void flood(struct reach *reach, uint32_t start)
 
 void reach_find(struct reach *reach, const struct obstacles *obstacles, double body_radius_mm, struct vector start)
 {
-    /* Clearance changes by at most the distance moved, and no point of a cell is farther from its middle than a corner. */
+    /* Clearance changes by at most the distance moved, and no point of a cell is farther from its middle than a corner is. */
     double room = body_radius_mm + REACH_CELL_MM * sqrt(0.5);
     size_t count = reach_size(obstacles->width_mm, obstacles->height_mm);
     uint8_t *cells = reach->cells;

@@ -5,7 +5,7 @@
 #include "host_sim/world/native/trig.h"
 #include "host_sim/world/native/vector_sums.h"
 
-static const double DOUBT_MM = 1e-6;   /* what touches does not hide: far more than rounding */
+static const double DOUBT_MM = 1e-6;   /* a path may touch an obstacle: far above rounding errors */
 static const double DOUBT = 1e-9;      /* of a sine */
 static const double HALF_TURN_RAD = 3.14159265358979323846;
 
@@ -14,7 +14,7 @@ static struct vector left_of(struct vector way)
     return (struct vector){-way.y, way.x};
 }
 
-/* 1 where a way turns left around a circle, so that this is on its left, else -1. */
+/* 1 if a path turns left around a circle, else -1. */
 static double sign_of(uint32_t side)
 {
     return side % TOUR_SIDES ? -1.0 : 1.0;
@@ -44,7 +44,7 @@ static bool cross(const struct capsule *one, const struct capsule *other)
     return is_across(one, other->a, other->b) && is_across(other, one->a, one->b);
 }
 
-/* Whether no point of a way, a capsule without a width, is in a thing. Two lines that do not cross are nearest at an end. */
+/* Whether a straight path, a capsule of no width, misses an obstacle. Segments that do not cross are nearest at an end. */
 static bool is_clear(const struct capsule *thing, const struct capsule *way)
 {
     double apart_mm = thing->radius_mm;
@@ -79,7 +79,7 @@ static void add_round(struct tour *tour, struct vector at, double radius_mm)
     }
 }
 
-/* Adds the straight way from one side of a circle to one of another, if nothing is in its way. */
+/* Adds the straight path from one side of a circle to one of another, if nothing is in its way. */
 static void add_tangent(struct tour *tour, uint32_t from, uint32_t to)
 {
     const struct tour_round *one = &tour->rounds[from / TOUR_SIDES], *other = &tour->rounds[to / TOUR_SIDES];
@@ -96,7 +96,7 @@ static void add_tangent(struct tour *tour, uint32_t from, uint32_t to)
             (struct tour_tangent){.along = along, .length_mm = length_mm, .from = (uint16_t)from, .to = (uint16_t)to};
 }
 
-/* A place has one side only. */
+/* Whether there is such a side: a point has only one. */
 static bool is_there(const struct tour *tour, uint32_t side)
 {
     return side % TOUR_SIDES == 0 || tour->rounds[side / TOUR_SIDES].radius_mm > 0.0;
@@ -116,7 +116,7 @@ static void add_tangents(struct tour *tour)
     tour->first[sides] = tour->tangent_count;
 }
 
-/* The angle with this cosine and sine, 0..pi, by Newton's rule, to the last place but one. */
+/* The angle with this cosine and sine, 0..pi, by Newton's method; accurate to a few ulp. */
 static double angle_rad(double cosine, double sine)
 {
     double angle = HALF_TURN_RAD / 2.0 * (1.0 - cosine);
@@ -134,7 +134,7 @@ static bool is_arc_free(const struct tour *tour, const struct tour_tangent *in, 
     uint64_t blocked = tour->rounds[in->to / TOUR_SIDES].blocked;
     double sign = sign_of(in->to);
 
-    /* Where the way is along in, it is on the right of the circle's middle, or on its left. */
+    /* A blocked point of the rim is on the arc if the direction of travel there is between those of the two tangents. */
     for (unsigned i = 0; i < TOUR_RIM && blocked; i++, blocked >>= 1) {
         struct vector along = vector_scale(left_of(tour->rim[i]), sign);
 
@@ -144,7 +144,7 @@ static bool is_arc_free(const struct tour *tour, const struct tour_tangent *in, 
     return true;
 }
 
-/* The length of the arc between two tangents; infinite for more than half a turn, which no shortest way has. */
+/* The length of the arc between two tangents; infinite for more than half a turn, which no shortest path has. */
 static double arc_mm(const struct tour *tour, const struct tour_tangent *in, const struct tour_tangent *out)
 {
     double cosine = vector_dot(in->along, out->along), sine = sign_of(in->to) * vector_cross(in->along, out->along);
@@ -155,7 +155,7 @@ static double arc_mm(const struct tour *tour, const struct tour_tangent *in, con
     return sine > 0.0 && is_arc_free(tour, in, out) ? radius_mm * angle_rad(cosine, sine) : HUGE_VAL;
 }
 
-/* Goes on from the end of a tangent. True if that makes a shorter way. */
+/* Continues from the end of a tangent. Returns whether that makes a path shorter. */
 static bool go_on(struct tour *tour, const struct tour_tangent *in)
 {
     bool is_shorter = false;
@@ -172,7 +172,7 @@ static bool go_on(struct tour *tour, const struct tour_tangent *in)
     return is_shorter;
 }
 
-/* Finds the shortest ways from a place to the others. */
+/* Finds the shortest paths from a position to the others. */
 static void find_ways(struct tour *tour, uint32_t place, uint32_t count, double way_mm[])
 {
     bool goes_on = true;
@@ -199,7 +199,7 @@ static void find_ways(struct tour *tour, uint32_t place, uint32_t count, double 
                 fmin(way_mm[tour->tangents[i].to / TOUR_SIDES], tour->tangents[i].way_mm);
 }
 
-/* The shortest way from a place through those that are left, one bit each. */
+/* The shortest path from a position through the remaining ones, one bit each. */
 static double through_mm(double way_mm[][TOUR_PLACES_MAX], uint32_t place, uint32_t left)
 {
     double best = left ? HUGE_VAL : 0.0;

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double NUMBER_MAX = 1e9;   /* not even close to what fits */
+static const double NUMBER_MAX = 1e9;   /* far beyond any arena */
 
 static const struct form {
     int32_t count;
@@ -166,7 +166,7 @@ static bool check_room(const struct check *it, const struct obstacles *obstacles
                          nearbyint(room), needed);
 }
 
-/* Whether there is room at each place, and a way from the first one to all others, as in layouts.h. */
+/* Whether there is room at each position, and a path from the first to all others, as in layouts.h. */
 static bool check_fair(const struct check *it)
 {
     struct layout layout;

@@ -3,11 +3,11 @@
 enum { ROBOTS_A_SEED = 10000, KEY_BITS = 8 };
 
 static const double NOMINAL_V = 7.2, ONE = 65536.0, MV_PER_V = 1000.0;
-static const double FREE_COUNTS = 36.79;   /* in a period of the controller: 674 mm/s */
+static const double FREE_COUNTS = 36.79;   /* per period of the controller: 674 mm/s */
 static const double RIM_MM_PER_DEG = 42.0 * 3.141592653589793 / 360.0, FULL_PERCENT = 100.0;   /* of a wheel of 42 mm */
 static const double DARK = 0.3, WEAK_V = 4.5, WEAK_SAG_V = 1.0, MOTOR_MS = 60.0;
 
-/* name, least, most, ideal, kit, tolerance */
+/* name, minimum, maximum, ideal, kit, tolerance */
 const struct trait_row KIT_TRAITS[TRAIT_COUNT] = {
     [TRAIT_LAG_MS] = {"lag_ms", 0, 1000, 0, 0, 0},
     [TRAIT_DEAD_MM_S] = {"dead_mm_s", 0, 200, 0, 0, 0},
@@ -50,7 +50,7 @@ double kit_chance(const struct kit *kit, uint64_t number)
     return (double)(body_faults_mix(kit->key + number) >> 32) / 2147483648.0 - 1.0;
 }
 
-/* What a first-order lag gains in a period of what is missing; exact to the second order. */
+/* The share of the remaining difference that a first-order lag makes up in a period; second-order accurate. */
 static double gain(double lag_ms)
 {
     double part = lag_ms > 0.0 ? WHEEL_PERIOD_MS / lag_ms : 2.0;
@@ -67,7 +67,7 @@ static void set_trait(struct kit *kit, enum trait trait, double value)
         *(trait < TRAIT_SENSES_TICKS ? &kit->wheels_differ : &kit->senses_differ) = true;
 }
 
-/* What follows from its traits. */
+/* Computes what follows from its traits. */
 static void reckon(struct kit *kit)
 {
     const double *trait = kit->trait, motor_gain = gain(trait[TRAIT_MOTOR_MS]);

@@ -3,10 +3,10 @@
 #include "hal/pins_body/proximity.h"
 #include "host_sim/world/native/vector_sums.h"
 
-enum { STREAMS = 8 };   /* random numbers of a tick */
+enum { STREAMS = 8 };   /* random numbers per tick */
 
-static const uint64_t SENSES = (uint64_t)1 << 48;   /* where these random numbers begin */
-static const double FOLDED = 2.0;                   /* below fold_mm a thing seems to go away so many times as fast */
+static const uint64_t SENSES = (uint64_t)1 << 48;   /* first number of the sensors' random stream */
+static const double FOLDED = 2.0;                   /* below fold_mm the apparent distance grows so many times as fast */
 static const double RAD_PER_DEG = 0.017453292519943295, BEACON_MAX_MM = 8191.0;
 
 static double chance(const struct kit *kit, uint32_t tick, unsigned n)
@@ -26,7 +26,7 @@ bool kit_sees(const struct kit *kit, double ahead_mm, double aside_mm, double be
     return beside_mm <= ahead_mm * slope * vector_root(left);
 }
 
-/* How far away a thing seems to be, mm. */
+/* Apparent distance of an obstacle, mm. */
 static double seeming(const struct kit *kit, uint8_t range_mm)
 {
     double under_mm = kit->trait[TRAIT_FOLD_MM] - range_mm;
@@ -34,7 +34,7 @@ static double seeming(const struct kit *kit, uint8_t range_mm)
     return under_mm > 0.0 ? kit->trait[TRAIT_FOLD_MM] + FOLDED * under_mm : range_mm;
 }
 
-/* How much farther a sensor reaches in this tick, mm, and how much nearer things seem to it. */
+/* Noise of a sensor in this tick, mm: added to its range, subtracted from the distances it reads. */
 static double noise(const struct kit *kit, uint32_t tick, unsigned n)
 {
     return kit->trait[TRAIT_NOISE_MM] * chance(kit, tick, n);
@@ -63,7 +63,7 @@ void kit_light(const struct kit *kit, const struct world *world, const struct bo
     kit_light_from(kit, range_mm, tick, light);
 }
 
-/* Behind its window, a pair sees about as if it were so much farther away. */
+/* Light that each sensor pair receives; its window acts like so much more distance. */
 void kit_light_from(const struct kit *kit, const uint8_t range_mm[FEEL_COUNT], uint32_t tick, uint16_t light[FEEL_COUNT])
 {
     static const double BEHIND_MM = 20.0, MOST = 4095.0;
@@ -75,7 +75,7 @@ void kit_light_from(const struct kit *kit, const uint8_t range_mm[FEEL_COUNT], u
     }
 }
 
-/* A sensor is triggered within its reach, and lets go farther away. Triggered, it tells a distance. */
+/* A sensor is triggered within its range, with hysteresis; while triggered, it gives a distance. */
 static void feel(const struct kit *kit, uint32_t tick, const uint8_t *range_mm, struct senses *senses)
 {
     unsigned before = kit->sensed[(tick - 1) % KIT_SENSED].feel;

@@ -1,9 +1,9 @@
 #include "host_sim/world/native/kit/kit.h"
 #include "host_sim/world/native/vector_sums.h"
 
-enum { PERIODS = 4, ONE = 65536 };   /* of a tick of 20 ms, WHEEL_PERIOD_MS each */
+enum { PERIODS = 4, ONE = 65536 };   /* PERIODS: per tick of 20 ms, WHEEL_PERIOD_MS each */
 
-static const uint64_t SLIPS = 1u << 16;   /* where these random numbers begin */
+static const uint64_t SLIPS = 1u << 16;   /* first number of the slip's random stream */
 static const double MM_PER_PLACE = WHEEL_COUNT_256 / 256.0 / 1000.0 / ONE, MS_PER_S = 1000.0;
 
 static double limited(double x, double least, double most)
@@ -31,7 +31,7 @@ uint16_t kit_count(const struct kit *kit, unsigned side)
     return (uint16_t)(kit->wheels[side].place / ONE);
 }
 
-/* A motor settles toward a speed that its push beyond the dead band leads to. */
+/* A motor's speed settles toward the one that its duty beyond the dead band gives. */
 static void turn_motor(struct kit_wheel *wheel, int64_t supply, int64_t kept)
 {
     const int64_t dead = (int64_t)WHEEL_DEAD * ONE;
@@ -47,7 +47,7 @@ static uint32_t size(int32_t duty)
     return (uint32_t)(duty < 0 ? -duty : duty);
 }
 
-/* By the nominal voltage, 1/65536. */
+/* Supply voltage as a fraction of the nominal one, 1/65536. */
 static int64_t supply_of(const struct kit *kit)
 {
     uint64_t load = (uint64_t)size(kit->wheels[0].duty) + size(kit->wheels[1].duty);
@@ -60,7 +60,7 @@ uint32_t kit_supply_mv(const struct kit *kit)
     return (uint32_t)(supply_of(kit) * WHEEL_NOMINAL_MV / ONE);
 }
 
-/* The motors get other duties for a period. The battery sags under the load of the period before. */
+/* Runs the motors with new duties for a period. The battery sags under the load of the period before. */
 static void turn_motors(struct kit *kit, const int32_t duty[KIT_WHEELS])
 {
     int64_t supply = supply_of(kit);
@@ -71,7 +71,7 @@ static void turn_motors(struct kit *kit, const int32_t duty[KIT_WHEELS])
     }
 }
 
-/* A period of the board's controllers. */
+/* Runs the board's controllers for a period. */
 static void run_motors(struct kit *kit)
 {
     int32_t duty[KIT_WHEELS];
@@ -101,7 +101,7 @@ static void order(struct kit *kit, const double *way_mm, double tick_s, double *
     }
 }
 
-/* Lets the motors, or the wheels without any, follow their orders for a tick. */
+/* Runs the motors, or wheels without motors, for a tick at the commanded speeds. */
 static void run(struct kit *kit, const double *told_mm_s)
 {
     const double period_s = WHEEL_PERIOD_MS / MS_PER_S, most_mm_s = kit->trait[TRAIT_ACCELERATION_MM_S2] * period_s;
@@ -120,7 +120,7 @@ static void run(struct kit *kit, const double *told_mm_s)
     }
 }
 
-/* As far as the odometer has counted. */
+/* The distance that the odometer has counted. */
 static double counted(const struct kit *kit, double way_mm)
 {
     double count_mm = kit->trait[TRAIT_COUNT_MM];
@@ -128,7 +128,7 @@ static double counted(const struct kit *kit, double way_mm)
     return count_mm > 0.0 ? whole_down(way_mm * kit->counts_per_mm) * count_mm : way_mm;
 }
 
-/* What the odometer and the floor make of the way of a motor. */
+/* Converts a motor's distance to what the odometer counts and what the wheel rolls. */
 static void finish(struct kit *kit, unsigned side, double *counted_mm, double *rolled_mm)
 {
     struct kit_wheel *wheel = &kit->wheels[side];

@@ -65,7 +65,7 @@ struct vector capsule_nearest(const struct capsule *capsule, struct vector point
     return nearest_of(capsule->a, capsule->b, point);
 }
 
-/* What touches what: the nearest disc of a capsule, or a body's. Points of contact are relative to a middle. */
+/* A disc that touches another: the nearest one of a capsule, or a body's. Contact points are relative to `middle`. */
 struct disc {
     struct vector centre;
     double radius_mm;
@@ -112,11 +112,11 @@ void capsule_meet_discs(struct vector one, struct vector other, double radius_mm
 
 static bool is_inside(struct vector a, struct vector b, double radius_mm, struct vector point)
 {
-    /* From b, as Munk2D has it. */
+    /* Measured from b, as in Munk2D. */
     return vector_length(vector_to(nearest_of(b, a, point), point)) - radius_mm <= 0.0;
 }
 
-/* Whether a way from outside a disc goes into it before its end. */
+/* Whether a straight path from outside a disc enters it. */
 static bool enters_disc(struct vector centre, double radius_mm, struct vector from, struct vector to)
 {
     struct vector start = vector_to(centre, from), end = vector_to(centre, to);
@@ -130,7 +130,7 @@ static bool enters_disc(struct vector centre, double radius_mm, struct vector fr
     return part >= 0.0 && part < 1.0;
 }
 
-/* Whether a way from outside goes into the capsule through the longer of its sides. */
+/* Whether a straight path from outside enters the capsule through one of its long sides. */
 static bool crosses_side(double from_line_mm, double radius_mm, double along_side)
 {
     double before = from_line_mm > 0.0 ? radius_mm - from_line_mm : -radius_mm - from_line_mm;
@@ -157,7 +157,7 @@ static bool goes_into(const struct capsule *capsule, struct vector from, struct 
     return enters_disc(capsule->a, radius_mm, from, to) || enters_disc(capsule->b, radius_mm, from, to);
 }
 
-/* Whether a way passes the box around a capsule on one side. */
+/* Whether a straight path misses the bounding box of a capsule on one side. */
 static bool is_aside(const struct capsule *capsule, struct vector from, struct vector to)
 {
     return (from.x < capsule->low.x && to.x < capsule->low.x) || (from.x > capsule->high.x && to.x > capsule->high.x)

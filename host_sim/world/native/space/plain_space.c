@@ -12,7 +12,7 @@ static size_t index_of(const struct world *world, const struct body *body)
     return (size_t)(body - world->bodies);
 }
 
-/* What was found about one body so far. */
+/* What has been found about one body so far. */
 struct finding {
     const struct plain_world *space;
     struct body *body;
@@ -27,7 +27,7 @@ static void press(struct body *body, const struct contact *contact)
     }
 }
 
-/* A point as a body sees it. */
+/* A point relative to a body. */
 static struct vector seen_from(const struct body *body, struct vector point)
 {
     struct vector way = vector_to(plain_position(body), point);
@@ -62,13 +62,13 @@ static void touch(struct finding *finding, const struct contact *contact, size_t
     press(finding->body, contact);
 }
 
-/* How far a body may go before it could feel a thing that it is so far away from. */
+/* How far a body may move before it could sense an obstacle at this distance. */
 static double way_to(const struct plain_world *space, double apart_mm)
 {
     return apart_mm - space->cones->reach_mm - MARGIN_MM;
 }
 
-/* Meets one capsule. Returns how far away it is at least. */
+/* Checks one capsule. Returns a lower bound of its distance. */
 static double meet_capsule(struct finding *finding, size_t number)
 {
     const struct plain_world *space = finding->space;
@@ -86,7 +86,7 @@ static double meet_capsule(struct finding *finding, size_t number)
     return 0.0;
 }
 
-/* Meets the capsules near a body. Returns how far it may go before it could feel another one. */
+/* Checks the capsules near a body. Returns how far the body may move before it could sense another one. */
 static double meet_capsules(struct finding *finding)
 {
     const struct plain_world *space = finding->space;
@@ -177,7 +177,7 @@ static bool may_notice(const struct plain_world *space, const struct body *body,
     return !body->lifted && !other->lifted && vector_dot(way, way) <= reach_mm * reach_mm;
 }
 
-/* How far a body may still go after a move. */
+/* How far a body may still move after a move. */
 static double free_after(const struct plain_place *place, const struct body *body)
 {
     struct vector way = vector_to(place->at, plain_position(body));
@@ -185,7 +185,7 @@ static double free_after(const struct plain_place *place, const struct body *bod
     return place->free_mm - (way.x < 0.0 ? -way.x : way.x) - (way.y < 0.0 ? -way.y : way.y);
 }
 
-/* Has others notice that a body has moved. */
+/* Updates the other bodies that may sense a body's move. */
 static void tell_others(struct world *world, const struct body *body, const struct plain_place *before)
 {
     struct plain_world *space = plain_world_of(world);
@@ -213,7 +213,7 @@ static void place(struct world *world, struct body *body)
     if (space->grid)
         plain_grid_put(space->grid, (uint32_t)index_of(world, body), place->at);
     if (world->body_count == 1 && place->free_mm > 0.0)
-        return;   /* alone, it still feels nothing */
+        return;   /* no other body, and still nothing in range */
     find(world, body);
     if (world->body_count > 1)
         tell_others(world, body, &before);

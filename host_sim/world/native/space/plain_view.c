@@ -3,7 +3,7 @@
 #include "host_sim/world/native/space/plain_near.h"
 #include "host_sim/world/native/vector_sums.h"
 
-/* A way along which something may hide what is at its end. */
+/* A line of sight, which something may block. */
 struct view {
     const struct world *world;
     const struct body *body;
@@ -45,7 +45,7 @@ bool plain_view_hides(const struct world *world, const struct body *body, struct
     struct vector way = vector_to(view.from, point);
     double length_mm = vector_length(way), step_mm = grid ? grid->cell_mm / 2 : 2 * length_mm + 1.0;
 
-    /* What is in the way can be felt from the nearest of these places. */
+    /* Whatever blocks the view is within range of the nearest of these points. */
     for (double far_mm = 0.0; far_mm < length_mm + step_mm / 2; far_mm += step_mm) {
         double share = length_mm > 0.0 ? far_mm / length_mm : 0.0;
         struct vector at = vector_add(view.from, vector_scale(way, share));
