@@ -9,7 +9,7 @@
 struct senses;
 
 struct body_faults {
-    bool mirrored;           /* the ring of sensors is mounted the other way round */
+    bool mirrored;           /* the sensor ring is mounted mirror-inverted */
     bool swapped;            /* the plugs of the two motors, odometers included, are exchanged */
     uint8_t stuck_on;        /* sensors, as bits of feel */
     uint8_t stuck_off;
