@@ -15,7 +15,7 @@ import can
 
 from host_sim.base.paths import BUILD, ROOT
 from host_sim.client.frame_log import FrameLog
-from host_sim.lab.bench.figure import ROUNDS, Figure, Rate, most_figure, rate_figure
+from host_sim.lab.bench.figure import ROUNDS, Figure, Rate, best, most_figure, rate_figure
 from host_sim.protocol.generated import PARAMETERS
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.make import make
@@ -36,6 +36,7 @@ def lockstep_figures() -> list[Figure]:
         _socket_pair_figure(),
         *_vcan_figures(),
         _in_process_figure(),
+        most_figure("a tick in process, one per call", _lone_tick_us(), "us", 5, "what Python does per block"),
         most_figure("the core's tick, in C", _core_tick_ns(), "ns", 100, "the processor"),
         most_figure("tools/run, one robot second, to its end", _start_s(), "s", 2, "importing Python's packages"),
         most_figure(
@@ -88,6 +89,16 @@ def _in_process_figure() -> Figure:
         Rate("the same in Python", max(in_python for _, in_python in pairs), 12),
         "recording",
     )
+
+
+def _lone_tick_us() -> float:
+    """The shortest time of a tick in blocks of one, as for a page that follows each decision, us."""
+
+    def prepare(simulation: Simulation) -> None:
+        _recorded(True)(simulation)
+        simulation.block_ticks = 1
+
+    return 1e6 / best(lambda: _ticks_per_second("none", 60.0, prepare))
 
 
 def _recorded(native: bool) -> Callable[[Simulation], object]:
