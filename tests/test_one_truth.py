@@ -137,6 +137,7 @@ TWINS = {
     "host_sim/lab/gymnasium_envs/told_worlds.py": "tests/lab/gymnasium_envs/test_arena_vector_env.py",
     "host_sim/sim/native/fleet.c": "tests/lab/study/test_trial.py",
     "host_sim/sim/native/log_lines.h": "tests/sim/test_native_equality.py",
+    "host_sim/update/isotp_connection.py": "tests/image/test_update.py",
     "host_sim/web/lab/files.js": "tests/web/sim/test_page_opening.py",
     "host_sim/web/native/page_open.c": "tests/web/sim/test_page_runs.py",
     "host_sim/web/sim/native_program.js": "tests/web/sim/test_page_runs.py",
