@@ -67,7 +67,7 @@ def test_one_that_is_named_for_the_file_passes(check):
     [
         (ROW.format("7.1", "*/other.c", "a canary"), "*/other.c: `rule 7.1` is not found any more"),
         (ROW.format("7.2", "*/source.c", "a canary"), "rule 7.1: not allowed by the table"),
-        (ROW.format("7.1", "*/source.c", " "), "or no reason"),
+        (ROW.format("7.1", "*/source.c", " "), "lacks `in`, `what` or `why`"),
         ('[[exception]]\nwhat = "rule 7.1"\n', "cannot read"),
     ],
 )

@@ -64,7 +64,7 @@ def read(path: Path) -> list[Permit]:
         raise TableError(f"cannot read {path}: {error!r}") from error
     for files, texts, why in parts:
         if not (files and texts and why):
-            raise TableError(f"{path}: an exception in {files} lacks in, what or why")
+            raise TableError(f"{path}: an exception in {files} lacks `in`, `what` or `why`")
     return [Permit(*each) for files, texts, _ in parts for each in product(files, texts)]
 
 
