@@ -78,9 +78,9 @@ class Dialogue:
             RobotError: The robot does not answer.
         """
         self.expect_reports(opcode)
-        for _ in range(_REPORT_DEMANDS):
+        for attempt in range(_REPORT_DEMANDS):
             self.command(opcode)
-            if self.await_reports():
+            if self.await_reports(_DRIVE_S if attempt else _REPORT_S):
                 return
         missing = ", ".join(self.inbox.reports.missing) or "a DRIVE at rest"
         raise RobotError(f"after {opcode}, the robot did not send {missing}; {self.account()}")
@@ -90,17 +90,20 @@ class Dialogue:
         self.inbox.reports.await_all()
         self.inbox.reporting, self.inbox.rested = True, opcode != "stop"
 
-    def await_reports(self) -> bool:
+    def await_reports(self, rest_s: float = _REPORT_S) -> bool:
         """Waits for every report that was asked for. Returns False as soon as one is known to be missing.
 
         A whole report ends after the answer: frames before it may be the end of an older report.
+
+        Args:
+            rest_s: Time after the reports within which a stopped robot sends a DRIVE at rest, s.
         """
         reports, now = self.inbox.reports, self.connection.now
         give_up = now() + self.connection.deadline_s
         reports.await_end()
         self.inbox.silent = False
         while not (self._has_reported and reports.ended):
-            usual_s = _DRIVE_S if reports.ended else _REPORT_S
+            usual_s = rest_s if reports.ended else _REPORT_S
             heard = self.waiting.receive(self._take_any, _NOISY_REPORT_S if self.connection.line.noisy else usual_s)
             if heard is None or self.inbox.silent or now() > give_up:
                 break

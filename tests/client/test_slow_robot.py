@@ -7,7 +7,7 @@ import pytest
 
 from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.errors import RobotError
-from host_sim.client.commands import start
+from host_sim.client.commands import start, stop
 from host_sim.client.connection import Connection
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
@@ -34,6 +34,7 @@ class SlowRobot:
         self.answers: deque[Frame] = deque()
         self.last = Frame(-1, b"")
         self.stuck = False
+        self.rest_s = 0.0  # what it needs before the DRIVE that says that it has stopped
 
     def now(self) -> float:
         return self.now_s
@@ -54,6 +55,11 @@ class SlowRobot:
             done_s, frame = self.waiting.popleft()
             self.now_s = max(self.now_s, done_s)
             self.answers += self.answers_to(frame)
+        if self.rest_s and self.answers[0].id == PROTOCOL.id_of("DRIVE"):
+            waited_s = min(self.rest_s, give_up_s - self.now_s)
+            self.now_s, self.rest_s = self.now_s + waited_s, self.rest_s - waited_s
+            if self.rest_s:
+                return None
         self.last = self.answers.popleft()
         return self.last
 
@@ -125,3 +131,14 @@ def test_a_robot_that_only_says_what_it_has_said_before_is_given_up():
         drive_for(client, TICKS, first=TICKS)
 
     assert robot.now_s < 60
+
+
+def test_a_robot_that_rests_late_is_not_told_to_stop_twice():
+    def frames(rest_s: float) -> list[Frame]:
+        robot = SlowRobot()
+        client = running(robot)
+        robot.rest_s = rest_s
+        stop(client)
+        return client.log.frames
+
+    assert frames(0.8) == frames(0.0)
