@@ -89,7 +89,7 @@ def test_a_robot_that_is_killed_leaves_one_whole_run_and_is_named(tmp_path):
     assert json.loads((tmp_path / "summary.json").read_text())["seed"] == 8
 
 
-HUNG_S = 5.0
+HUNG_S = 8.0
 """From the signal to the end of a run whose robot hangs, s, but for the time that it waits for a processor.
 
 It waits for the robot for 1.5 s, and then writes its files. The robot's usual time would make it 14 s.
