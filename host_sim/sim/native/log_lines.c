@@ -34,10 +34,11 @@ static char *put_hex(char *at, uint32_t number, unsigned digits)
 
 void log_lines_add(struct log_lines *lines, const struct frame *frame)
 {
-    char *at = lines->text + lines->used;
+    char *at;
 
     if (!lines->text)
         return;
+    at = lines->text + lines->used;
     for (unsigned i = 0; i < LOG_STAMP; i++)
         *at++ = lines->stamp[i];
     at = put_hex(at, frame->id, 3);
