@@ -102,7 +102,7 @@ class BrainEnv(gymnasium.Env[Any, Any]):
             self._simulation = self._stack.enter_context(make(self._config))
         except OctetError as fault:
             raise error.DependencyNotInstalled(str(fault)) from None
-        self._counts = _NOTHING_COUNTED
+        self._counts: NDArray[np.int64] = _NOTHING_COUNTED
         self._runs = False
 
     def reset(

@@ -43,4 +43,5 @@ def scaled(senses: NDArray[np.int32]) -> NDArray[np.float32]:
     cones = senses[..., 1:2] >> np.arange(_CONES) & 1
     seen = senses[..., 3:4]
     near = seen * np.clip(1 - senses[..., 4:5] / _FAR_MM, 0, 1)
-    return np.concatenate([cones, senses[..., 2:3], seen, near], -1).astype(np.float32)
+    parts: NDArray[np.float64] = np.concatenate([cones, senses[..., 2:3], seen, near], -1)
+    return parts.astype(np.float32)
