@@ -10,9 +10,9 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def sanitizer_flags() -> list[str]:
-    """What the C tests are built with."""
-    (options,) = re.findall(r"add_compile_options\((.*)\)", (ROOT / "tools/cmake/sanitizers.cmake").read_text())
-    return options.split()
+    """What gcc builds the C tests with."""
+    options = re.findall(r"add_compile_options\((.*)\)", (ROOT / "tools/cmake/sanitizers.cmake").read_text())
+    return " ".join(options).split()
 
 
 CRASHES = {
