@@ -63,7 +63,7 @@ class BusLines:
         return self._shared.share(node), self._shared_stats
 
     def _opened(self, stack: ExitStack, nodes: Sequence[int], stats: LineStats) -> Link:
-    # Loaded on demand: a run in this process needs neither, and python-can takes a quarter of the import time.
+        # Loaded on demand: a run in this process needs neither, and python-can takes a quarter of the import time.
         from host_sim.transport.buses import open_bus_link  # noqa: PLC0415 - see above
         from host_sim.transport.reconnecting_link import ReconnectingLink  # noqa: PLC0415 - see above
 

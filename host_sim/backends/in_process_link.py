@@ -70,7 +70,7 @@ class InProcessLink:
         self._ffi = c_interface(_DECLARATIONS)
         self._library = loaded = load_library(self._ffi, library)
         opened = self._open(node, bytes(memory))
-    # This function keeps the library loaded until the robot is closed.
+        # This function keeps the library loaded until the robot is closed.
         self._octet = self._ffi.gc(opened, lambda octet: loaded.octet_close(octet))  # noqa: PLW0108 - see above
         self._state: Any = self._ffi.buffer(self._octet, loaded.octet_size(opened))
         self._in: Any = self._ffi.new("struct frame *")

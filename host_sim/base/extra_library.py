@@ -19,7 +19,7 @@ def missing(name: str, stage: str) -> str:
     """
     needed = name.partition(".")[0]
     needed = {"PIL": "pillow"}.get(needed, needed)
-# Names the library itself: a registry may have another project called octet.
+    # Names the library itself: a registry may have another project called octet.
     how = f"python -m pip install {needed}" if INSTALLED else f"tools/setup {stage}"
     return f"this needs {needed}, which is not installed: run {how}"
 

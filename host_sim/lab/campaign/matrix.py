@@ -138,7 +138,7 @@ BUS: tuple[FaultClass, ...] = (
     FaultClass("a second robot", ("forge:DRIVE@300-302/to",)),
     FaultClass("a second simulator", ("forge:SENSES@300-310/from",)),
     *_of_forgery(),
-# A single one may pass for a repeated report. It is never obeyed.
+    # A single one may pass for a repeated report. It is never obeyed.
     FaultClass("a forged power-up", ("forge:BOOT@300/from",), harmless=PACES),
     FaultClass(
         "all at once", ("drop:10%", "duplicate:5%", "reorder:5%", "delay:5%:0-60ms", "corrupt:5%", "truncate:5%")

@@ -99,7 +99,7 @@ def open_study(path: Path, plan: Plan) -> Iterator[StudyFolder]:
 
 def _make(path: Path, about: dict[str, Any]) -> None:
     ours = [path / name for name in COLUMNS]
-# A study stopped here has left empty folders.
+    # A study stopped here has left empty folders.
     if not {*path.iterdir()} <= {*ours} or any(each.is_file() or any(each.iterdir()) for each in path.iterdir()):
         raise UsageError(f"{path} has something else in it; choose another folder with --out")
     for each in ours:
