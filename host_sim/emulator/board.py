@@ -147,7 +147,7 @@ class EmulatedBoard:
         return heard
 
     def _run_until(self, moment: int) -> None:
-        """Runs until the board sends something, but no later than a moment."""
+        """Runs until the board sends something, at most until a moment."""
         self._deadline = moment
         self._alarm.set(moment)
         while not self._has_news() and self._clock.now < moment:

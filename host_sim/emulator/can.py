@@ -178,7 +178,7 @@ class BxCan(CanController):
         heard: Callable[[CanFrame], None],
         banks: int = 14,
     ) -> None:
-        """Starts in sleep mode, with this number of filter banks."""
+        """Starts in sleep mode, with `banks` filter banks."""
         self._banks = banks
         names = _NAMED | _FILTERS
         boxes = ((_MAILBOX, ("TI", "TDT", "TDL", "TDH"), 3), (_OUTPUT, ("RI", "RDT", "RDL", "RDH"), 2))

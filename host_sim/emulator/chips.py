@@ -34,7 +34,7 @@ class Chip:
         rcc_base: Base address of RCC.
         flash: Creates the flash.
         flash_base: Base address of the flash registers.
-        gpio: Creates a port of a name.
+        gpio: Creates a port from its name.
         gpio_base: Base address of port A; each port takes 1 kB.
         gpio_gates: Clock gate of each port, from port A.
         link: Link name of the image that uses its CAN controller.
@@ -83,8 +83,8 @@ class RobotParts:
         dma: Clock gate of DMA1.
         adc: Clock gate of ADC1.
         adc_base: Base address of ADC1.
-        converter: Creates ADC1 from its base address, its clock frequency and its DMA,
-        multiplexed: and the DMA multiplexer, with its clock gate and base address, if the chip has one.
+        converter: Creates ADC1 from its base address, clock frequency and DMA, and the multiplexer if there is one.
+        multiplexed: Clock gate and base address of the DMA multiplexer; None if the chip has none.
     """
 
     motors: Gate

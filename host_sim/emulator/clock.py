@@ -150,7 +150,7 @@ class Clock:
         self.skip_to(self.now + span)
 
     def fail(self, _kind: object, failure: BaseException, _trace: object) -> None:
-        """Stops time because a Python callback of C has failed. The arguments are those of `__exit__`."""
+        """Stops time because a function that C called has failed. The arguments are those of `__exit__`."""
         self._failure = failure
         self.model.failed = True
 

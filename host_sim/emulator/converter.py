@@ -28,7 +28,7 @@ class Dma(Peripheral):
         super().__init__("DMA1", {offset: Register(name) for offset, name in names.items()})
 
     def target(self, source: int) -> tuple[int, int] | None:
-        """Address and number of the half-words to which channel 1 copies a register in circular mode; None if off."""
+        """Where channel 1 copies a register to in circular mode: address and number of half-words; None if it does not."""
         control, count, peripheral, memory = (self.registers[at].value for at in (_CCR, _CNDTR, _CPAR, _CMAR))
         wanted = _CHANNEL_ON | _CIRCULAR | _MINC | _HALVES
         return (memory, count) if control & wanted == wanted and peripheral == source else None
@@ -71,7 +71,7 @@ class Converter(Peripheral):
         """The channels of a scan, in order."""
 
     def carried(self) -> bool:
-        """Whether DMA requests are enabled."""
+        """Whether its requests reach the DMA."""
         return True
 
     def switch_on(self) -> None:

@@ -75,7 +75,7 @@ class Fault:
 
     Attributes:
         cause: Bits of CFSR.
-        address: The address that could not be accessed; None if it was the instruction itself.
+        address: The address that could not be accessed; None if the instruction itself is invalid.
         pc: Address of the instruction.
     """
 
@@ -86,7 +86,7 @@ class Fault:
 
 @cache
 def unicorn_calls() -> Any:
-    """Unicorn's functions that take C callbacks, and the most frequent one, as declared in its header."""
+    """Unicorn's functions that take C callbacks, and the one called most, as declared in its header."""
     return c_interface(
         "int uc_emu_start(void *uc, uint64_t begin, uint64_t until, uint64_t timeout, size_t count);"
         "int uc_emu_stop(void *uc);"

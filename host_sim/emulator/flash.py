@@ -39,9 +39,9 @@ class FlashKind:
 
     Attributes:
         pages: Size of each page or sector in bytes, from the lowest.
-        hz_per_wait_state: Core clock that each wait state allows, Hz.
+        hz_per_wait_state: Fastest core clock without wait states, and the increase by each of them, Hz.
         write_span: Time to write one unit, fs.
-        erase_span: Returns the time to erase a page of a size, fs.
+        erase_span: Time to erase a page, fs, by the size of the page.
         start: Bit STRT of CR.
         lock: Bit LOCK of CR.
         failure: Flag of SR for an internal error.
@@ -74,7 +74,7 @@ class Flash(Peripheral):
         erasure_cuts: Numbers of the erases during which power fails.
         code_end: Offset of the end of the image, which must not overwrite itself.
         on_wait_states: Called when the wait states have changed.
-        on_unreadable: Called when the core has read an uncorrectable error.
+        on_unreadable: Called when the core has read data with an uncorrectable error.
     """
 
     kind: FlashKind

@@ -44,7 +44,7 @@ class PinsBoard(EmulatedBoard):
         """Lets a tick pass on the board.
 
         Args:
-            body: Position of the body.
+            body: The body, with its position.
             senses: Senses of an ideal body there.
             tick: Number of the tick in the run.
 
@@ -129,7 +129,7 @@ def start_robot(name: str, faults: Faults | None = None) -> PinsBoard:
     """Starts a board with the image of a robot with a body on pins.
 
     Args:
-        name: `blue_pill`.
+        name: A board whose chip has a `robot`, such as `blue_pill`.
         faults: Hardware faults to simulate.
 
     Raises:

@@ -52,7 +52,7 @@ class Port(KeptPeripheral):
 
     @abstractmethod
     def serves(self, pin: int, function: int, *, out: bool) -> bool:
-        """Whether a pin is connected to a peripheral, by the alternate function number if the chip has them."""
+        """Whether a pin is connected to a peripheral, by alternate function number if the chip has those."""
 
     @abstractmethod
     def measures(self, pin: int) -> bool:

@@ -49,6 +49,6 @@ class RccF1(Rcc):
         return self.apb2_hz() // (2 * ((self.cfgr.value >> 14 & 3) + 1))
 
     def _write_cfgr(self, value: int) -> None:
-        """Writes CFGR; the PLL's fields are locked while it is on."""
+        """Writes CFGR; the PLL's fields keep their values while it is on."""
         kept = _PLL_SETUP if self.pll_is_on() else 0
         self._switch(value & ~kept | self.cfgr.value & kept)

@@ -32,7 +32,7 @@ class Register:
         on_read: Returns the value to read; None to read the last value written.
         on_write: Handles a write; None to store the value.
         steady: Whether its value changes only with events, unlike a running counter's.
-        idle: Whether writes do not count as work, as for feeding a watchdog.
+        idle: Whether a write does not count as work, since it only feeds a watchdog.
         value: Current value.
     """
 

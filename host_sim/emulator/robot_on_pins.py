@@ -17,7 +17,7 @@ _ONE = 65536
 _CNT = 0x24
 
 _NEAR_MM, _STRONG, _WEAK = 150, 4, 4
-"""Bursts of a beacon in a tick; strong ones have its full range, weak ones a short range."""
+"""Bursts of a beacon in a tick: strong ones reach as far as it is seen, weak ones `_NEAR_MM`."""
 
 
 class RobotOnPins:
@@ -34,7 +34,7 @@ class RobotOnPins:
         ambient: Light that it receives with the LEDs off.
         battery_v: Battery voltage while there is no body, V.
         counts_by: Sign of each encoder's counts: -1 if its wires are swapped.
-        stalled: Whether a motor is blocked.
+        stalled: Whether each motor is blocked.
         swapped: Whether the connectors of the two motors are swapped.
         converts: Whether the ADC updates the samples.
     """

@@ -147,9 +147,9 @@ class PowerKind:
         registers: Register names by offset.
         control: Offset of the control register.
         status: Offset of the status register.
-        on: Enable bit of the control register.
+        on: Number of the enable bit in the control register.
         level: Number of the lowest bit of the level in the control register.
-        low: Status bit: the supply is low.
+        low: Number of the status bit that is set while the supply is low.
         levels_mv: Threshold voltages by level, mV.
     """
 
@@ -233,7 +233,7 @@ class SystemControl(Peripheral):
 
         Args:
             cause: Bits of CFSR.
-            address: The inaccessible address; None if it was that of the instruction itself.
+            address: The address that could not be accessed; None if the instruction itself is invalid.
         """
         self.enter(3)
         self._cfsr.value |= cause | (0 if address is None else _BFARVALID)
