@@ -29,7 +29,7 @@ struct board_clock {
 bool moment_before(struct moment one, struct moment other);
 
 void clock_expect(struct board_clock *clock, struct moment moment);
-        /* Schedules something at a moment. */
+        /* Notes that something is due at a moment. */
 
 void clock_settle(struct board_clock *clock);
         /* Runs all events that are due. */

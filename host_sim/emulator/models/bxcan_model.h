@@ -1,5 +1,5 @@
-/* bxcan_model.h: the bxCAN controller (RM0090 chapter 32, RM0008 chapter 24), as a driver that polls sees it. Accesses that
- * the manual forbids or that are not modelled are refused with a reason. Python reads this header too. */
+/* bxcan_model.h: the bxCAN controller (RM0090 chapter 32, RM0008 chapter 24), as a polling driver sees it. Accesses
+ * that the manual forbids or that are not modelled are refused with a reason. Python reads this header too. */
 #ifndef OCTET_BXCAN_MODEL_H
 #define OCTET_BXCAN_MODEL_H
 

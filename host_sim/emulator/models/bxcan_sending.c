@@ -84,7 +84,7 @@ uint32_t bxcan_read_tsr(const struct bxcan *can)
         free_box = can->mailboxes[n].pending ? free_box : n;
     }
     status |= (free_box < BXCAN_MAILBOXES ? free_box : (uint32_t)last) << 24 | (~pending & 7u) << 26;
-    return pending & (pending - 1) ? status | 1u << (29 + last) : status;   /* LOW is valid only if several are pending */
+    return pending & (pending - 1) ? status | 1u << (29 + last) : status;   /* LOW needs several pending */
 }
 
 /* Aborts a request at once, unless its frame is on the wire: that transmission is completed. */

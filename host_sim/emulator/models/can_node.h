@@ -1,5 +1,6 @@
-/* can_node.h: what CAN controllers have in common, after ISO 11898-1: joining and leaving a bus, error counters, bus-off.
- * Accesses that a manual forbids or that are not modelled are refused with a reason. Python reads this header too. */
+/* can_node.h: what CAN controllers have in common, after ISO 11898-1: joining and leaving a bus, error counters, and
+ * bus-off. Accesses that a manual forbids or that are not modelled are refused with a reason. Python reads this
+ * header too. */
 #ifndef OCTET_CAN_NODE_H
 #define OCTET_CAN_NODE_H
 

@@ -36,7 +36,7 @@ static uint64_t bits(const struct frame *frame)
     return frame->id & FRAME_REMOTE ? fixed : fixed + 8 * bytes;
 }
 
-/* The arbitration field, in the order of its bits: base identifier, IDE, identifier extension, RTR. The lowest value wins. */
+/* The arbitration field, bit by bit: base identifier, IDE, identifier extension, RTR. The lowest wins. */
 static uint32_t priority(const struct frame *frame)
 {
     uint32_t remote = frame->id & FRAME_REMOTE ? 1 : 0;
@@ -63,7 +63,7 @@ bool wire_fetch(struct can_wire *wire, struct frame *out)
     return pop(&wire->heard, out);
 }
 
-/* Delivers the frame to each active controller but the sender. Returns to how many. */
+/* Delivers the frame to each active controller but the sender. Returns the number of receivers. */
 static unsigned deliver(struct can_wire *wire, bool destroyed)
 {
     unsigned listeners = 0;

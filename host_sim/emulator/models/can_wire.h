@@ -1,5 +1,6 @@
-/* can_wire.h: a CAN bus at 500 kbit/s: who may send, who acknowledges, and how long a frame takes, without stuff bits. On
- * it are controllers, and one more node that stands for the rest of the world. Python reads this header too. */
+/* can_wire.h: a CAN bus at 500 kbit/s: who may send, who acknowledges, and how long a frame takes, without stuff
+ * bits. On it are controllers, and one more node that stands for the rest of the world. Python reads this header,
+ * too. */
 #ifndef OCTET_CAN_WIRE_H
 #define OCTET_CAN_WIRE_H
 
@@ -43,13 +44,13 @@ void wire_open(struct can_wire *wire);
         /* Initializes an idle bus without controllers, at time 0. */
 
 bool wire_put(struct can_wire *wire, const struct frame *frame);
-        /* Queues a frame from the world, which is repeated until a controller acknowledges it. False: the queue is full. */
+        /* Queues a frame from the world, which is sent once a controller listens. False: the queue is full. */
 
 bool wire_fetch(struct can_wire *wire, struct frame *out);
         /* Takes the oldest frame that the world has received. False: there is none. */
 
 uint64_t wire_advance(struct can_wire *wire, uint64_t now_ns);
-        /* Runs what is due by now, on the wire and in its controllers. Returns when something is next due, UINT64_MAX for
-           never: call again at that time, or it happens late. */
+        /* Runs what is due by now, on the wire and in its controllers. Returns when something is next due,
+           UINT64_MAX for never: call again at that time, or it happens late. */
 
 #endif

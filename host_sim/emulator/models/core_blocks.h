@@ -1,5 +1,5 @@
-/* core_blocks.h: counts the executed instructions, block by block, and drives the clock with them. Python reads this header
- * too. */
+/* core_blocks.h: counts the executed instructions, block by block, and drives the clock with them. Python reads
+ * this header too. */
 #ifndef OCTET_CORE_BLOCKS_H
 #define OCTET_CORE_BLOCKS_H
 

@@ -1,5 +1,6 @@
-/* fdcan_model.h: FDCAN (RM0440 44) with its message RAM, as a driver that polls sees it: classic CAN, buffers as a queue by
- * identifier. Accesses that the manual forbids or that are not modelled are refused with a reason. Python reads this header too. */
+/* fdcan_model.h: FDCAN (RM0440 44) with its message RAM, as a polling driver sees it: classic CAN, buffers as a queue
+ * by identifier. Accesses that the manual forbids or that are not modelled are refused with a reason. Python reads
+ * this header too. */
 #ifndef OCTET_FDCAN_MODEL_H
 #define OCTET_FDCAN_MODEL_H
 
@@ -31,7 +32,7 @@ void fdcan_open(struct fdcan *can, struct can_wire *wire);
         /* A controller on a wire, as after power-up, without faults. */
 
 void fdcan_reset(struct fdcan *can);
-        /* Resets it; registers without a defined reset value hold garbage. */
+        /* Resets it; the message RAM keeps its contents, which are garbage after power-up. */
 
 int fdcan_fifo_for(struct fdcan *can, const struct frame *frame, unsigned *filter);
         /* The FIFO that the filters send a frame to, or -1; and the number of the filter, if one has matched. */

@@ -1,8 +1,8 @@
 /* register_space.h: the registers of all peripherals by address. The busiest ones are models in C; Python handles all
  * others and all refused accesses, and reads this header too.
  *
- * Time in which the image only waits is skipped. It counts as waiting if it reads the same values repeatedly and reads the
- * time in between; a loop that counts its reads is executed. */
+ * Time in which the image only waits is skipped. It counts as waiting if it reads the same values repeatedly and
+ * reads the time in between; a loop that counts its reads is executed. */
 #ifndef OCTET_REGISTER_SPACE_H
 #define OCTET_REGISTER_SPACE_H
 
@@ -16,7 +16,7 @@
 enum {
     SPACE_WAITING_READS = 8,    /* reads in a row without news, after which the image counts as waiting */
     SPACE_SKIP_NS = 1000000,    /* longest skip before its next read: it may be waiting for the time itself */
-    SPACE_CAN_WORDS = 0x200,    /* registers of CAN that there can be, with the words of a message RAM in the upper half */
+    SPACE_CAN_WORDS = 0x200,    /* of registers of CAN, with the words of a message RAM in the upper half */
     SPACE_CAN_RAM = 0x4000,     /* offset of that RAM from the registers */
     SPACE_BLOCKS = 12, SPACE_BLOCK_WORDS = 32
 };
@@ -29,8 +29,8 @@ struct seen_value {
 /* What a write does to a register that is kept here. */
 enum space_write { SPACE_KEPT, SPACE_ZEROS_CLEAR, SPACE_SETS_PINS };
 
-/* Registers that only hold what is written, or what their model puts there; and of a port of pins, whose registers IDR, ODR and
- * BSRR follow each other. */
+/* Registers that only hold what is written, or what their model puts there; and of a port of pins, whose registers
+ * IDR, ODR and BSRR follow each other. */
 struct plain_block {
     uint32_t base;
     bool clocked;
