@@ -31,7 +31,7 @@ _SEED = 1
 
 
 def lockstep_figures() -> list[Figure]:
-    """All figures for lockstep and for the start of a run."""
+    """All figures for lockstep, for the core alone, and for the start of a run."""
     return [
         _socket_pair_figure(),
         *_vcan_figures(),

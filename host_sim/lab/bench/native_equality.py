@@ -1,6 +1,6 @@
 """Compares the tick loop in C, with its own geometry, with the one in Python, with pymunk.
 
-Logs, trajectories and results are compared, of runs in which people intervene.
+It compares the logs, trajectories and results of runs in which people intervene.
 """
 
 import random
@@ -104,7 +104,7 @@ def _run_on(simulation: Simulation, tick: int) -> None:
 
 
 def _meddle(simulation: Simulation, draws: random.Random) -> None:
-    """Makes random interventions of a person between two ticks; impossible ones are skipped."""
+    """Intervenes at random, as a person may between two ticks; impossible edits are skipped."""
     client = simulation.clients[draws.randrange(len(simulation.clients))]
     simulation.set_clock()
     if draws.random() < 0.1:  # noqa: PLR2004 - seldom

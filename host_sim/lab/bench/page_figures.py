@@ -159,7 +159,7 @@ def _first_picture(what: str, browser: Browser, path: Path, most_ms: float) -> F
 
 
 def _frame_figures(browser: Browser, folder: Path) -> list[Figure]:
-    """Frame rates of octet.html with a run of four robots, and of fleet.html with a thousand."""
+    """Frame times and rates of octet.html with a run of four robots, and of fleet.html with a thousand."""
     few, many = _frames(_few_robots(browser, folder)), _frames(_fleet(browser, folder))
     return [
         *_smooth(f"octet.html, {_ROBOTS} robots at {_SPEED} x", *few),

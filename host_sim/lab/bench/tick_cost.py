@@ -91,7 +91,7 @@ class TickCost:
             self._begun = self._core.instructions
 
     def _note_waiting(self, status: int) -> None:
-        """Subtracts the time since the last poll if mailboxes were in use then and nothing has changed."""
+        """Subtracts the instructions since the last poll if mailboxes were in use then and nothing has changed."""
         now = self._core.instructions
         if status == self._transmit_status and self._layout.is_taken(status) and self._begun is not None:
             self._begun += now - self._seen

@@ -60,7 +60,7 @@ class Calibration:
         """Runs a measurement.
 
         Returns:
-            The reason of failure, in a sentence; empty if the result was stored.
+            The reason for a failure, in a sentence; empty if the result was stored.
 
         Raises:
             RobotError: The robot does not answer, or the measurement does not end.

@@ -69,7 +69,7 @@ class Board:
         flash.cuts |= {flash.operations + after, flash.operations + after + 1}
 
     def _cut_in_erase(self) -> None:
-        """Cuts the power when the page of memories is full, and again during the erase that makes room."""
+        """Fills the page of memories, cuts the power, and cuts it again in each of the next two erases."""
         flash = self.board.hardware.flash
         flash.fill_last_page(_RECORD)
         flash.erasure_cuts |= {flash.erasures + 1, flash.erasures + 2}

@@ -21,10 +21,10 @@ PIN_EVENTS = (
     *("sensor-off", "encoder-off", "encoder-back", "motor-stall", "motor-off", "motors-swapped", "bridge-fault"),
     *("adc-stuck", "bounce"),
 )
-"""Body faults that are possible there."""
+"""Body faults that are possible on that link."""
 
 PROCESS_LINKS = ("none", "fd")
-"""Links where the run itself starts the robot, with the value of `tools/run --bus`."""
+"""Links where the run itself starts the robot, named as for `tools/run --bus`."""
 
 _FORM = "PROFILE LINK PACE seed=N limit=SECONDS [fault=RULE ...] [change=CHANGE ...] [event=EVENT ...]"
 _HEAD = re.compile(r"(\S+) (\S+) (\S+) seed=(\d{1,10}) limit=(\d{1,4}(?:\.\d{1,3})?)")
@@ -138,7 +138,7 @@ class Cell:
         )
 
     def command(self) -> str:
-        """A command that repeats the run, writing the files of a run if there is such a command."""
+        """A command that repeats the run, and writes its files where possible."""
         if self.events or self.link not in PROCESS_LINKS:
             program = f" --robot-command {quote(self.command_of_own)}" if self.command_of_own else ""
             return f"tools/octet campaign{program} --repeat '{self}'"

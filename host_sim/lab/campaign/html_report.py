@@ -127,7 +127,7 @@ def _command(text: str) -> str:
 
 
 def _bars(outcomes: Sequence[Outcome]) -> str:
-    """The campaign's figures: the share of runs with a fault that meet each requirement."""
+    """The campaign's figures: the number of runs with a fault that meet each requirement."""
     faulty = [outcome for outcome in outcomes if outcome.cell.fault]
     counts = {
         "safe: no wheel turned for more than 100 ms without a new drive": [

@@ -35,7 +35,7 @@ def before_each_instruction(happen: Callable[[], None]) -> None:
 
 
 Tell = Callable[..., None]
-"""Reports from a run that may be killed at any time: numbers, strings and lists of them."""
+"""Takes reports from a run that may be killed at any time: numbers, strings and lists of them."""
 
 
 def kill_at(number: int) -> None:

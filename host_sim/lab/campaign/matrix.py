@@ -12,10 +12,10 @@ from host_sim.protocol.words import SENSORS
 
 _LINES, _PROCESSES = ("external", "slcan", "vcan"), ("fd", "external", "slcan", "vcan")
 _COMPARED = (LOCKSTEP,)
-"""Links on which runs can be compared tick by tick."""
+"""Paces at which runs can be compared tick by tick."""
 
 _RECORD_WRITES = {"feather_stm32f405": 4, "blue_pill": 8, "nucleo_g431rb": 2, PINS_LINK: 8}
-"""Number of flash writes that store a memory: of words, half-words and double words."""
+"""Number of flash writes that store a memory, by link: of words, half-words or double words."""
 
 _INSTRUCTIONS, _SAVING_INSTRUCTIONS = 20_000, 400
 """Number of Python instructions in a dozen ticks, and in saving a memory."""
@@ -88,7 +88,7 @@ def _of_body(name: str, *changes: str, denies: bool = False, least_s: float = 10
 
 
 def _of_odometers() -> Iterator[FaultClass]:
-    """Faults of wheels that do not follow the command. A slightly high odometer count cannot be noticed."""
+    """Faults of odometers: wheels seem not to follow the command. A count slightly too high cannot be noticed."""
     for side in ("left", "right"):
         yield _of_body(f"the {side} odometer is stuck", f"odometer:{side}:0%", denies=True)
         yield _of_body(f"the {side} odometer counts backward", f"odometer:{side}:-100%", denies=True)

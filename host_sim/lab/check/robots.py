@@ -27,7 +27,7 @@ _ANYBODY = 254
 
 
 def wake(talk: Talk) -> None:
-    """Sends a first stop, and waits for the robot's answer and reports.
+    """Sends stop until the robot answers, and receives its reports.
 
     Raises:
         UsageError: The robot does not answer.
