@@ -28,7 +28,7 @@ class Dma(Peripheral):
         super().__init__("DMA1", {offset: Register(name) for offset, name in names.items()})
 
     def target(self, source: int) -> tuple[int, int] | None:
-        """Where channel 1 copies a register to in circular mode: address and number of half-words; None if it does not."""
+        """Target of channel 1 in circular mode, address and half-word count; None if it does not copy `source`."""
         control, count, peripheral, memory = (self.registers[at].value for at in (_CCR, _CNDTR, _CPAR, _CMAR))
         wanted = _CHANNEL_ON | _CIRCULAR | _MINC | _HALVES
         return (memory, count) if control & wanted == wanted and peripheral == source else None

@@ -59,7 +59,7 @@ def learn(seed: int, steps: int = STEPS) -> Learned:
         senses, reward, ended, truncated, _ = env.step(deeds)
         after, goes_on = _states(senses, deeds), ~(ended | truncated)
         target = reward + _DISCOUNT * goes_on * values.reshape(-1, _DEEDS)[after].max(-1)
-        cell = (state * _DEEDS + deeds)[~over]  # a step after an end only begins the next episode
+        cell = (state * _DEEDS + deeds)[~over]  # a step after an end only begins the next episode and teaches nothing
         times = np.bincount(cell, minlength=len(values))
         error = np.bincount(cell, (target - values[state * _DEEDS + deeds])[~over], len(values))
         values += (1 - (1 - max(0.01, 0.2 - 0.4 * part)) ** times) * error / np.maximum(times, 1)

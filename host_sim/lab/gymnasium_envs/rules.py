@@ -108,7 +108,7 @@ def draw_environment(draws: np.random.Generator, robots: int, params: SimParams)
     """Draws an environment with room for the robots. Returns it and the seed used for it and the bodies.
 
     Raises:
-        error.Error: No room for the robots in many environments.
+        error.Error: None of many environments has room for the robots.
     """
     for _ in range(_DRAWS):
         with suppress(NoRoomError):

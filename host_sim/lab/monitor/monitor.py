@@ -21,7 +21,7 @@ _WAIT_S = 0.1
 _DRAW_S = 0.25
 _CHECK_S = 1.0
 _LAST_S = 2.0
-"""Share of processor time for the remaining frames at the end; a full bus would never run dry."""
+"""Processor time for the frames that still wait at the end, s; a full bus would never run dry."""
 
 
 def filter_robots(bus: can.BusABC) -> None:
@@ -62,7 +62,7 @@ def watch_lines(bus: can.BusABC, watch: BusWatch, out: TextIO, goes_on: Callable
 
 
 def watch_table(bus: can.BusABC, watch: BusWatch, name: str, out: TextIO, goes_on: Callable[[], bool]) -> None:
-    """Draws the state of the bus repeatedly. `name` is the bus; other arguments and errors as in `watch_lines`."""
+    """Draws the state of the bus repeatedly. `name` names the bus; other arguments and errors as in `watch_lines`."""
     start_s = time.monotonic()
     drawn_s = -_DRAW_S
     with full_screen(out) as draw:

@@ -102,7 +102,7 @@ class RobotWatch:
             self._cells |= {key: n for key, n in signals.items() if key.startswith("cell_")}
 
     def _notice_start(self, name: str, signals: dict[str, int], now_s: float) -> None:
-        """Resets counters: a start resets those of SENSES and DRIVE, a boot all of a robot's."""
+        """Accepts restarted counters: after a start in SENSES, RANGES and DRIVE, after a boot in all messages."""
         if name == "COMMAND" and signals["opcode"] == Opcode.START:
             self._begin_anew(_OF_TICKS)
         if name == "BOOT" and not self._reports(now_s):

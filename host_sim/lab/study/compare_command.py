@@ -32,7 +32,7 @@ examples:
 Exit code 1 if the study has goals and misses one.
 """
 _OF_RUNS = ("seeds", "first", "environments", "set", "body", "change", "robot", "jobs", "dask", "chunk")
-"""The options that select the runs to make; those of a study exist already."""
+"""The options that select the runs to make; the runs of a study exist already."""
 
 _SET_HELP = "change a parameter, as tools/run --help lists them; may be repeated"
 

@@ -121,7 +121,7 @@ def _read_about(path: Path) -> dict[str, Any]:
 
 
 def _check_same(folder: StudyFolder, about: dict[str, Any]) -> None:
-    """Checks that plan, apart from title and seeds, robot and world are the same as before."""
+    """Checks that the plan, apart from title and seeds, the robot and the world are the same as before."""
     differ = [key for key in about if key != "title" and folder.about.get(key) != about[key]]
     if differ == ["code"]:
         why = "was made with another version of robot or world"

@@ -124,5 +124,5 @@ def _interquartile_mean(values: Floats) -> Any:
 
 
 def _smooth(curve: Floats) -> Floats:
-    """Moving average of a curve; at the start, over the values available."""
+    """Moving average of a curve; at its ends, over the values available."""
     return np.array([curve[max(0, i - _SMOOTH // 2) : i + _SMOOTH // 2 + 1].mean() for i in range(len(curve))])

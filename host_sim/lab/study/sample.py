@@ -39,7 +39,7 @@ class Sample:
             0; NaN where there was none.
         recovery: Contacts after the change until the turns for patterns 1 and 4 were right, and no wrong one known;
             infinite if never, and NaN without a change.
-        settled: As `recovery`, but until this remained so to the end of the run.
+        settled: As `recovery`, but of a recovery that lasted to the end of the run.
     """
 
     name: str
@@ -172,7 +172,7 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
 
 
 def _curve(index: NDArray[np.int64], values: NDArray[Any], wanted: NDArray[np.bool_], count: int) -> Floats:
-    """The first `count` wanted values of each seed; the rows of a seed are adjacent."""
+    """The first `CURVE` wanted values of each seed, in the order of the rows."""
     curve = np.full((count, CURVE), np.nan)
     for seed in range(count):
         found = values[wanted & (index == seed)][:CURVE]

@@ -83,7 +83,7 @@ def _study(arguments: argparse.Namespace) -> int:
 
 
 def run_study(path: Path, out: Path, workers: "Workers", chunk: int = 0) -> str:
-    """Runs the missing trials of a study, and returns a sentence about their number."""
+    """Runs the missing trials of a study, and returns their number in words."""
     from host_sim.base.atomic_file import write_bytes
     from host_sim.lab.study.folder import PLAN_FILE, open_study
     from host_sim.lab.study.plan_file import read_plan

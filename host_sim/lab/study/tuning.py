@@ -1,7 +1,7 @@
 """Searches the parameters of a behaviour by CMA-ES over fleets.
 
-A generation is judged in rounds with fewer settings and more seeds each, all of them new, so that no setting wins
-twice by lucky environments. The best of each generation and the defaults are compared once more on new seeds. A
+A generation is judged in rounds, each with fewer settings and with more seeds, all of them new, so that no setting
+wins twice by lucky environments. The best of each generation and the defaults are compared once more on new seeds. A
 robot that touches things is worse than any that does not, however fast it is.
 """
 
@@ -36,7 +36,7 @@ _PART = 25  # seeds per work item
 _KEPT = 3  # one in this many settings reaches the next round, which has as many times the seeds
 _ROUNDS = 3
 _FINALISTS = 4
-_BUMPED_MAX, _UNFIT = 0.02, 1e6  # with collisions in more of its environments, a robot is worse than any other
+_BUMPED_MAX, _UNFIT = 0.02, 1e6  # with collisions in a larger share of environments, a robot is worse than any other
 _NOTES_MAX = 100_000_000
 _SPREAD = 0.15  # standard deviation of the first generation, as a fraction of a parameter's range
 

@@ -1,5 +1,5 @@
-/* told.h: robots with an external brain. The learner chooses the next action, and the firmware's own motion carries it out
- * in the world of host_sim/world/native. The caller provides all memory. */
+/* told.h: robots with an external brain. The learner chooses the next action, and the firmware's own motion carries
+ * it out in the world of host_sim/world/native. The caller provides all memory. */
 #ifndef OCTET_TOLD_H
 #define OCTET_TOLD_H
 
@@ -21,14 +21,14 @@ enum { TOLD_SENSES = 7 };   /* the fields of struct senses up to the odometers, 
 /* One robot after its action. */
 struct told_robot {
     int32_t senses[TOLD_SENSES];
-    uint32_t food_eaten;    /* meanwhile, */
-    uint32_t collisions;    /* and times that it has begun to touch something */
+    uint32_t food_eaten;    /* pieces, in the last step */
+    uint32_t collisions;    /* times that it began to touch something, in the last step */
 };
 
 /* A world whose robots are told what to do. */
 struct told {
     struct world *world;
-    struct motion *motions;       /* TOLD_MOTION bytes for each body */
+    struct motion *motions;       /* told_motion_size() bytes for each body */
     struct told_robot *robots;    /* one for each body */
     uint32_t tick;                /* number of the next tick */
     uint32_t limit_ticks;         /* after which nothing happens any more */
@@ -43,8 +43,8 @@ void told_begin(struct told *told);
         /* Puts the robots at rest and fills in what they sense. */
 
 void told_step(struct told all[], size_t count, const uint8_t deeds[]);
-        /* Has each robot carry out its deed, in several worlds with equal numbers of bodies. A world's step ends when its last
-           robot is done; the others rest meanwhile. It ends earlier when all food is eaten, or when the time of the step or of
-           the world is up. */
+        /* Has each robot carry out its deed, in several worlds with equal numbers of bodies. A world's step ends when
+           its last robot is done; the others rest meanwhile. It ends earlier when all food is eaten, or when the time
+           of the step or of the world is up. */
 
 #endif
