@@ -48,7 +48,7 @@ bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT])
         return false;
     if (understands(brain->profile, &brain->memory))
         return true;
-    /* Some profile has each kind, so the last one need not be checked. */
+    /* Each kind belongs to some profile, so the last profile need not be checked. */
     brain->profile = 0;
     while (brain->profile < PROFILE_COUNT - 1 && !understands(brain->profile, &brain->memory))
         brain->profile++;

@@ -37,7 +37,7 @@ void memory_put(struct memory *memory, enum memory_kind kind, uint8_t pattern, e
             feel_memory_learn(memory, reading(pattern, i), side);
 }
 
-/* The turn of the majority of the readings with that pattern; none if there is a tie. */
+/* The more frequent turn among the readings with that pattern; none if there is a tie. */
 static enum side side_of_most(const struct memory *memory, uint8_t pattern)
 {
     unsigned left = 0;

@@ -42,7 +42,7 @@ static int32_t counts_left(const struct motion *motion)
     return motion->way_left - owed_counts(&motion->together);
 }
 
-/* The wheel speed that covers counts in one tick, rounded, or the limit if that is too slow. */
+/* The wheel speed that covers counts in one tick, rounded, and at most the limit. */
 static int16_t speed_for(int32_t counts, const struct config *config, uint32_t limit_mm_s)
 {
     uint32_t per_mm_s = (uint32_t)WHEELS_COUNTS_PER_MM * config->value[TICK_MS];
@@ -152,7 +152,7 @@ static void follow(struct motion *motion, int32_t left, int32_t right, unsigned 
     owed_settle(&motion->together, left + right, ticks);
 }
 
-/* Whether a turn takes too much: commands, which late wheels also obey eventually, or speed, which they must soon reach. */
+/* Takes commands off pace_left, since even late wheels obey them in the end; all of it if half the speed is not reached. */
 static void judge_pace(struct motion *motion, unsigned ticks)
 {
     uint32_t told = wheels_magnitude(motion->apart.told[0]) * ticks;
@@ -239,8 +239,8 @@ static enum motion_kind kind_of(const struct action *action)
     return action->forward_mm > 0 ? MOTION_STEP : MOTION_REST;
 }
 
-/* Sets the timeout: twice what a step needs at full speed, three times for a turn, plus a margin. Sets what a turn may command:
- * 7/4 of its arc plus a margin, except for turns that food may end and those too short to judge. */
+/* Sets the timeout: twice what a step needs at full speed, 1.5 times what a turn needs, plus a margin. Sets what a turn may
+ * command: 7/4 of its arc plus a margin, except for turns that food may end and those too short to judge. */
 static void allow(struct motion *motion, const struct config *config)
 {
     uint32_t in_a_tick = wheels_counts_at(full_speed(motion, config), config);

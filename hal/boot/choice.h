@@ -1,5 +1,5 @@
 /* choice.h: which image starts, and other settings that must survive an update: one record of eight bytes, appended as the
- * flash store appends a memory. It is the boot loader's only state, so that every change is atomic. */
+ * flash store appends a memory. It is all that the boot loader stores, so that every change is atomic. */
 #ifndef OCTET_CHOICE_H
 #define OCTET_CHOICE_H
 
@@ -35,10 +35,10 @@ uint8_t choice_bitrate_place(uint32_t bitrate);
         /* The index of a bit rate; BITRATES if it is not in the table. */
 
 const char *choice_link(const struct choice *choice);
-        /* The same, as link_open of a CAN controller takes it. */
+        /* The bit rate, as link_open of a CAN controller takes it. */
 
 uint8_t choice_free_slot(const struct choice *choice);
-        /* The slot that an update writes to: never one that holds a confirmed image. */
+        /* The slot that an update writes to: the chosen one if its image is missing or on trial, else the other one. */
 
 struct choice choice_cleared(const struct choice *choice);
         /* The record while the free slot is being written: the other image, if any, starts. */

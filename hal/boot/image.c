@@ -77,7 +77,7 @@ uint32_t image_crc(unsigned slot, uint32_t end, bool *readable)
 
     *readable = true;
     for (uint32_t at = 0; at < end && *readable; at += PIECE) {
-        uint32_t skipped = at == 0 ? VERSION_AT : 0;   /* skips the size and the CRC itself */
+        uint32_t skipped = at == 0 ? VERSION_AT : 0;   /* skips magic, size and the CRC itself */
 
         *readable = read(slot, at, words);
         crc = crc32_more(crc, (const uint8_t *)words + skipped, PIECE - skipped);

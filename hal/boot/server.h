@@ -16,7 +16,7 @@ struct server {
     struct isotp isotp;
     struct uds uds;
     uint16_t request_id;
-    bool hurries;                 /* server_work has more to do at once */
+    bool hurries;                 /* server_work may have more to do at once */
     bool leaving;
     uint32_t leaving_ms;          /* since when */
 };

@@ -12,8 +12,8 @@ enum {
     UDS_CHALLENGE = 16,
     UDS_BLOCK_MAX = 1026,         /* of a TransferData request, service and number included */
     UDS_SESSION_MS = 5000,        /* the programming session ends after this time without a request */
-    UDS_TRIES = 3,                /* wrong proofs allowed, */
-    UDS_DELAY_MS = 10000          /* and the lockout after that */
+    UDS_TRIES = 3,                /* wrong proofs in a row, */
+    UDS_DELAY_MS = 10000          /* and the lockout after them */
 };
 
 enum uds_work { WORK_NONE, WORK_ERASE, WORK_CHECK, WORK_KINDS };

@@ -24,7 +24,7 @@ enum {
     DID_SESSION = 0xF186
 };
 
-/* A request, and its answer after the service byte; a positive answer begins with the service and POSITIVE. */
+/* A request, and the answer to it; a positive one begins with the service plus POSITIVE. */
 struct exchange {
     const uint8_t *request;
     uint16_t len;

@@ -30,8 +30,8 @@ static enum nrc refuse(struct uds *uds, enum refusal why, enum nrc nrc)
     return nrc;
 }
 
-/* Erase: takes the first byte, and the header of the new image. All possible errors are found before anything is
- * erased. */
+/* Erase: takes the first byte to erase, and the header of the new image. All that can be wrong with them is found before
+ * anything is erased. */
 static enum nrc begin_erase(struct uds *uds, const struct exchange *exchange)
 {
     const uint8_t *options = &exchange->request[ROUTINE_OPTIONS];
@@ -91,7 +91,7 @@ enum nrc uds_download(struct uds *uds, struct exchange *exchange)
 
     if (exchange->request[1] != PLAIN || exchange->request[2] != FOUR_AND_FOUR)
         return NRC_RANGE;
-    if (!uds->erased && (!uds->loading || uds->took))   /* repeated, since its answer was lost */
+    if (!uds->erased && (!uds->loading || uds->took))   /* taken again while loading: its answer was lost */
         return NRC_SEQUENCE;
     if (uds_number(&exchange->request[3]) != uds->at || uds_number(&exchange->request[7]) != end - uds->at)
         return NRC_RANGE;
@@ -117,7 +117,7 @@ static bool write_unit(struct uds *uds, const uint8_t *block)
     return true;
 }
 
-/* Writes ahead of the complete block. If that fails, it is retried, and refused, once the block is complete. */
+/* Writes before the block is complete. If that fails, it is tried again, and refused, once the block is complete. */
 bool uds_ahead(struct uds *uds, const uint8_t request[], uint16_t len)
 {
     uint32_t next = uds->ahead + flash_unit();

@@ -51,7 +51,7 @@ enum { PORT_MORE = 2 };
 
 int port_load_more(unsigned which, uint8_t bytes[CELL_COUNT]);
 int port_store_more(unsigned which, const uint8_t bytes[CELL_COUNT]);
-        /* Load and store eight further bytes for the body, number which below PORT_MORE; as port_load, and port_store with
+        /* Load and store eight further bytes for the body; which is below PORT_MORE. As port_load, and port_store with
            PORT_AT_REST. Only on machines with a body on pins. */
 
 #endif

@@ -8,6 +8,6 @@
 uint32_t crc32(const uint8_t bytes[], size_t count);
 
 uint32_t crc32_more(uint32_t before, const uint8_t bytes[], size_t count);
-        /* Continues a CRC with these bytes; crc is 0 at the start. */
+        /* Continues the CRC in before with these bytes; before is 0 at the start. */
 
 #endif

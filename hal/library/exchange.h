@@ -11,11 +11,11 @@ struct octet {
     struct wire wire;
     struct frame answers[WIRE_FRAMES_MAX];
     void (*respond)(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out);
-    size_t size;   /* of all there is of it, from here on */
+    size_t size;   /* bytes of the whole robot from the start of this struct: more if it is part of a larger one */
 };
 
 void octet_init(struct octet *octet, uint8_t node, const uint8_t memory[CELL_COUNT]);
-        /* Like octet_open, in memory of the caller; respond may replace the firmware's robot_respond. */
+        /* Like octet_open, in memory of the caller, who may then replace respond, the firmware's robot_respond. */
 
 struct octet *octet_open(uint8_t node, const uint8_t memory[CELL_COUNT]);
         /* Creates a robot as after power-up with this stored memory, or an empty one if it is not valid. node is
@@ -32,7 +32,7 @@ const struct frame *octet_answers(const struct octet *octet);
         /* The answers to the last frame, in order. The address stays the same until octet_close. */
 
 size_t octet_size(const struct octet *octet);
-        /* How many bytes it has. A copy of them, put back in the same place, makes it again what it was. */
+        /* The number of bytes of its state, from its address on. Copied back to the same address, they restore it. */
 
 void octet_close(struct octet *octet);
         /* Frees it; null is allowed. */

@@ -70,7 +70,7 @@ static struct slcan_link *open_line(const char *path, speed_t speed)
     return NULL;
 }
 
-/* Splits PATH or PATH@BAUD; without BAUD, the speed is not changed. */
+/* Splits PATH or PATH@BAUD; without BAUD, *speed stays as it is. */
 static bool split(const char *place, char path[PATH_MAX], speed_t *speed)
 {
     if (snprintf(path, PATH_MAX, "%s", place) >= PATH_MAX)
@@ -157,7 +157,7 @@ static int write_by(int64_t deadline, int fd, const char *text, size_t len)
     return 0;
 }
 
-/* Ends a line that may be cut short first; otherwise this one would be read as its tail. */
+/* First ends a line that may have been cut short; otherwise this one would be read as its tail. */
 static int send_frame(struct link *link, const struct frame *frame)
 {
     struct slcan_link *slcan = (struct slcan_link *)link;

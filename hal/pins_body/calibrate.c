@@ -7,10 +7,10 @@ enum {
     LOW_DUTY = 16384, HIGH_DUTY = 49152,
     PUSH = 64,                       /* divisor of duty times millivolts, against overflow */
     STAIR_BEATS = 100,               /* 0.5 s: the motors settle much sooner */
-    LOW_MARK = 2,                    /* index of the mark at the end of the lower stair */
+    LOW_MARK = 2,                    /* the second of the marks: the end of the lower level */
     TURN_MM_S = 150,
     TURNS = 4,
-    TURN_BEATS = 8000,               /* maximum duration of a turn */
+    TURN_BEATS = 8000,               /* 40 s: the maximum duration of all turns */
     COUNTS_1000 = (int)(1608495439LL * TURNS / WHEEL_COUNT_256),   /* counts for 1000 mm of track in this many turns (2 pi) */
     /* Units of the feed-forward (push per count of a stair) and of the dead band (push). */
     FORWARD_1000 = (int)(1000LL * WHEEL_NOMINAL_MV * WHEEL_COUNT_256 / (PUSH * STAIR_BEATS * WHEEL_PERIOD_MS * 256)),

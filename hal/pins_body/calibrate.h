@@ -37,7 +37,7 @@ struct calibrate_look {
 };
 
 void calibrate_begin(struct calibration *calibration, uint8_t measures);
-        /* Resets to rest. */
+        /* Begins to measure one of these; MEASURE_NOTHING: comes to rest. Drops a measurement in progress. */
 
 void calibrate_interrupt(struct calibration *calibration);
         /* Aborts the measurement. */

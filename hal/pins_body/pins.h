@@ -41,6 +41,6 @@ uint16_t pins_bursts(void);
 
 bool pins_bumped(void);
 bool pins_button(void);
-        /* Whether the button is pressed now, not debounced. */
+        /* Whether a bumper or the button is pressed now, not debounced. */
 
 #endif

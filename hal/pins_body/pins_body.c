@@ -31,7 +31,7 @@ struct hal {
     bool calibrates;       /* the button was pressed at power-up: presses select a measurement */
     bool told_track;       /* the robot started by the button must receive its track next */
     bool asked;            /* the current command came from outside */
-    struct output told;    /* the robot's output with the body's answer; static to save stack */
+    struct output told;    /* the robot's output with the body's answer; kept here to save stack */
     bool unstored;         /* storing memory was put off */
     uint8_t memory[CELL_COUNT];
 };

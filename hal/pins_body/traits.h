@@ -17,7 +17,7 @@ struct traits {
 };
 
 bool traits_fit(uint8_t number, uint32_t value);
-        /* Whether value is in the range of parameter TRAIT_FIRST..BODY_PARAMETER_END - 1. */
+        /* Whether value is in the range of parameter number, BODY_MEASURE..BODY_PARAMETER_END - 1. */
 
 void traits_load(struct traits *traits);
         /* Loads the stored values; those missing or out of range get the defaults of octet.dbc. */

@@ -3,7 +3,7 @@
 #include "robot_words.h"
 
 enum {
-    MODEL_PART = 8,            /* fraction of the error that the model closes per period: 37 ms */
+    MODEL_PART = 8,            /* the model closes 1/8 of its error per period: 37 ms */
     MODEL_MS = MODEL_PART * WHEEL_PERIOD_MS,   /* feed-forward inverts the motor: it leads by the lag / this */
     BEHIND_MAX_UM = 4000,
     BATTERY_MIN_MV = 3000,     /* a lower value is no valid measurement */

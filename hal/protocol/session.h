@@ -19,7 +19,7 @@ struct session {
     bool knows_request;     /* if there was one */
     uint8_t owner;          /* who started the robot; 0 if it was not started */
     bool hears;             /* the owner's senses are arriving */
-    bool lockstep;          /* no timeout by the robot's own clock */
+    bool lockstep;          /* the owner's clock counts, not the robot's */
     bool knows_tick;        /* false: any tick is accepted next */
     uint8_t tick;           /* of the last senses accepted, */
     uint8_t counter;        /* and their alive counter */

@@ -65,8 +65,8 @@ void wire_senses(struct wire *wire, const struct senses *senses, struct frame *f
         /* Writes the senses of the robot's own body, for listeners. The drive that is written next answers them. */
 
 void wire_outage(struct wire *wire);
-        /* Handles silence: counts it if senses had been arriving. Then any tick may come next, and the owner has lost the
-           robot; in lockstep only the latter. */
+        /* Handles silence: counts it if senses had been arriving; any tick may come next, and the owner has lost the robot.
+           In lockstep only the latter. */
 
 uint32_t wire_id(const struct wire *wire, uint32_t id_of_node_1);
         /* Converts an identifier of node 1, as in octet.dbc, to this node's. */

@@ -116,7 +116,7 @@ static enum input_kind read_senses(struct wire *wire, const struct frame *frame,
     if (!e2e_is_whole(frame, OCTET_SENSES_LENGTH) || octet_senses_unpack(&got, frame->data, frame->len) != 0)
         return refused(wire, FAULT_DAMAGED);
     note_other(wire, frame, got.tick);
-    /* In lockstep both are repeated. */
+    /* In lockstep the owner sends RANGES and SENSES again. */
     if (wire->session.lockstep && wire->wants_ranges && !have_ranges(wire, got.tick))
         return refused(wire, FAULT_MISSED);
     switch (session_senses(&wire->session, got.tick, got.counter, &missed)) {

@@ -19,7 +19,7 @@ struct clocks clock_start(void);
            set for the clock after reset. */
 
 uint32_t chip_reset_flags(void);
-        /* The cause of the last reset, since the last call, as in RCC_CSR. */
+        /* RCC_CSR: what has reset the chip since the last call. */
 
 void pins_start(void);
         /* Enables the clocks of all peripherals in use, monitors the supply for flash.h, and sets up the pins of the board's LED,

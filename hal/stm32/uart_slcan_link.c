@@ -93,7 +93,7 @@ static bool send_byte(struct link *link, char byte, uint32_t start)
     return true;
 }
 
-/* Ends a line that was cut short first; otherwise this one would be read as its tail. */
+/* First ends a line that was cut short; otherwise this one would be read as its tail. */
 int link_send(struct link *link, const struct frame *frame)
 {
     char text[1 + SLCAN_TEXT_MAX];

@@ -7,7 +7,7 @@ enum {
     AIRCR_RESET = 1 << 2
 };
 
-/* The reset takes a few cycles. The barrier completes all earlier stores of compiler and core. */
+/* The reset takes a few cycles. The barrier makes compiler and core complete all earlier stores. */
 void leave_by_reset(void)
 {
     __asm__ volatile("dsb" ::: "memory");

@@ -14,7 +14,7 @@ bool mcu_clock_is_exact(void);
         /* Whether the clock that mcu_start found comes from a crystal: the bus needs it. */
 
 enum reset_cause mcu_reset_cause(void);
-        /* The cause of the last reset, since the last call. A reset requested by the core is RESET_SOFTWARE. */
+        /* What has reset the chip since the last call. A reset requested by the core is RESET_SOFTWARE. */
 
 void mcu_feed(void);
         /* Feeds the watchdog, which otherwise resets the chip after 1 to 4 s. */
