@@ -52,7 +52,7 @@ def draw_body(kind: BodyKind | None, seed: int, robot: int) -> Any:
 
 
 def body_kind(text: str) -> BodyKind | None:
-    """The kind of body of a name or a file; None for the ideal one.
+    """The kind of body that has this name or that a file describes; None for the ideal one.
 
     A file is TOML: a line such as `lag_ms = 40`, or with a tolerance `lag_ms = [40, 10]`, for each trait that is not
     ideal; `base = "kit"` takes the others from the kit. docs/bodies.md has all.

@@ -70,7 +70,7 @@ unsigned compile_arguments(struct compiler *compiler, const char *close);
         /* Compiles expressions between commas, up to a sign, or to the end of the statement if it is null. Returns how many. */
 
 unsigned compile_values(struct compiler *compiler, const struct token *word, const struct known_word *known, const char *close);
-        /* Compiles the arguments of a command, or with a closing sign of a function. Returns how many. */
+        /* Compiles the arguments of a command or, with a closing sign, of a function. Returns how many. */
 
 bool compiler_ends_statement(const struct compiler *compiler);
         /* Whether a statement can end here. */

@@ -22,7 +22,7 @@ double machine_pop(struct machine *machine);
         /* Push and pop values on the stack, with the cell that they come from, or -1. */
 
 void machine_put(struct machine *machine, unsigned cell, double number);
-        /* Sets a cell. A value in Mem also goes to the robot's memory, unless learning is frozen. */
+        /* Sets a cell. One of Mem is set in the robot's memory, too; while learning is frozen, neither is. */
 
 void machine_take_memory(struct machine *machine);
         /* Copies the robot's memory to Mem. */

@@ -17,7 +17,7 @@ static const char *const expected_words[] = {
     [EXPECTED_PLAIN] = "fewer nested blocks or brackets", [EXPECTED_SHORTER] = "a shorter program, of up to 16383 bytes",
     [EXPECTED_END] = "an end before it: the program runs into it", [EXPECTED_INDEX] = "an index from 0 to the size of the array minus 1",
     [EXPECTED_SIDE] = "0 (nothing), 1 (left) or 2 (right) in Mem, and 0 in Mem[0]",
-    [EXPECTED_ACTION] = "rForward, rTurn or delay in the loop, which never ends without",
+    [EXPECTED_ACTION] = "rForward, rTurn or delay in the loop, which never ends without one",
     [EXPECTED_RETURN] = "fewer gosub and call without their return", [EXPECTED_GOSUB] = "a gosub or a call before it",
     [EXPECTED_ARGUMENTS] = "a value for each parameter of its sub", [EXPECTED_DIVISOR] = "a divisor other than 0",
     [EXPECTED_DEGREES] = "-720 to 720 degrees", [EXPECTED_WAY] = "-800 to 800 pixels", [EXPECTED_DELAY] = "0 to 60000 ms",

@@ -90,7 +90,7 @@ static void pass_memories_on(struct loop *loop)
     }
 }
 
-/* Sends all robots their senses, and each other's reports, before the first answer is read. */
+/* Sends all robots their senses, and each other's memories, before the first answer is read. */
 bool turns_in_process(struct loop *loop, struct turn turns[])
 {
     for (loop->sent = 0; loop->sent < loop->robot_count; loop->sent++)

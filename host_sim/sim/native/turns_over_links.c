@@ -18,7 +18,7 @@ static bool send_senses(struct loop *loop, const struct senses *senses)
     return true;
 }
 
-/* Whether the body can do these speeds: Python checks faster ones. */
+/* Whether the body can do these speeds. Faster ones are left to Python. */
 static bool is_slow(const struct loop *loop, const struct drive *drive)
 {
     double limit = loop->world->params.max_wheel_speed_mm_s;

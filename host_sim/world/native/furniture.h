@@ -33,6 +33,6 @@ void furniture_lay_out(struct furniture *furniture);
         /* Rebuilds the capsules after a change. */
 
 struct obstacles furniture_obstacles(const struct furniture *furniture);
-        /* The same for clearance.h and draw/reach.h. They point into it. */
+        /* The obstacles as clearance.h and draw/reach.h take them. They point into it. */
 
 #endif

@@ -48,7 +48,7 @@ struct body {
     double ahead_rad;             /* the heading of */
     struct vector ahead;          /* one millimetre straight ahead */
     struct body_faults faults;
-    struct kit *kit;              /* the real body; null: ideal */
+    struct kit *kit;              /* what makes it a real body; null: it is ideal */
 };
 
 struct world {

@@ -50,7 +50,7 @@ static void draw(struct draws *draws, const struct layout_kind *kind, struct rea
     }
 }
 
-/* Whether all food can be reached from the start; leaves in `reach` all cells that can be. */
+/* Whether start and food have room, and all food can be reached; leaves in `reach` the cells that can be. */
 static bool is_fair(const struct layout *layout, const struct layout_params *params, struct reach *reach)
 {
     struct obstacles obstacles = layout_obstacles(layout, params);

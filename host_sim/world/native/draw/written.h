@@ -1,4 +1,4 @@
-/* written.h: a world file as a person wrote it, unchecked. docs/worlds.md explains its keys. */
+/* written.h: a world as a person wrote it, unchecked. docs/worlds.md explains its keys. */
 #ifndef OCTET_WRITTEN_H
 #define OCTET_WRITTEN_H
 

@@ -35,7 +35,7 @@ struct kit_wheel {
     struct wheel control;
     int32_t duty;         /* 1/65536 */
     int64_t speed;        /* of the motor, 1/65536 count in a period of the controller */
-    int64_t strength;     /* of the motor: added to that per period and unit of duty beyond the dead band */
+    int64_t strength;     /* of the motor: the speed that a duty of 1 beyond the dead band adds in a period */
     uint64_t place;       /* of the motor, 1/65536 count, */
     uint64_t place_was;   /* and when it last rolled */
     double told_mm_s;     /* commanded speed after the lag, */
@@ -110,6 +110,6 @@ void kit_sense(struct kit *kit, const struct world *world, const struct body *bo
         /* Converts what an ideal body senses to what this one senses; the same result if called again in the same tick. */
 
 bool kit_sees(const struct kit *kit, double ahead_mm, double aside_mm, double beam_mm);
-        /* Whether its receiver sees food this far ahead and this far beside that line; beam_mm: the width of the ideal beam. */
+        /* Whether its receiver sees food this far ahead and this far to the side; beam_mm: the width of the ideal beam. */
 
 #endif

@@ -6,7 +6,7 @@
 enum { STREAMS = 8 };   /* random numbers per tick */
 
 static const uint64_t SENSES = (uint64_t)1 << 48;   /* first number of the sensors' random stream */
-static const double FOLDED = 2.0;                   /* below fold_mm the apparent distance grows so many times as fast */
+static const double FOLDED = 2.0;                   /* below fold_mm: growth of the apparent distance per mm nearer */
 static const double RAD_PER_DEG = 0.017453292519943295, BEACON_MAX_MM = 8191.0;
 
 static double chance(const struct kit *kit, uint32_t tick, unsigned n)
@@ -63,7 +63,7 @@ void kit_light(const struct kit *kit, const struct world *world, const struct bo
     kit_light_from(kit, range_mm, tick, light);
 }
 
-/* Light that each sensor pair receives; its window acts like so much more distance. */
+/* The window of a sensor acts like BEHIND_MM more distance. */
 void kit_light_from(const struct kit *kit, const uint8_t range_mm[FEEL_COUNT], uint32_t tick, uint16_t light[FEEL_COUNT])
 {
     static const double BEHIND_MM = 20.0, MOST = 4095.0;

@@ -48,6 +48,6 @@ bool capsule_hides(const struct capsule *capsule, struct vector from, struct vec
         /* Whether it crosses the straight line between two points. */
 
 bool capsule_disc_hides(struct vector centre, double radius_mm, struct vector from, struct vector to);
-        /* Whether a disc is. */
+        /* The same for a disc. */
 
 #endif
