@@ -1,17 +1,17 @@
 """An emulated board: its hardware, the image that it runs, and a link to the simulator."""
 
+import struct
 import time
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from host_sim.base.errors import UsageError
+from host_sim.base.errors import OctetError, UsageError
 from host_sim.base.paths import image_path
 from host_sim.emulator.can import CanFrame
 from host_sim.emulator.chips import CHIPS, Chip
 from host_sim.emulator.clock import NEVER, SECOND
-from host_sim.emulator.core import load_segments
 from host_sim.emulator.hardware import Faults, Hardware
 from host_sim.emulator.registers import PowerCut
 from host_sim.protocol.codec import Frame
@@ -19,6 +19,9 @@ from host_sim.transport.slcan_link import encode
 
 _BOOT_S = 0.6
 """Enough time to erase a page of flash."""
+
+_ELF_HEADER, _PROGRAM_HEADER = struct.Struct("<4s5B7x2H5I3H"), struct.Struct("<8I")
+_ELF_32_BITS, _ELF_ARM, _ELF_LOADED = 1, 40, 1
 
 
 @dataclass(frozen=True)
@@ -207,3 +210,27 @@ def start_board(
     first, second = LAYOUTS[name].slots
     slots = Slots((first, second + LAYOUTS[name].slot_bytes), [(first, image.data)])
     return EmulatedBoard(CHIPS[name], image_path(name, f"{link}-boot"), faults, serial=serial, slots=slots)
+
+
+def load_segments(path: Path) -> list[tuple[int, bytes]]:
+    """The segments of an image, (address, bytes), as a probe writes them.
+
+    Args:
+        path: The `.elf` file.
+
+    Raises:
+        OctetError: The file is not an image for an ARM core.
+    """
+    try:
+        data = path.read_bytes()
+        magic, bits, *_, machine, _, _, table, _, _, _, _, count = _ELF_HEADER.unpack_from(data)
+        if magic != b"\x7fELF" or bits != _ELF_32_BITS or machine != _ELF_ARM:
+            raise OctetError(f"cannot read the image {path}: not a 32-bit ELF file for ARM")
+        headers = [_PROGRAM_HEADER.unpack_from(data, table + i * _PROGRAM_HEADER.size) for i in range(count)]
+    except (OSError, struct.error) as error:
+        raise OctetError(f"cannot read the image {path}: {error}") from error
+    return [
+        (at, data[offset : offset + size])
+        for kind, offset, _, at, size, *_ in headers
+        if kind == _ELF_LOADED and size
+    ]

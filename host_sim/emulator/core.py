@@ -4,7 +4,6 @@ import struct
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import Any, cast
 
 from host_sim.base.c_interface import c_interface
@@ -63,10 +62,6 @@ _RETURN_TO_THREAD = 0xFFFFFFF9
 _NMI, _HARD_FAULT = 2, 3
 _IBUSERR, _PRECISERR, _STKERR, _UNDEFINSTR = 1 << 8, 1 << 9, 1 << 12, 1 << 16
 _WFI = b"\x30\xbf"
-_WIDE_PREFIXES = (0b11101, 0b11110, 0b11111)
-
-_ELF_HEADER, _PROGRAM_HEADER = struct.Struct("<4s5B7x2H5I3H"), struct.Struct("<8I")
-_ELF_32_BITS, _ELF_ARM, _ELF_LOADED = 1, 40, 1
 
 
 @dataclass(frozen=True)
@@ -303,27 +298,3 @@ class Core:
 
     def _word(self, address: int) -> int:
         return int.from_bytes(self._uc.mem_read(address, 4), "little")
-
-
-def load_segments(path: Path) -> list[tuple[int, bytes]]:
-    """The segments of an image, (address, bytes), as a probe writes them.
-
-    Args:
-        path: The `.elf` file.
-
-    Raises:
-        OctetError: The file is not an image for an ARM core.
-    """
-    try:
-        data = path.read_bytes()
-        magic, bits, *_, machine, _, _, table, _, _, _, _, count = _ELF_HEADER.unpack_from(data)
-        if magic != b"\x7fELF" or bits != _ELF_32_BITS or machine != _ELF_ARM:
-            raise OctetError(f"cannot read the image {path}: not a 32-bit ELF file for ARM")
-        headers = [_PROGRAM_HEADER.unpack_from(data, table + i * _PROGRAM_HEADER.size) for i in range(count)]
-    except (OSError, struct.error) as error:
-        raise OctetError(f"cannot read the image {path}: {error}") from error
-    return [
-        (at, data[offset : offset + size])
-        for kind, offset, _, at, size, *_ in headers
-        if kind == _ELF_LOADED and size
-    ]

@@ -4,8 +4,6 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
-from itertools import accumulate
-from math import ceil
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
@@ -19,7 +17,7 @@ from host_sim.world.geometry import Pose
 from host_sim.world.layouts import Layout
 from host_sim.world.native_library import load_native
 from host_sim.world.params import SimParams
-from host_sim.world.plain_space import cones_in_c
+from host_sim.world.plain_space import cones_in_c, grid_in_c
 from host_sim.world.world_library import world_library
 
 LIBRARY = BUILD / "host" / "host_sim" / "sim" / "native" / "liboctet_fleet.so"
@@ -37,7 +35,7 @@ _NAMES = (
 HEADERS = (*(_WORLD / f"{name}.h" for name in _NAMES), PACKAGE / "sim" / "native" / "fleet.h")
 
 _Done = TypeVar("_Done")
-_CELL_MM, _GRID_FROM = 500.0, 8
+_GRID_FROM = 8
 _SLICE, _SLICES = 20, 16  # work items that a thread takes at a time: few enough for all threads to be busy to the end
 
 
@@ -251,7 +249,8 @@ class NativeFleet:
         for i, (a, b) in enumerate(layout.bars, library.WALLS):
             library.capsule_set(capsules + i, a, b, params.bar_thickness_mm / 2)
         if self._each >= _GRID_FROM:
-            self._lay_grid(world, [(there.low, there.high) for there in capsules])
+            grid = self._grids[world] = grid_in_c(ffi, params, self._cones.reach_mm, capsules, self._each)
+            self._spaces[world].grid = grid[0]
         words = -(-(count + self._each) // library.PLAIN_WORD_BITS)
         touching = ffi.new("uint64_t[]", words * (self._each + 1))
         self._things[world] = capsules, food, touching
@@ -262,25 +261,6 @@ class NativeFleet:
             ranges.capsules = world_library()[0].cast("struct capsule *", int(ffi.cast("uintptr_t", capsules)))
             ranges.capsule_count = count
         space.capsules, space.capsule_count, space.touching, space.words = capsules, count, touching, words
-
-    def _lay_grid(self, world: int, boxes: Sequence[tuple[Any, Any]]) -> None:
-        """Builds the grid of a world: each cell lists the capsules that can be felt from there."""
-        ffi, params, reach_mm = self._ffi, self._params, self._cones.reach_mm
-        columns, rows = ceil(params.width_mm / _CELL_MM), ceil(params.height_mm / _CELL_MM)
-        cells: list[list[int]] = [[] for _ in range(columns * rows)]
-        for number, (low, high) in enumerate(boxes):
-            for row in _cells(low.y - reach_mm, high.y + reach_mm, rows):
-                for column in _cells(low.x - reach_mm, high.x + reach_mm, columns):
-                    cells[row * columns + column].append(number)
-        parts = (
-            ffi.new("uint32_t[]", [0, *accumulate(map(len, cells))]),
-            ffi.new("uint32_t[]", [number for cell in cells for number in cell] or [0]),
-            ffi.new("uint32_t[]", columns * rows),
-            *(ffi.new("uint32_t[]", self._each) for _ in range(2)),
-        )
-        grid = ffi.new("struct plain_grid *", (_CELL_MM, columns, rows, *parts))
-        self._grids[world] = grid, *parts
-        self._spaces[world].grid = grid
 
     def _command(self, robot: Any, opcode: int, which: int, value: int) -> int:
         answer = self._ffi.new("uint32_t *")
@@ -301,11 +281,6 @@ def on_all_processors(work: Callable[[Sequence[int]], _Done], numbers: Sequence[
 
 def _address(pointer: Any) -> int:
     return int(world_library()[0].cast("uintptr_t", pointer))
-
-
-def _cells(low_mm: float, high_mm: float, count: int) -> range:
-    """The grid columns or rows that an interval touches; positions outside belong to the nearest."""
-    return range(max(0, min(count - 1, int(low_mm / _CELL_MM))), max(0, min(count - 1, int(high_mm / _CELL_MM))) + 1)
 
 
 @cache

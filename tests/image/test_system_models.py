@@ -4,9 +4,10 @@ import pytest
 
 from host_sim.backends.robot_process import PROGRAM
 from host_sim.base.errors import OctetError
+from host_sim.emulator.board import load_segments
 from host_sim.emulator.c_models import c_models
 from host_sim.emulator.clock import SECOND
-from host_sim.emulator.core import PAGE, Core, load_segments
+from host_sim.emulator.core import PAGE, Core
 from host_sim.emulator.ports import GpioF1, GpioF4, GpioG4
 from host_sim.emulator.registers import BoardError
 from host_sim.emulator.system import SystemControl, SysTick, Watchdog
