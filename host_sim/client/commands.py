@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from host_sim.base.errors import RobotError
+from host_sim.client.report_checks import holds
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, MEMORY_KINDS, PROFILES, MemoryKind
@@ -48,7 +49,7 @@ def stop(client: RobotClient) -> None:
     """
     client.inbox.session = None
     client.dialogue.demand_reports("stop")
-    if not client.inbox.holds():
+    if not holds(client.inbox):
         client.dialogue.demand_reports("report")  # one of the two reports may have been damaged in transit
     client.check_held()
     client.check_settled()

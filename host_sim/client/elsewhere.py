@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from host_sim.client.report_checks import holds, is_as_started
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.robot_reports import FIRST_HALF
 from host_sim.protocol.codec import Frame
@@ -45,12 +46,12 @@ def routine_reports(client: RobotClient) -> list[tuple[str, Frame]]:
     """The last report of each kind whose repetition with the next counter needs no further handling."""
     heartbeat = client.reports.heartbeat
     names = {"FAULTS"}
-    if client.inbox.holds():
+    if holds(client.inbox):
         names.add("HEALTH")
     if client.reports.memory_is_last:
         names.add("MEMORY")
     is_ours = heartbeat.get("state") and not heartbeat["silent"] and heartbeat["owner"] in (0, client.inbox.owner)
-    if is_ours and client.inbox.is_as_started():
+    if is_ours and is_as_started(client.inbox):
         names.add("HEARTBEAT")
     return client.reports.last_of(names)
 

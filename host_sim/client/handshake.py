@@ -1,6 +1,7 @@
 """The handshake: the robot stops, identifies itself, and is rejected if it uses another protocol."""
 
 from host_sim.base.errors import RivalError, RobotError
+from host_sim.client.report_checks import holds
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.told import Told
 from host_sim.protocol.codec import Frame
@@ -39,7 +40,7 @@ def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) ->
         client.reports.await_all()  # reports before the answer are not in the log
         if not client.dialogue.await_reports():
             client.dialogue.demand_reports("stop")
-        if not client.inbox.holds():  # it had an owner, and received other commands
+        if not holds(client.inbox):  # it had an owner, and received other commands
             client.dialogue.demand_reports("stop")
         client.firmware = client.firmware or client.reports.boot
     finally:

@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 from host_sim.base.errors import SessionLostError
 from host_sim.client.asked_commands import AskedCommands, Rivals
 from host_sim.client.freshness import Arrival
-from host_sim.client.report_checks import check_heartbeat, check_report
 from host_sim.client.robot_reports import REPORTS, RobotReports
 from host_sim.client.session import FrameCounts, Session
 from host_sim.client.told import Told
@@ -34,6 +33,7 @@ class Inbox:
         told: The commands that the robot has carried out.
         rivals: Other simulators that command it.
         refuse: Called with each refused frame and the reason.
+        check: Called with each heartbeat and each new report; it may raise what `take` raises.
         reports: The robot's latest reports.
         session: How the robot was started; None while it is stopped.
         last: The last valid frame from the robot.
@@ -58,6 +58,7 @@ class Inbox:
     asked: AskedCommands = field(default_factory=AskedCommands)
     told: Told = field(default_factory=Told)
     refuse: Callable[[Frame, str], object] = lambda _frame, _why: None
+    check: Callable[[DecodedFrame], object] = lambda _report: None
     reports: RobotReports = field(default_factory=RobotReports)
     session: Session | None = None
     last: Frame | None = None
@@ -249,7 +250,7 @@ class Inbox:
         if decoded.signals.get("silent"):
             self.counts.duplicate += 1
             self.silent = True
-            check_heartbeat(self, decoded)
+            self.check(decoded)
             return
         arrival = self._arrival(frame, decoded)
         if arrival in (Arrival.AGAIN, Arrival.LATE):
@@ -262,7 +263,7 @@ class Inbox:
             self._refuse(frame, "not a memory")
             return
         self._accept(frame)
-        check_report(self, decoded)
+        self.check(decoded)
 
     def _arrival(self, frame: Frame, decoded: DecodedFrame) -> Arrival:
         """Compares a report with those before it.
@@ -273,18 +274,6 @@ class Inbox:
         arrival = self.reports.judge(frame, decoded, self.counts.missing)
         is_asked_for = self.reporting and self.asked.answered and self.reports.is_awaited(decoded)
         return Arrival.NEW if arrival == Arrival.AGAIN and is_asked_for else arrival
-
-    def holds(self) -> bool:
-        """Whether the robot's last report shows that it holds exactly the commands sent here."""
-        return self.told.agrees(self.reports.held, self.reports.memory)
-
-    def is_as_started(self) -> bool:
-        """Whether the robot's last heartbeat shows that it runs as it was started here."""
-        session, said = self.session, self.reports.heartbeat
-        if session is None or self.told.given_up:
-            return True
-        ours = session.profile, int(self.lockstep), int(session.frozen)
-        return (said["profile"], said["lockstep"], said["frozen"]) == ours
 
     def _refuse(self, frame: Frame, why: str) -> None:
         self.counts.refused += 1

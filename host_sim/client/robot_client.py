@@ -1,6 +1,7 @@
 """A client for one robot: sends senses until they are answered, handles its frames, and logs each frame once."""
 
 from collections.abc import Mapping
+from functools import partial
 
 from host_sim.base.errors import SessionLostError
 from host_sim.client.connection import Connection
@@ -9,6 +10,7 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.client.inbox import Inbox
 from host_sim.client.incidents import Incident, RefusedFrames
 from host_sim.client.punctuality import Punctuality
+from host_sim.client.report_checks import check_report, holds, is_as_started
 from host_sim.client.robot_reports import RobotReports
 from host_sim.client.round_trip import RoundTrip
 from host_sim.client.session import FrameCounts
@@ -70,6 +72,7 @@ class RobotClient:
         self.punctuality = Punctuality()
         self.refused = RefusedFrames(log)
         self.inbox.refuse = self.refused.add
+        self.inbox.check = partial(check_report, self.inbox)
         self.waiting = Waiting(connection, self.round_trip, self.inbox)
         self.dialogue = Dialogue(connection, self.inbox, self.waiting)
         self.incidents: list[Incident] = []
@@ -124,7 +127,7 @@ class RobotClient:
 
     def check_held(self) -> None:
         """Notes an incident if, by its last report, the robot does not hold the commands sent here."""
-        if not self.inbox.holds() or not self.inbox.is_as_started():
+        if not holds(self.inbox) or not is_as_started(self.inbox):
             self.distrust("the robot does not hold what it was told here: somebody else commands it")
             self.inbox.told.given_up = True
 
