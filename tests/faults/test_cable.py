@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.faults.cable import Adapter, Cable, Socket
+from host_sim.faults.cable import Cable, Socket
 from host_sim.protocol.codec import node_of
+from tests.runs.slcan_adapter import Adapter
 
 SOON_S = 30.0
 TO_NODE_1, TO_NODE_2, FROM_NODE_1 = b"t0210\r", b"t0220\r", b"t0410\r"

@@ -5,7 +5,6 @@ from itertools import pairwise
 import pytest
 
 from host_sim.api import run
-from host_sim.emulator.two_boards import TwoBoards
 from host_sim.protocol.codec import COUNTERS, Frame, Protocol
 from host_sim.protocol.generated import ANSWER_WANTS_RANGES, PROFILES, TICK_SPAN, Opcode, Reason, Result
 from host_sim.recording.log_reader import read_log
@@ -14,6 +13,7 @@ from host_sim.world.arena import Arena
 from host_sim.world.body_kinds import body_kind
 from host_sim.world.layouts import generate
 from host_sim.world.params import SimParams
+from tests.image.two_boards import TwoBoards
 
 PROTOCOL = Protocol()
 

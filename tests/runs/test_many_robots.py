@@ -14,11 +14,11 @@ import pytest
 
 from host_sim.cli.main import main
 from host_sim.client.robot_reports import REPORTS
-from host_sim.faults.cable import Adapter
 from host_sim.protocol.codec import Frame, node_of
 from host_sim.protocol.every_node import hear
 from host_sim.recording.log_reader import read_log
 from host_sim.report.bus_load import measure
+from tests.runs.slcan_adapter import Adapter
 from tests.runs.support import ROBOT, Run, assert_healthy, octet
 
 MANY = 28
