@@ -1,5 +1,5 @@
 // @ts-check
-/* Shows what could not be done, next to the pointer. */
+/* Shows what could not be done, where a person last pressed something or at the element in focus. */
 
 import { byId, setText } from "./elements.js";
 

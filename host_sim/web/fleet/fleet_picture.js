@@ -7,10 +7,10 @@ import { PATTERNS } from "../generated.js";
 
 const GAP_MM = 120;
 const FOOD_MM = 50;
-/** Small worlds are drawn with enlarged contents. */
+/** Below this scale, robots, food and obstacles are drawn enlarged. */
 const SMALL_PX_PER_MM = 0.08;
 const ENLARGED = 2.2;
-/** Minimum radius at which a robot is drawn round and with its heading. */
+/** A robot of a smaller radius is drawn as a square, without its heading. */
 const ROUND_PX = 3;
 
 /** Draws some worlds with all that is in them, if anything differs from what is there. */

@@ -1,5 +1,5 @@
 // @ts-check
-/* Asks the worker for runs. If an experiment changes while it is simulated, only its newest version is simulated next. */
+/* Asks the worker for runs. If an experiment changes while it is simulated, only the newest version comes next. */
 
 import { inflate } from "../core/packed_columns.js";
 

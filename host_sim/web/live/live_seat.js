@@ -1,5 +1,5 @@
 // @ts-check
-/* A live page with a robot of its own: it shows that robot and hides all that it may not change. */
+/* A live page with a robot of its own: it shows that robot and hides the controls that it may not use. */
 
 import { byId, setText, typedById } from "../core/elements.js";
 import { inEachLanguage, say } from "../core/language.js";

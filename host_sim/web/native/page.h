@@ -83,7 +83,7 @@ void page_bind(struct loop_robot *robot, struct octet *octet);
         /* Makes this the robot at a place of the run. */
 
 size_t page_exchange(uint32_t robot, uint32_t id, uint32_t len);
-        /* Sends a robot the frame with the bytes in page_bytes(). Returns the number of answers, which are in page_answers(). */
+        /* Sends a robot the frame with the bytes in page_bytes(). Returns the number of its page_answers(). */
 
 uint8_t *page_bytes(void);
         /* Buffer of 8 bytes for what JavaScript passes. */
@@ -92,8 +92,8 @@ const struct frame *page_answers(uint32_t robot);
         /* The robot's last answers. */
 
 int32_t page_command(uint32_t robot, uint32_t opcode, uint32_t which, uint32_t value);
-        /* Sends a command, with which and value as in struct command, and logs it and the robot's frames up to its answer.
-           Returns the answer's result, an enum result; -1 if there was none. */
+        /* Sends a command, with which and value as in struct command, and logs it and the robot's frames up to its
+           answer. Returns the answer's result, an enum result; -1 if there was none. */
 
 uint32_t page_answer_value(void);
         /* The value of that answer. */
@@ -111,7 +111,7 @@ void page_send_ranges(uint32_t robot, uint32_t tick);
         /* Sends and logs the RANGES of its body, which precede the senses of a tick. */
 
 void page_take_reports(uint32_t robot);
-        /* Logs all frames from the robot since then. */
+        /* Logs all waiting frames of the robot. */
 
 const uint8_t *page_memory(uint32_t robot);
         /* The robot's eight bytes. */
@@ -173,8 +173,8 @@ void page_measure(uint32_t robot, uint32_t tick, uint8_t *range_mm);
         /* The FEEL_COUNT distances that a robot is told in that tick. */
 
 uint32_t page_run(uint32_t tick, uint32_t ticks_max);
-        /* Runs a block, as loop_run does, from this tick of the run. ticks_max is 1..PAGE_TICKS_MAX. Returns the number of
-           ticks run. */
+        /* Runs a block, as loop_run does, from this tick of the run. ticks_max is 1..PAGE_TICKS_MAX. Returns the
+           number of ticks run. */
 
 const int16_t *page_rows(uint32_t robot);
         /* For each tick of the block ROW_COUNT numbers, */
@@ -210,8 +210,8 @@ char *page_program_text(void);
         /* Buffer of PROGRAM_TEXT_MAX bytes for a program from JavaScript. */
 
 bool page_program(uint32_t robot, uint32_t len);
-        /* Replaces a robot that was never started by one with that program for a brain and an empty memory. False if out of
-           memory. */
+        /* Replaces a robot that was never started by one with that program for a brain and an empty memory. False if
+           out of memory. */
 
 enum { PAGE_PROGRAM_STATE, PAGE_PROGRAM_LINE, PAGE_PROGRAM_EXPECTED, PAGE_PROGRAM_STEPS, PAGE_PROGRAM_NAMES, PAGE_PROGRAM_NUMBERS };
 
@@ -247,8 +247,8 @@ double *page_write_entry(uint32_t key, uint32_t index, int32_t count);
         /* and as written_entry: where JavaScript puts the entry's numbers; null beyond the arrays. */
 
 const double *page_check(void);
-        /* The first fault of the written world: key, entry, number of values, values, as in struct written_fault; null if
-           it is a fair world. */
+        /* The first fault of the written world: key, entry, number of values, values, as in struct written_fault;
+           null if it is a fair world. */
 
 const char *page_fault_text(void);
         /* That fault in words. */

@@ -47,7 +47,7 @@ static void set_world(struct page_world *of, const double dimensions[PAGE_DIMENS
     of->world.food = of->food;
 }
 
-/* Rebuilds the space from the furniture. What the bodies overlap already counts as no new contact. */
+/* Rebuilds the space from the furniture. What the bodies already overlap is no new contact. */
 static void take_furniture(struct page_world *of)
 {
     of->space.capsule_count = of->ranges.capsule_count = of->kit_ranges.capsule_count = of->furniture.capsule_count;

@@ -1,5 +1,5 @@
 // @ts-check
-/* A field for a program, with line numbers, one line highlighted, and one marked as a mistake. */
+/* A field for a program, with line numbers, the current line highlighted and the line of a mistake marked. */
 
 /** The text is in `field`. */
 export class Editor {

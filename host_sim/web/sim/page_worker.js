@@ -1,5 +1,5 @@
 // @ts-check
-/* The page's worker: simulates experiments and sends its recording after each environment. */
+/* The page's worker: simulates experiments and sends each run after its first environment and at its end. */
 
 import { openLog, recordedExperiment } from "./log_opening.js";
 import { programState } from "./native_program.js";
@@ -21,7 +21,7 @@ import { openWorld } from "./world_opening.js";
  *   | {do: "open", id: number, text: string, world: string}
  *   | {do: "repeat", id: number, recorded: import("./log_opening.js").RecordedRun}} Request
  *
- * What it answers: a run, after each environment and at its end, with the changes that were refused; the whole log; the
+ * What it answers: a run, after its first environment and at its end, with the changes that were refused; the whole log; the
  * eight bytes of a robot at the end, or what its program is doing then; or the experiment that a world file, a log, or a recorded run, is of.
  * @typedef {{id: number, run?: Recorded, refusals?: [number, string][], done: boolean, log?: Uint8Array[],
  *   memory?: number[], program?: import("./native_program.js").ProgramState, opened?: import("./log_opening.js").Opened, experiment?: Experiment, error?: string}} Answer

@@ -27,7 +27,7 @@ const NAMES = ["x", "y", "heading", ...Object.keys(COLUMNS)];
 const EAT = ROW.indexOf("eat");
 const FIRST_ROOM = 1 << 13;
 
-/** Called with each block of each robot. */
+/** Its `tracks` record the blocks of one robot each. */
 export class RunRecorder {
   /**
    * @param {Measures} measures
