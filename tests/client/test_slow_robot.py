@@ -34,7 +34,7 @@ class SlowRobot:
         self.answers: deque[Frame] = deque()
         self.last = Frame(-1, b"")
         self.stuck = False
-        self.rest_s = 0.0  # what it needs before the DRIVE that says that it has stopped
+        self.rest_s = 0.0  # how late the DRIVE comes that says that it has stopped
 
     def now(self) -> float:
         return self.now_s

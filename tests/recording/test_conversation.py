@@ -178,7 +178,7 @@ def test_senses_that_the_robot_has_not_heard_make_no_difference(name, unanswered
 
 @pytest.mark.parametrize(("name", "drives"), [("unsaid_outage", 25), ("late_answer", 25), ("gap_upon_gap", 38)])
 def test_what_a_busy_machine_recorded_makes_no_difference(name, drives):
-    """An outage without an EMERGENCY; a DRIVE after the next SENSES, which are lost; what later drives rule out."""
+    """An outage without EMERGENCY; a DRIVE after the next SENSES, which are lost; a gap that later DRIVEs explain."""
     outcome = replay(read_log(recorded(name)), PROTOCOL)
 
     assert (outcome.drives, outcome.difference) == (drives, None)

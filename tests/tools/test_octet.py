@@ -111,7 +111,7 @@ def call(folder: Path, words: str, **environment: str) -> subprocess.CompletedPr
 
 @pytest.mark.parametrize("words", HELP)
 def test_help_needs_no_set_up(words: str, sources: Path, tmp_path: Path) -> None:
-    """Nor what is a package before Python 3.11."""
+    """Help does not even need tomllib, which Python has from 3.11 on."""
     (tmp_path / "tomllib.py").write_text('raise ModuleNotFoundError("tomllib")\n')
     done = call(sources, words, PYTHONPATH=str(tmp_path))
     assert (done.returncode, done.stderr) == (0, "")

@@ -35,7 +35,7 @@ TEST_IF(a_far_end_that_is_gone_fails_a_send, is_pair)
     TEST_ASSERT_EQUAL_INT(LINK_E_CLOSED, link_send(near, &HELLO));
 }
 
-/* Until it stays full: a kernel that has much to do moves on later what fills a terminal's line. */
+/* Sends until the link stays full: a busy kernel may pass on a terminal's bytes late, and so make room again. */
 static int fill(void)
 {
     int result = 0;
