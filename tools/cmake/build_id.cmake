@@ -1,4 +1,4 @@
-# Generates build_id.h, the commit of the sources, in OCTET_GENERATED: checked at each build, rewritten only if changed.
+# Generates build_id.h, the commit of the sources, in OCTET_GENERATED: checked at each build, rewritten if changed.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   # The second output is never made, so the command runs at each build.
   add_custom_command(

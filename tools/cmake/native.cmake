@@ -1,6 +1,6 @@
 # octet_native_library(TARGET STATIC_LIBRARIES PREFIX HEADER...): a shared library for Python, made of static ones.
-# Its function PREFIXstamp returns the SHA-256 sums of the headers, concatenated. Python compares them with the headers
-# that it reads, and so detects a library that was built from other headers.
+# Its function PREFIXstamp returns the SHA-256 sums of the headers, concatenated. Python compares them with the
+# headers that it reads, and so detects a library that was built from others.
 function(octet_native_library target static prefix)
   if(NOT OCTET_ON_HOST)
     return()   # Python runs on the host

@@ -12,8 +12,8 @@ target_include_directories(unity SYSTEM PUBLIC ${UNITY_DIR})
 target_include_directories(unity PUBLIC ${root})
 target_compile_definitions(unity PUBLIC UNITY_INCLUDE_DOUBLE)   # for the world; the robot uses integers only
 
-# octet_add_test(NAME COMMAND...): adds a Unity program to ctest. If no test runs, or if tests are ignored, Unity exits
-# with 0: that is a failure here.
+# octet_add_test(NAME COMMAND...): adds a Unity program to ctest. If no test runs, or if tests are ignored, Unity
+# exits with 0: that is a failure here.
 function(octet_add_test name)
   add_test(NAME ${name} COMMAND ${ARGN})
   set_tests_properties(${name} PROPERTIES FAIL_REGULAR_EXPRESSION "\n0 Tests;[1-9][0-9]* Ignored" TIMEOUT 60)

@@ -29,7 +29,7 @@ class _Guard(NamedTuple):
 
 
 class Messages:
-    """Encodes and decodes; fills in CRC and counter signals, which `_CRC` and `_COUNTER` find by name.
+    """Encodes and decodes; fills in the CRC and the counter, found by names such as `crc`, `checksum` and `counter`.
 
     The data ID of a message is its attribute `DataID`, or 16 of them in `DataIDList`, by commas; else its identifier.
 

@@ -26,7 +26,7 @@ def run(arguments: argparse.Namespace) -> int:
     python = (pytest_stage(name, sorted(paths), arguments.allow_missing) for name, paths in own.items() if paths)
     stages = [*_checks(changed), *_c_stage(changed), *python]
     code = run_stages(stages, arguments)
-    left = [f"{farther} test files that import the change only indirectly"] if farther else []
+    left = [f"{farther} more test files that import the change, directly or not"] if farther else []
     left += [f"of tools/prove {', '.join(deeper)}"] if deeper else []
     print(f"left out: {'; '.join([*left, 'what needs vcan0'])}. tools/test and tools/prove run all")
     return code

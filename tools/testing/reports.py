@@ -20,7 +20,7 @@ class Count(NamedTuple):
 
     Attributes:
         passed: Number that passed.
-        failed: Number that failed, without those still running.
+        failed: Number that failed, or were skipped and not allowed; without those still running.
         allowed: Skipped tests that the caller allowed, with their reasons.
         running: Tests that have begun and not ended.
     """
