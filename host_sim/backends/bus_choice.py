@@ -18,7 +18,7 @@ _CHOSEN = "OCTET_VCAN_CHOSEN"
 
 
 def check_robot(bus: str, robot: str, nodes: Sequence[int]) -> None:
-    """Refuses a kind of robot that cannot be on a bus.
+    """Refuses a kind of robot that cannot be on the given bus.
 
     Args:
         bus: The bus as given on the command line.

@@ -13,7 +13,7 @@ from host_sim.base.regular_file import read_bytes
 
 _FOLDER = BUILD / "host" / "host_sim" / "program" / "native"
 LIBRARY, PROCESS = _FOLDER / "liboctet_programmed.so", _FOLDER / "octet-program"
-"""Programmable robots as a library and as a program."""
+"""Programmable robots, as a library and as an executable."""
 
 _SIZE_MAX = 16_383
 _TOLD_MAX = 1024

@@ -49,7 +49,7 @@ def _write(path: Path, declarations: str) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     ffi = _read(declarations)
     ffi.set_source(path.stem, None)
-    with contextlib.redirect_stdout(io.StringIO()):  # cffi reports its writing there
+    with contextlib.redirect_stdout(io.StringIO()):  # cffi prints what it writes
         ffi.emit_python_code(str(path))
 
 

@@ -61,7 +61,7 @@ def read_toml(path: Path, what: str) -> TomlFile:
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """Parses TOML. Before Python 3.11 the parser is a package of .venv, which help texts do without.
+    """Parses TOML. Before Python 3.11 the parser is a package of .venv; only this call needs it, help texts do not.
 
     Raises:
         ValueError: The text is not TOML.
@@ -71,7 +71,7 @@ def parse_toml(text: str) -> dict[str, Any]:
         parser = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
     except ModuleNotFoundError:
         python = "this python3 cannot read TOML"
-        raise UsageError(f"{python}: use 3.11 or newer, or call .venv/bin/python with the same words") from None
+        raise UsageError(f"{python}: use 3.11 or newer, or call .venv/bin/python with the same arguments") from None
     parsed: dict[str, Any] = parser.loads(text)
     return parsed
 

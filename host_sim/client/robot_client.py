@@ -63,7 +63,7 @@ class RobotClient:
             connection: Carries the frames.
             protocol: Encodes and decodes them.
             log: Records them.
-            lockstep: Whether the robot waits for senses as long as they take, instead of in real time.
+            lockstep: Whether the robot waits for senses as long as they take, instead of running in real time.
             owner: Owner ID of this simulator, 1..255; the robot obeys only its owner.
         """
         self.connection, self.protocol, self.log = connection, protocol, log
@@ -206,7 +206,7 @@ class RobotClient:
         self._settled = self.tick, self.memory
 
     def _note_lost_answers(self, ticks: int) -> None:
-        """Counts answers owed from before the last answered tick as lost, since answers come in order."""
+        """Notes a loss if answers from before the last answered tick are still owed, since answers come in order."""
         self._lossy = self._lossy or (self.inbox.owed > 0 and self._owed_tick < ticks)
 
     def check_settled(self) -> None:

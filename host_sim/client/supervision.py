@@ -105,7 +105,7 @@ class _State:
     def __init__(self, client: RobotClient) -> None:
         reports = client.reports
         self.boot, self.heartbeat, self.faults = reports.boot, reports.heartbeat, dict(reports.faults)
-        self.denied = reports.faults_before.get("denied", 0)  # the latest may count the cause of its stop
+        self.denied = reports.faults_before.get("denied", 0)  # the latest count may include the cause of its stop
 
 
 def _has_restarted(client: RobotClient, before: _State, lost: SessionLostError) -> bool:
@@ -165,7 +165,7 @@ def _check_twins(client: RobotClient, before: int) -> None:
 
 
 def _has_halted(client: RobotClient, before: _State) -> bool:
-    """Whether the robot has stopped by itself because of its wheels; it is then left at rest."""
+    """Whether the robot has stopped by itself because of its wheels."""
     return not client.reports.heartbeat["state"] and client.faults["denied"] > before.denied
 
 

@@ -144,7 +144,7 @@ class Babble:
 
 
 class Forger(Protocol):
-    """A forger, which listens on a bus, and sends frames in another's name."""
+    """Listens to a bus, and sends frames in another's name."""
 
     def hear(self, frame: Frame) -> None:
         """Notes a frame on the bus."""
@@ -158,14 +158,14 @@ Forgers = Callable[[str], Forger]
 
 
 class Forge:
-    """A forged frame with a valid CRC: `forge:stop` for a command, `forge:MEMORY` for a message."""
+    """A forged frame with a valid CRC goes before the frame: `forge:stop` a command, `forge:MEMORY` a message."""
 
     def __init__(self, size: str, forgers: Forgers) -> None:
         """Takes the name of a command or of a message (any message)."""
         self._forger = forgers(size)
 
     def hear(self, frame: Frame) -> None:
-        """Somebody sends a frame."""
+        """As in `Forger`."""
         self._forger.hear(frame)
 
     def apply(self, passing: Passing, dice: Random) -> list[Passing]:

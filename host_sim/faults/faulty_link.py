@@ -15,7 +15,7 @@ _BEHIND_S = 0.3
 """Time after which a frame waiting to be overtaken arrives, even without other frames, s."""
 
 _LATE_MAX = 1000
-"""Maximum number of frames processed after a timeout: they may be endless, and all be lost here."""
+"""Maximum number of frames processed after a timeout: they may keep coming, and a fault may drop them all."""
 
 
 @dataclass
@@ -115,7 +115,7 @@ class FaultyLink:
             self._ways[direction].put(passing, now)
 
     def _deliver(self) -> None:
-        """Passes on all arrived frames: to the robot at once, to us when received."""
+        """Delivers all due frames: those to the robot are sent at once, those from it wait for `receive`."""
         now = self._clock.now()
         for way in self._ways.values():
             way.deliver(now)

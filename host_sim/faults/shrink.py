@@ -49,7 +49,7 @@ def in_ranges(rules: Sequence[Rule]) -> Iterator[Rule]:
 
 
 def narrower(rule: Rule, holds: Callable[[Rule], bool]) -> Rule:
-    """Narrows a rule to as few frames as possible, removing them at its end, then at its beginning."""
+    """Narrows a rule to as few frames as `holds` accepts, removing them at its end, else at its beginning."""
     step = (rule.last - rule.first + 1) // 2
     while step:
         ends = [replace(rule, last=rule.last - step), replace(rule, first=rule.first + step)]

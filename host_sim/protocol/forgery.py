@@ -9,10 +9,10 @@ from host_sim.protocol.generated import CELL_COUNT, MESSAGES, PARAMETERS, PROFIL
 
 
 class Forger:
-    """A forger, which listens, and sends commands and senses in another's name as the robot expects them."""
+    """Listens to a bus, and sends frames in another's name: commands and senses as the robot expects them."""
 
     def __init__(self, what: str, protocol: Protocol) -> None:
-        """Starts without frames heard.
+        """Starts with no frames heard.
 
         Args:
             what: Name of a command, in lower case, or of a message; empty for any message.

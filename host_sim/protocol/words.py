@@ -54,4 +54,4 @@ PARAMETERS = {name: row for name, row in _ALL.items() if not name.startswith("bo
 """The robot's parameters, by name."""
 
 BODY_PARAMETERS = {name: row for name, row in _ALL.items() if name not in PARAMETERS}
-"""The parameters of a body on pins: calibration commands and results."""
+"""The parameters of a body on pins: the commands and results of its calibration."""
