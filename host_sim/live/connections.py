@@ -32,7 +32,7 @@ class Connections:
     """
 
     def __init__(self, server: web.Server, headers: Mapping[str, str], logger: logging.Logger) -> None:
-        """Creates the factory within a running event loop.
+        """Creates the factory, which must be called in a running event loop.
 
         Args:
             server: Handles the requests.

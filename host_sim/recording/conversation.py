@@ -1,4 +1,4 @@
-"""Checks a log against the protocol alone, for any firmware: every question has an answer."""
+"""Checks a log against the protocol alone, for any firmware: each request must have its answer."""
 
 from dataclasses import dataclass, field
 

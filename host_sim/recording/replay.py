@@ -173,9 +173,9 @@ class _Comparison:
         return None if answer == frame else Difference(self._time_us, frame, answer)
 
     def _answer_in_real_time(self, drive: Frame, tick: int) -> Frame | None:
-        """The firmware's answer, if some number of unanswered senses explains the recorded drive.
+        """The recorded drive, if the loss of some unanswered senses explains it; else another answer of the firmware.
 
-        Often several numbers do. All of them are kept, and later drives rule out the wrong ones.
+        Often several losses do. All of them are kept, and later drives rule out the wrong ones.
         """
         numbers = [self._tick_of(frame) for frame in self._waiting]
         end = numbers.index(tick) + 1 if tick in numbers else len(numbers)  # the host may have continued meanwhile

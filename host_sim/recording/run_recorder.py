@@ -22,7 +22,7 @@ TICKS_MAX = 450_000
 """Maximum length of a trajectory: 26 MB, and some 2 MB as a page. Longer runs retain their last environments."""
 
 _SLACK = 8
-"""A trajectory grows by this fraction before it is cut, since cutting moves all retained data."""
+"""A trajectory grows by one part in this many before it is cut, since cutting moves all retained data."""
 
 _FOOD_EATEN = attrgetter("food_eaten")
 _EVENTS = (Reason.TRIAL, Reason.BOREDOM)
@@ -68,7 +68,7 @@ class RunRecorder:
 
     @classmethod
     def of(cls, simulation: Simulation, boredom_limit: int) -> "RunRecorder":
-        """Creates a recorder for a simulation that has not begun yet; call it after each tick."""
+        """Creates a recorder for a simulation that has not begun yet, which calls it after each step."""
         memories = {client.node: client.memory for client in simulation.clients}
         simulation.watch = recorder = cls(simulation.params, boredom_limit, memories)
         return recorder
@@ -133,7 +133,7 @@ class RunRecorder:
         _note(track.memories, track.ticks, list(history.memory))
 
     def add_block(self, robot: int, block: RobotBlock, memory: Memory) -> None:
-        """Adds one robot's ticks of a block. Food eaten and reports belong to its last tick, which they ended.
+        """Adds one robot's ticks of a block. Food eaten and reports end a block, so they belong to its last tick.
 
         Args:
             robot: Index of the robot; each robot is added once per block.

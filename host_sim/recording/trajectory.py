@@ -92,13 +92,13 @@ class RobotTrack:
         return self.rows_flat[ROW.index(name) :: len(ROW)]
 
     def trail(self, first: int, end: int) -> list[tuple[float, float, int]]:
-        """For each tick from `first` up to, excluding, `end`: x and y in mm after it, and the reason of its drive."""
+        """For each tick from `first` to before `end`: x and y in mm after it, and the reason of its drive."""
         begin, stop = (AXES * (tick - self.first_tick) for tick in (first, end))
         reasons = self.column("reason")[begin // AXES : stop // AXES]
         return list(zip(*(self.poses_flat[begin + axis : stop : AXES] for axis in (0, 1)), reasons, strict=True))
 
     def ticks_of(self, reason: Reason) -> list[int]:
-        """The retained ticks in which turns of a reason began."""
+        """The retained ticks in which turns for a reason began."""
         return [tick for tick, why in self.begun if why == reason]
 
     def cells_at(self, tick: int) -> list[Cell]:

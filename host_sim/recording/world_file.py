@@ -135,7 +135,7 @@ def _world(content: dict[str, Any]) -> World:
 
 
 def _front_extra_mm(content: dict[str, Any]) -> float:
-    """Extra reach of the front cone; 0 if the file has no value, as its five cones are equal."""
+    """Extra reach of the front cone, mm; 0 for a file without a value, whose world has five equal cones."""
     extra_mm = content.get("front_extra_mm", 0.0)
     if not isinstance(extra_mm, float) or not 0.0 <= extra_mm <= _FRONT_EXTRA_MAX_MM:
         raise ValueError(f"front_extra_mm must be a decimal number from 0.0 to {_FRONT_EXTRA_MAX_MM}")

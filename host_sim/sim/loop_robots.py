@@ -151,14 +151,14 @@ class RobotBehindLink:
         self._counts = self._count()
 
     def go_on(self) -> None:
-        """As in `LoopRobot`: the frames received are received again."""
+        """As in `LoopRobot`: the frame in hand is received again."""
         loop, library, socket = self._native.loop, self._native.library, self._socket
         assert socket is not None
         if loop.received == 1:
             frame = loop.in_hand
             socket.put_back(_frame(frame) if frame.id <= _ID_MAX else _NO_FRAME)
         socket.garbled += loop.received == library.LINK_E_GARBLED
-        loop.received = 0  # these frames were this robot's
+        loop.received = 0  # it was this robot's
 
     def _open(self, socket: FrameSocket) -> bool:
         """Lets C code use another socket, if a file descriptor is free for it."""

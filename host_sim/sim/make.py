@@ -174,7 +174,7 @@ def _with_faults(connection: Connection, config: RunConfig, node: int) -> Connec
 
     For a robot in this process, delays are simulated on a virtual clock and cost no wall time.
     """
-    # Most runs have no faults and start without loading this module.
+    # Most runs have no faults and start without loading these modules.
     from host_sim.faults.faulty_link import FaultyLink  # noqa: PLC0415 - see above
     from host_sim.faults.rule import Rule  # noqa: PLC0415 - see above
     from host_sim.faults.schedule import Schedule  # noqa: PLC0415 - see above

@@ -61,7 +61,7 @@ class NativeFleet:
     Attributes:
         robots: Number of robots.
         worlds: Number of worlds: 1, or as many as there are robots.
-        ticks_max: Maximum number of ticks per run; None for any.
+        ticks_max: Maximum number of ticks per call of `run`; None for any.
     """
 
     def __init__(

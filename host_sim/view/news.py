@@ -13,7 +13,7 @@ _SHOWN = ("plant", "move_plant", "grow_plant", "remove_plant", "body")
 
 
 def news_of(record: WorldRecord) -> list[News]:
-    """All changes in order, including impossible scheduled ones, but not things moved by hand."""
+    """All changes in order, including scheduled ones that could not happen, but not things moved by hand."""
     told = [(tick, sentence) for (tick, sentence), _ in groupby(_sentences(record))]
     refused = [(refused.tick, f"{refused.what} could not happen: {refused.why}.") for refused in record.refused]
     return sorted([*told, *refused], key=lambda news: news[0])
