@@ -56,7 +56,7 @@ MARKS = {
 """Marks by reason; the colours are those of Okabe and Ito, which colour-blind people can tell apart."""
 
 PATHS = (Reason.WANDER, Reason.TOWARD_FOOD)
-"""Reasons with which the robot drives instead of turning."""
+"""Reasons for which the robot drives instead of turning."""
 
 
 class Plan:

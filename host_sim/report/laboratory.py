@@ -59,7 +59,7 @@ def laboratory(
 
 
 def commands_in(log: LogReader) -> Iterator[tuple[int, Frame]]:
-    """The possible command frames of a log, each with the number of ticks before it."""
+    """Yields every frame of a log, commands among them, each with the number of ticks before it."""
     senses, tick = Protocol(1).id_of("SENSES"), 0
     for line in log:
         tick += line.frame.id == senses

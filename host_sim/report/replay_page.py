@@ -19,7 +19,7 @@ a pair holds from the pair's tick until that of the next pair; the first pair is
         memory       [[tick, [8 cells]], ...]
         trials       [[tick, Trial or null], ...]: State.trial
         lessons      [Lesson, ...]: before first_tick the last one of each cell, and none after the last tick
-        cells        [[tick, cell, uses, learned, by_hand], ...]: State of a cell, from that tick on
+        cells        [[tick, cell, uses, learned, by_hand], ...]: the fields of State for a cell, from that tick on
         events       [[tick, kind], ...], in order: kind is "environment", "change", "trial", "lesson", "boredom" or
                      "eat"
         columns      the names of the columns, in the order of the data

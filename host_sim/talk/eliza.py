@@ -10,7 +10,7 @@ from host_sim.talk.script import AnyOf, Fact, Part, Pieces, Rule, Script, Tagged
 from host_sim.talk.slip_hash import slip_hash
 
 STEPS_MAX = 100_000
-"""Limits of keywords per sentence and of its growth in words, beyond which a script is taken to loop for ever."""
+"""Maximum number of keywords tried for a sentence, and of words added to it; beyond it, a script loops for ever."""
 
 _LIMIT = 4
 _NOTHING_MATCHES = ("PLEASE CONTINUE", "HMMM", "GO ON , PLEASE", "I SEE")
@@ -103,7 +103,7 @@ class Eliza:
         return words[begin:], keys
 
     def _apply(self, rule: Rule, words: list[str], keys: deque[str]) -> Answer | list[str]:
-        """Applies a rule. Returns an answer, or the words to continue with by the remaining keywords."""
+        """Applies a rule. Returns an answer, or the words to which the remaining keywords apply."""
         if rule.key == self._script.memory.key:
             self._remember(words)
         for transformation in rule.transformations:

@@ -71,7 +71,7 @@ def read_texts(path: Path) -> Texts:
     """Reads the texts of a language.
 
     Raises:
-        OSError, ValueError, KeyError: The file is not a valid text file; those of the project are.
+        OSError, ValueError, KeyError: The file is not a valid file of texts; those of the project are.
     """
     read = parse_toml(path.read_text(encoding="utf-8"))
     own: dict[str, Any] = languages()[read["language"]]["robot"]

@@ -57,7 +57,7 @@ class SlotImage:
     """The content of one slot: header, program, signature.
 
     Attributes:
-        data: All bytes of the slot.
+        data: The bytes of all three.
         slot: 0 or 1.
         version: Its version number; later ones are higher.
         board: Name of its board.

@@ -22,7 +22,7 @@ __all__ = ["Ed25519PrivateKey", "development_key", "is_development", "load_key",
 
 
 def development_key() -> Ed25519PrivateKey:
-    """The public key pair for images that need no protection."""
+    """The private key for images that need no protection: everybody has it."""
     return Ed25519PrivateKey.from_private_bytes(hashlib.sha256(b"octet development key: everybody has it").digest())
 
 

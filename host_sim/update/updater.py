@@ -257,7 +257,7 @@ class Updater:
         return self._persist(ask, tries)
 
     def _persist(self, ask: Callable[[], _T], tries: int = _TRIES, wait_s: float = _WAIT_S) -> _T:
-        """Repeats an unanswered request, with longer pauses after a few attempts."""
+        """Repeats an unanswered request, and waits longer for the answer after a few attempts."""
         for number in range(tries):
             self._client.config["p2_timeout"] = min(wait_s * 2 ** (number // _FEW), _WAIT_S_MAX)
             if number == tries - 1:
