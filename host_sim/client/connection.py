@@ -11,7 +11,7 @@ from host_sim.transport.link import Link
 from host_sim.world.body import Body
 
 DEADLINE_S = 5.0
-"""Time after which a robot that does not answer is given up, s of wall-clock time."""
+"""Time after which the client gives up on a robot that does not answer, s of wall-clock time."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Connection:
         status: Describes the state of the robot's process, and raises RobotError if it has ended.
         pid: Process id of the robot; None if it was not started as a process.
         line: Statistics of the line below the frames.
-        deadline_s: Time after which a robot that does not answer is given up, s of wall-clock time.
+        deadline_s: Time after which the client gives up on a silent robot, s of wall-clock time.
         answers_at_once: Whether the robot answers within `send`, or not at all.
         now: Returns the time by which the link's timeouts are measured, s.
         sense: For a robot with sensors of its own: computes its senses from its body, the world's senses and

@@ -58,7 +58,7 @@ class Punctuality:
         return lost_s
 
     def miss(self, gap_s: float, tick_s: float) -> bool:
-        """Notes a tick without an answer, and the time since the last one. Returns whether that is now too long."""
+        """Notes a tick without an answer, and the time since the last answer. Returns whether it is now too long."""
         self.unanswered += 1
         self.gap_s = max(self.gap_s, gap_s)
         return round(gap_s - tick_s, 6) < self.limits.gap_s <= gap_s

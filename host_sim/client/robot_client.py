@@ -210,7 +210,7 @@ class RobotClient:
         self._lossy = self._lossy or (self.inbox.owed > 0 and self._owed_tick < ticks)
 
     def check_settled(self) -> None:
-        """Notes an incident if the last memory of an environment has turned out to be lost."""
+        """Notes an incident if the last memory of an environment may have been lost, as later reports show."""
         at, settled = self._settled or (self.tick, self.memory)
         is_late = at == self.tick and settled != self.memory
         if is_late or (self.unsettled is not None and self.reports.gap):

@@ -14,7 +14,7 @@ class LineStats:
         unsent: Number of frames that could not be sent; a frame that matters is sent again.
         garbled: Number of lines of text that were not frames: noise.
         copies: Number of copies of each frame that a serial line sends at once: more than one while it is noisy.
-        reason: Reason of the last outage.
+        reason: Reason for the last outage.
     """
 
     outages: int = 0
