@@ -1,4 +1,4 @@
-"""`python -m host_sim.lab.bench.first_tick FOLDER [MODULE...]`: runs to the first block of ticks in this process.
+"""`python -m host_sim.lab.bench.first_tick FOLDER [MODULE...]`: runs to its first block of ticks, in this process.
 
 Prints the processor time since the start of the process, in ms, and which of the modules are loaded by then.
 """

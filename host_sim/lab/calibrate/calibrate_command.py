@@ -38,7 +38,7 @@ def add(commands: "Subparsers") -> None:
         commands,
         "calibrate",
         _calibrate,
-        summary="calibrate the sensors, motors and track of a real robot",
+        summary="calibrate the sensors, motors and track of a stand-alone robot",
         description="Calibrates a robot's sensors, motors and track, and stores the results in its flash.",
         epilog=_EXAMPLES,
         check=_check,

@@ -60,7 +60,7 @@ def add(commands: "Subparsers") -> None:
         metavar="LINK",
         help="how to reach the robot: none (in this process), fd (socket pair), external (your own program), slcan "
         "(serial line), vcan (inside tools/with-vcan), or an emulated board: "
-        f"{', '.join(BOARDS)}; or pins: a Blue Pill on its pins (default: none)",
+        f"{', '.join(BOARDS)}; or pins: a stand-alone robot on a Blue Pill (default: none)",
     )
     add("--robot-command", default="", metavar="CMD", help="program to start as the robot, for --links external")
     add("--json", type=output_of(".json"), metavar="FILE.json", help="also write the outcomes as JSON")

@@ -28,7 +28,7 @@ class InProcess:
 
 
 LINKS = ("none", "fd", "external", "slcan", "vcan", *BOARDS, PINS_LINK)
-"""In this process, on a socket pair, a custom robot there, on a serial line, on vcan0, on a board, on its pins."""
+"""In this process, on a socket pair, a custom robot on one, on a serial line, on vcan0, on a board, on its pins."""
 
 
 def open_setup(link: str, command: str = "") -> AbstractContextManager[Setup]:

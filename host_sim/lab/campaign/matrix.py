@@ -241,7 +241,7 @@ def _of_pins() -> Iterator[FaultClass]:
 
 
 PINS = tuple(_of_pins())
-"""Faults at the pins of a robot with a body on pins."""
+"""Faults at the pins of a stand-alone robot."""
 
 CLASSES = (*BUS, *BODY, *ROBOT, *LINE, *HOST, *PINS)
 """All fault classes of the campaign."""
