@@ -10,7 +10,7 @@ enum {
     CONFIDENCE = 1,
     PRAISE = 1,
     LOOK_EVERY_MM = 1000,   /* distance between two turns around */
-    LOOK_AGAIN_MM = 200,    /* after losing sight of food: distance to the next one; twice that when it is lost again */
+    LOOK_AGAIN_MM = 200,    /* after losing sight of food: distance to the next one; twice that if lost again */
     WHOLE_TURN_DEG = 360,
     LEAVE_CHOICES = 60,     /* directions, one degree apart, in which it continues if it saw no food; */
     SOONER_MM = 8           /* per degree it looks this much sooner again, so that it never repeats a loop for ever */

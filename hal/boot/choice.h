@@ -38,7 +38,7 @@ const char *choice_link(const struct choice *choice);
         /* The bit rate, as link_open of a CAN controller takes it. */
 
 uint8_t choice_free_slot(const struct choice *choice);
-        /* The slot that an update writes to: the chosen one if its image is missing or on trial, else the other one. */
+        /* The slot that an update writes to: the chosen one if its image is missing or on trial, else the other. */
 
 struct choice choice_cleared(const struct choice *choice);
         /* The record while the free slot is being written: the other image, if any, starts. */

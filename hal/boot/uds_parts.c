@@ -1,6 +1,6 @@
 #include "hal/boot/uds_parts.h"
 
-enum { QUIET = 0x80 /* bit of a subfunction: suppress the positive response */, FUNCTIONS = 8, P2_MS = 50, P2_STAR_10_MS = 500 };
+enum { QUIET = 0x80 /* in a subfunction: no positive answer */, FUNCTIONS = 8, P2_MS = 50, P2_STAR_10_MS = 500 };
 
 uint32_t uds_number(const uint8_t *bytes)
 {

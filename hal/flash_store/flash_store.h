@@ -30,9 +30,9 @@ struct flash_store {
 enum { FLASH_STORE_NOWHERE = UINT16_MAX };
 
 int flash_store_open(struct flash_store *store, uint8_t memory[CELL_COUNT]);
-        /* Scans all records. Returns 1 if it has loaded a memory, 0 if both pages are blank, or HAL_E_STORE if there is no
-           valid record. If there is no room for another record, erases the page that can be spared. The store is usable in
-           each case. */
+        /* Scans all records. Returns 1 if it has loaded a memory, 0 if both pages are blank, or HAL_E_STORE if none
+           is valid. If there is no room for another record, erases the page that can be spared. The store is usable
+           in each case. */
 
 int flash_store_open_at(struct flash_store *store, unsigned first_page, uint8_t bytes[CELL_COUNT]);
         /* The same for another store of eight bytes, in that page and the next. */

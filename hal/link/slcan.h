@@ -23,8 +23,8 @@ struct slcan_decoder {     /* all zero: at the start of a line */
 
 enum slcan_found slcan_decode(struct slcan_decoder *decoder, char byte, struct frame *out);
         /* Takes the next byte. SLCAN_FRAME: it completed the line of a frame, now in *out. SLCAN_GARBLED: it ended an
-           invalid line; reported only at the end, so once per line. SLCAN_NOTHING: it is inside a line, or ended a reply or
-           a set-up command, which are ignored. */
+           invalid line; reported only at the end, so once per line. SLCAN_NOTHING: it is inside a line, or ended a
+           reply or a set-up command, which are ignored. */
 
 size_t slcan_encode(char text[SLCAN_TEXT_MAX], const struct frame *frame);
         /* Writes the line of a frame with a length of 0..8: upper case, with CR, without NUL. Returns its length. */

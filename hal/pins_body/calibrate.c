@@ -11,7 +11,7 @@ enum {
     TURN_MM_S = 150,
     TURNS = 4,
     TURN_BEATS = 8000,               /* 40 s: the maximum duration of all turns */
-    COUNTS_1000 = (int)(1608495439LL * TURNS / WHEEL_COUNT_256),   /* counts for 1000 mm of track in this many turns (2 pi) */
+    COUNTS_1000 = (int)(1608495439LL * TURNS / WHEEL_COUNT_256),   /* 2 pi: for 1000 mm of track, in TURNS */
     /* Units of the feed-forward (push per count of a stair) and of the dead band (push). */
     FORWARD_1000 = (int)(1000LL * WHEEL_NOMINAL_MV * WHEEL_COUNT_256 / (PUSH * STAIR_BEATS * WHEEL_PERIOD_MS * 256)),
     DEAD_10 = (int)(10LL * WHEEL_NOMINAL_MV * TRAIT_DEAD_OF / TRAIT_DEAD_BY / PUSH)

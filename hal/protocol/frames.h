@@ -10,7 +10,7 @@ struct frames {
 };
 
 struct frame *frames_add(struct frames *frames, const struct wire *wire, uint32_t id_of_node_1, uint8_t len);
-        /* Appends a frame with data all 0. The identifier is that of node 1 in octet.dbc; it becomes that of this node. */
+        /* Appends a frame of zeros. The identifier is that of node 1 in octet.dbc; it becomes that of this node. */
 
 uint8_t frames_count_up(struct wire *wire, enum counted kind);
         /* Returns the alive counter for a message of this kind, and advances it. */

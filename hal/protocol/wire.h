@@ -1,5 +1,5 @@
-/* wire.h: converts frames to inputs and outputs to frames, as octet.dbc defines them. Everything from the bus is checked
- * here, once: inputs are valid. */
+/* wire.h: converts frames to inputs and outputs to frames, as octet.dbc defines them. Everything from the bus is
+ * checked here, once: inputs are valid. */
 #ifndef OCTET_WIRE_H
 #define OCTET_WIRE_H
 

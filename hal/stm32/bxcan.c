@@ -51,7 +51,7 @@ enum can_state can_state(void)
     return CAN1.msr & MSR_INAK ? CAN_JOINING : CAN_JOINED;
 }
 
-/* One filter bank with a mask per entry, for data frames only. Families go to FIFO 1, where they displace no others. */
+/* One filter bank with a mask per entry, data frames only. Families go to FIFO 1, where they displace no others. */
 static void set_filters(const uint16_t ids[], size_t count)
 {
     uint32_t families = 0;

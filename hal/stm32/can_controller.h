@@ -16,7 +16,7 @@ bool can_stop(void);
         /* Leaves the bus and enters configuration mode. False: no answer within CAN_STOP_MS. */
 
 void can_set_up(uint32_t prescaler, uint32_t quanta, const uint16_t ids[], size_t id_count);
-        /* Sets the bit timing, as in can_timing.h, and the identifiers to listen for, as in link_open: data frames only. */
+        /* Sets the bit timing (can_timing.h) and the identifiers to listen for (link_open): data frames only. */
 
 void can_start(void);
         /* Joins the bus once that has been idle for 11 bits, without waiting for it; after bus-off, 128 times as long. */

@@ -9,7 +9,7 @@
 #include "hal/stm32/line.h"
 #include "hal/stm32/machine.h"
 
-enum { RECOVERY_MS = 250 };   /* between attempts to recover from bus-off: four times the time that a full bus needs */
+enum { RECOVERY_MS = 250 };   /* between attempts to recover from bus-off: four times what a full bus needs */
 
 struct link {
     uint32_t off_ms;   /* start of the last attempt to recover from bus-off */

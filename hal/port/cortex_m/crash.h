@@ -19,12 +19,12 @@ enum crash_register {
 };
 
 void crash_keep(uint32_t cause, const uint32_t *frame, const uint32_t *lowest, const uint32_t *end);
-        /* Records the state at an exception in RAM that survives a reset. Reads frame only if it lies within lowest..end,
-           which has room for one. Called from the exception handler, just before the reset. */
+        /* Records the state at an exception in RAM that survives a reset. Reads frame only if it lies within
+           lowest..end, which has room for one. Called from the exception handler, just before the reset. */
 
 enum reset_cause crash_reset_cause(enum reset_cause cause);
-        /* The reason of the last start: RESET_CRASH if a crash came before the reset, else the reason that the chip gives.
-           Call once, at start. */
+        /* The reason for the last start: RESET_CRASH if a crash came before the reset, else the reason that the chip
+           gives. Call once, at start. */
 
 const struct crash *crash_last(void);
         /* The last crash since power-up, or null. */

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 
 bool flash_forgives(void);
-        /* True: flash_read expected this error and will report it; the program continues. False: it is another error, or at
-           another place. */
+        /* True: flash_read expected this error and will report it; the program continues. False: it is another error,
+           or at another place. */
 
 #endif

@@ -33,7 +33,7 @@ struct compiler {
 
 void compiler_fail_at(struct compiler *compiler, const struct token *token, enum program_expected expected);
 void compiler_fail(struct compiler *compiler, enum program_expected expected);
-        /* Reports that something else was expected in place of this token, or of the next one. Only the first mistake counts. */
+        /* Reports what was expected in place of this token, or of the next one. Only the first mistake counts. */
 
 void compiler_advance(struct compiler *compiler);
         /* Moves on to the next token. */

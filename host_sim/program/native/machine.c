@@ -20,7 +20,7 @@ static void loop_on(struct machine *machine)
     machine_push(machine, by >= 0 ? at <= limit : at >= limit, NO_CELL);
 }
 
-/* Calls a sub, whose arguments become its parameters, or a label. Only a parameter by reference keeps its variable's cell. */
+/* Calls a sub with its arguments, or a label. Only a parameter by reference keeps its variable's cell. */
 static void call(struct machine *machine, const struct instruction *it)
 {
     struct program *program = machine->program;

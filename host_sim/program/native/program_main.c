@@ -5,7 +5,7 @@
 
 int robot_main(int argc, char *argv[]);   /* firmware/main.c */
 
-static struct program program;   /* static: the firmware's main passes nothing on, and there is one robot per process */
+static struct program program;   /* static: the firmware's main passes nothing on; one robot per process */
 
 static void tell(const char *what)
 {

@@ -1,5 +1,5 @@
-/* programmed.h: a robot whose brain is a program: the firmware with another brain linked in. It is used like any struct
- * octet of hal/library/exchange.h. */
+/* programmed.h: a robot whose brain is a program: the firmware with another brain linked in. It is used like any
+ * struct octet of hal/library/exchange.h. */
 #ifndef OCTET_PROGRAMMED_H
 #define OCTET_PROGRAMMED_H
 

@@ -1,4 +1,4 @@
-/* fleet.h: many robots at once, each with its own core, without frames: the core gets its senses and returns its drive.
+/* fleet.h: many robots at once, each with its own core, without frames: the core gets senses and returns a drive.
  *
  * A robot senses and does exactly what it would in a run of loop.h, where frames carry the same. The caller
  * provides all memory. */

@@ -33,7 +33,7 @@ static bool is_answer(const struct loop_robot *robot, const struct frame *frame,
            e2e_counter(frame) == robot->senses_counter && robot_wire_drive(frame, tick, drive);
 }
 
-/* Receives frames from the next robot that has not answered. Returns whether they are routine and end with its drive. */
+/* Receives frames from the next robot that has not answered. True: they are routine, and end with its drive. */
 static bool take_drive(struct loop *loop, struct turn *turn)
 {
     struct loop_robot *robot = &loop->robots[loop->answered];

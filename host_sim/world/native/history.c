@@ -127,7 +127,7 @@ static bool taught(const struct history_trial *trial, int32_t cell, uint8_t side
     return side == (mirrored ? SIDE_LEFT + SIDE_RIGHT - trial->side : trial->side);
 }
 
-/* Whether the robot changed the cell itself: learned from a trial that has just ended, or erased the turn that it used. */
+/* Whether the robot changed the cell itself: it learned from a trial that has just ended, or erased a turn. */
 static bool did_itself(const struct history *history, int32_t cell, uint8_t side)
 {
     return taught(&history->judged, cell, side) || (history->forgets && side == SIDE_NOTHING);

@@ -8,7 +8,7 @@ enum { MIDDLE = 397, KEY_WORDS = (DRAWS_TEXT_MAX + SHA512_BYTES) / 4 };
 
 static const uint32_t TWIST = 0x9908b0df, HIGH = 0x80000000;
 
-/* The key of Python's random.seed(): text and digest as one number, lowest word first. Returns its length in words. */
+/* The key of Python's random.seed(): text and digest as one number, lowest word first. Returns how many words. */
 static unsigned make_key(uint32_t key[KEY_WORDS], const char *text)
 {
     uint8_t bytes[DRAWS_TEXT_MAX + SHA512_BYTES];

@@ -134,7 +134,7 @@ static bool is_arc_free(const struct tour *tour, const struct tour_tangent *in, 
     uint64_t blocked = tour->rounds[in->to / TOUR_SIDES].blocked;
     double sign = sign_of(in->to);
 
-    /* A blocked point of the rim is on the arc if the direction of travel there is between those of the two tangents. */
+    /* A blocked point of the rim is on the arc if the direction of travel there is between the tangents. */
     for (unsigned i = 0; i < TOUR_RIM && blocked; i++, blocked >>= 1) {
         struct vector along = vector_scale(left_of(tour->rim[i]), sign);
 

@@ -107,7 +107,7 @@ void kit_light_from(const struct kit *kit, const uint8_t range_mm[FEEL_COUNT], u
         /* The same, from walls at these distances beyond its rim; RANGE_NONE: no wall. */
 
 void kit_sense(struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, struct senses *senses);
-        /* Converts what an ideal body senses to what this one senses; the same result if called again in the same tick. */
+        /* Converts what an ideal body senses to what this one senses: the same, if called again in a tick. */
 
 bool kit_sees(const struct kit *kit, double ahead_mm, double aside_mm, double beam_mm);
         /* Whether its receiver sees food this far ahead and this far to the side; beam_mm: the width of the ideal beam. */
