@@ -118,6 +118,15 @@ TEST(a_robot_that_was_held_up_itself_takes_the_newest_senses)
     assert_faults((struct octet_faults_t){.silences = 1, .stale = 6});
 }
 
+TEST(held_up_during_an_outage_it_counts_no_silence)
+{
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    senses_come(150, 0);
+    fake.clock_ms += HAL_SILENCE_MS;
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
+    assert_faults((struct octet_faults_t){.silences = 0});
+}
+
 /* When silence begins, to the millisecond, and what waits when it has ended. */
 
 enum { LOOKS_MAX = 4096 };   /* at the link, for the newest senses */
