@@ -36,7 +36,7 @@ class Image:
         board: The board that it was built for.
         chip: The board's chip.
         node: The robot's node number on the bus.
-        bitrate: Bus bit rate, bit/s; None on a serial line.
+        bitrate: Bus bit rate of its build, bit/s; of no use on a serial line.
         version: Version, from `git describe`.
         dbc: Hash of the protocol.
     """
