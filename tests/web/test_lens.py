@@ -116,3 +116,18 @@ def test_two_fingers_zoom(recorded, open_page):
         touch(kind, apart)
 
     assert page.evaluate("octet.lens.zoom") == pytest.approx(2, abs=0.3)
+
+
+FIRST_LOOK = """() => {
+  const canvas = document.createElement("canvas");
+  document.body.append(canvas);
+  const { context, palette } = new octet.renderer.constructor(canvas);
+  const [r, g, b] = context.getImageData(150, 75, 1, 1).data;
+  return [`#${[r, g, b].map((part) => part.toString(16).padStart(2, "0")).join("")}`, palette.of.floor];
+}"""
+
+
+def test_until_there_is_a_run_an_arena_has_the_colour_of_its_floor(page):
+    shown, floor = page.evaluate(FIRST_LOOK)
+
+    assert shown == floor

@@ -39,6 +39,8 @@ export class Renderer {
     this.dark = matchMedia("(prefers-color-scheme: dark)");
     this.isDark = this.dark.matches;
     this.palette = paletteOf(canvas);
+    this.context.fillStyle = this.palette.of.floor; // until there is a scene; without alpha, a canvas begins black
+    this.context.fillRect(0, 0, canvas.width, canvas.height);
     this.trailLayer = new TrailLayer();
     this.scale = 1;
     this.size = { width: canvas.clientWidth, height: canvas.clientHeight };
