@@ -59,7 +59,9 @@ def _checks(changed: Sequence[str]) -> list[Stage]:
     if not python:
         return []
     return [
-        Stage("lint", "lint", [(".venv/bin/ruff", "check", *python)]),
+        Stage(
+            "lint", "lint", [(".venv/bin/ruff", "check", *python), (".venv/bin/ruff", "format", "--check", *python)]
+        ),
         Stage("types", "types", [(".venv/bin/mypy",)], beside=True),
     ]
 

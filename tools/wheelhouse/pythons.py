@@ -127,8 +127,10 @@ def run_python(name: str, *words: str, cwd: Path) -> subprocess.CompletedProcess
     python, folder = OTHERS[name], PYTHONS / name
     command = [str(folder / word) if (folder / word).is_file() else word for word in python.command]
     variables = {key: str(folder / it) for key, it in {"PYTHONPATH": "site", **python.variables}.items()}
-    how = {"cwd": cwd, "env": {**os.environ, "WINEDEBUG": "-all", **variables}, "stdin": subprocess.DEVNULL}
-    return subprocess.run([*command, *words], **how, capture_output=True, text=True, check=False)
+    env, no_input = {**os.environ, "WINEDEBUG": "-all", **variables}, subprocess.DEVNULL
+    return subprocess.run(
+        [*command, *words], cwd=cwd, env=env, stdin=no_input, capture_output=True, text=True, check=False
+    )
 
 
 def main() -> int:

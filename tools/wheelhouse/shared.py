@@ -11,6 +11,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import shtab
 
@@ -63,7 +64,8 @@ def read_interfaces() -> None:
 
 def subparsers(parser: Parser) -> Iterator[tuple[str, str, Parser]]:
     """The name, the summary and the parser of each subcommand."""
-    for action in parser._subparsers._group_actions if parser._subparsers else ():
+    actions: list[Any] = parser._subparsers._group_actions if parser._subparsers else []
+    for action in actions:
         for name, it in (action.choices or {}).items():
             yield name, it.summary, it
 
@@ -86,7 +88,8 @@ def write_texts() -> None:
     from host_sim.cli.main import parser_of  # noqa: PLC0415 - names in it depend on the line above
 
     parser = parser_of([])
-    for action in parser._subparsers._group_actions:  # shtab leaves out what the plain list of argparse does
+    subcommands: Any = parser._subparsers
+    for action in subcommands._group_actions:  # shtab leaves out what the plain list of argparse does
         action.help = "command"
         entries = ((name, (), it.summary) for name, it in action.choices.items())
         action._choices_actions = [action._ChoicesPseudoAction(*entry) for entry in entries]
