@@ -32,7 +32,8 @@ bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed)
     brain->awaits = 0;
     brain->used = 0;
     brain->unlearned = 0;
-    brain->changed = memory_translate(&brain->memory, (enum memory_kind)BRAIN_MEMORY_KINDS[profile]) || brain->changed;
+    brain->changed = memory_translate(&brain->memory, (enum memory_kind)BRAIN_MEMORY_KINDS[profile])
+                   || brain->changed;
     brain->learns = begin(brain);
     return true;
 }

@@ -1,5 +1,5 @@
-/* brain.h: decides the next action from the senses. Called only when the previous action has ended; independent of time
- * and wheels. The behaviour makes the decision: see behaviours/. */
+/* brain.h: decides the next action from the senses. Called only when the previous action has ended; independent of
+ * time and wheels. The behaviour makes the decision: see behaviours/. */
 #ifndef OCTET_BRAIN_H
 #define OCTET_BRAIN_H
 
@@ -36,12 +36,12 @@ struct brain {
 };
 
 bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed);
-        /* Prepares for the first decision with that profile. The memory is kept, converted to the profile's kind. False if
-           there is no such profile; nothing is changed then. */
+        /* Prepares for the first decision with that profile. The memory is kept, converted to the profile's kind.
+           False if there is no such profile; nothing is changed then. */
 
 bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT]);
-        /* Sets the memory. If its kind is not the profile's, selects the first profile of that kind. False if the bytes are
-           not a memory; nothing is changed then. */
+        /* Sets the memory. If its kind is not the profile's, selects the first profile of that kind. False if the
+           bytes are not a memory; nothing is changed then. */
 
 extern const uint8_t BRAIN_MEMORY_KINDS[PROFILE_COUNT];
         /* The kind of memory that a profile uses, an enum memory_kind. */
@@ -50,9 +50,9 @@ bool brain_write(struct brain *brain, uint8_t which, uint32_t bytes);
         /* As memory_write, in a memory of the profile's kind. */
 
 bool brain_take_votes(struct brain *brain, const int8_t votes[CELL_COUNT]);
-        /* Each empty cell, unless boredom emptied it, takes the side that more other robots know for its pattern: right if
-           its vote is positive, left if negative. Only if each pattern has a cell, and the robot learns. True if the memory
-           has changed; brain->changed stays as it is. */
+        /* Each empty cell, unless boredom emptied it, takes the side that more other robots know for its pattern:
+           right if its vote is positive, left if negative. Only if each pattern has a cell, and the robot learns.
+           True if the memory has changed; brain->changed stays as it is. */
 
 void brain_forget_trial(struct brain *brain);
         /* The last action was not carried out: nothing is learned from it. */

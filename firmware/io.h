@@ -16,7 +16,7 @@ struct senses {
     uint16_t beacon_mm;       /* distance from the middle of the body to that food; 0: none seen */
     uint16_t odometer_left;   /* 0.1 mm, forward counts up, wraps at ODOMETER_SPAN */
     uint16_t odometer_right;
-    uint8_t range_mm[FEEL_COUNT];   /* beyond the body's rim, by sensor as in feel; RANGE_NONE: nothing in reach, or not sent */
+    uint8_t range_mm[FEEL_COUNT];   /* beyond the rim, by sensor as in feel; RANGE_NONE: out of reach, or not sent */
 };
 
 /* What the wheels are to do until the next tick. */
@@ -32,9 +32,9 @@ struct drive {
 
 struct command {
     enum opcode opcode;   /* may hold other values; the robot refuses them */
-    uint8_t which;        /* start: profile. set, get: parameter. freeze: 1 or 0. write: bit 4 for the upper four cells,
-                             bit i of 0..3 to write the i-th of the four */
-    uint32_t value;       /* start: seed. set: value. write: a byte for each of the four cells, the first one lowest */
+    uint8_t which;        /* start: profile. set, get: parameter. freeze: 1 or 0. write: bit 4 for the upper four
+                             cells, bit i of 0..3 to write the i-th of the four */
+    uint32_t value;       /* start: seed. set: value. write: a byte for each of the four cells, the first lowest */
 };
 
 /* Half of another robot's memory. */
@@ -61,13 +61,13 @@ struct report {
 /* What the robot answers to one input: the parts whose flag is set. */
 struct output {
     bool has_answer, has_report, has_memory, has_drive;   /* to be sent */
-    bool whole_report;                                    /* send the whole report now; else it may be spread over later outputs */
+    bool whole_report;                                    /* all of it now; else maybe spread over later outputs */
     bool silent;                                          /* the input was silence, not senses */
     bool contradiction;                                   /* the senses contradicted themselves */
     bool denied;                                          /* the wheels did not do what they were told */
     bool store;                                           /* the memory has changed: store it */
     enum result answer;
-    uint32_t answer_value;                                /* get: the parameter's value. start: ANSWER_WANTS_RANGES or 0 */
+    uint32_t answer_value;                                /* get: the value. start: ANSWER_WANTS_RANGES or 0 */
     struct report report;                                 /* filled even without has_report, */
     uint8_t memory[CELL_COUNT];                           /* and this without has_memory */
     struct drive drive;

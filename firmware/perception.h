@@ -1,5 +1,5 @@
-/* perception.h: filters the proximity sensors, as the parameters FILTER and DISTRUST say. Both are off by default: then
- * every reading is believed. */
+/* perception.h: filters the proximity sensors, as the parameters FILTER and DISTRUST say. Both are off by default:
+ * then every reading is believed. */
 #ifndef OCTET_PERCEPTION_H
 #define OCTET_PERCEPTION_H
 
@@ -18,8 +18,8 @@ uint8_t perception_filter(struct perception *perception, const struct config *co
            senses. */
 
 void perception_decide(struct perception *perception, const struct config *config, uint8_t feel);
-        /* A decision is made with these sensors triggered. A sensor that is triggered in DISTRUST decisions in a row is not
-           believed until it has been quiet in one. */
+        /* A decision is made with these sensors triggered. A sensor that is triggered in DISTRUST decisions in a row
+           is not believed until it has been quiet in one. */
 
 uint8_t perception_believed(const struct perception *perception, const struct config *config, uint8_t feel);
         /* Those of these sensors that are believed. */

@@ -87,8 +87,8 @@ static void drive_init(struct drive *drive, const struct robot *robot, enum reas
     };
 }
 
-/* Food without a distance, or a distance without food, is not believed. Odometers jump if the robot was carried or its body
- * reset. */
+/* Food without a distance, or a distance without food, is not believed. Odometers jump if the robot was carried or
+ * its body reset. */
 static bool make_credible(struct robot *robot, struct senses *senses)
 {
     unsigned ticks = robot->silences > 0 ? UINT8_MAX : (uint8_t)(senses->tick - robot->tick);
@@ -148,8 +148,8 @@ static void describe(const struct robot *robot, struct output *out)
     out->report.uptime_s = robot->uptime_s;
 }
 
-/* Ends a second. What was learned from others is reported a tick later, so that it makes no difference which robot was
- * asked first in this tick. */
+/* Ends a second. What was learned from others is reported a tick later, so that it makes no difference which robot
+ * was asked first in this tick. */
 static bool take_votes(struct robot *robot)
 {
     bool took = robot->running && robot->sharing.whole && brain_take_votes(&robot->brain, robot->sharing.votes);

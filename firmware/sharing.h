@@ -1,7 +1,7 @@
 /* sharing.h: counts each second what other robots have learned, for the parameter SHARE, which is off by default.
  *
- * Each robot votes for each pattern with the turn in its cell. A memory of all five sensors has no such cells; the body
- * does not pass it on. */
+ * Each robot votes for each pattern with the turn in its cell. A memory of all five sensors has no such cells; the
+ * body does not pass it on. */
 #ifndef OCTET_SHARING_H
 #define OCTET_SHARING_H
 

@@ -1,5 +1,5 @@
-/* A motor controller of somebody else's. It follows its set point, every 20 ms, and refuses damaged ones: all its tests
- * on a good bus pass. When its set point is lost, it should stop within 100 ms. */
+/* A motor controller of somebody else's. It follows its set point, every 20 ms, and refuses damaged ones: all its
+ * tests on a good bus pass. When its set point is lost, it should stop within 100 ms. */
 #include <stdint.h>
 #include <string.h>
 

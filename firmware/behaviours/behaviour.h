@@ -7,9 +7,9 @@
 
 #include "firmware/brain.h"
 
-/* bool NAME_begin(brain): Begins a run. The memory is already of the behaviour's kind, and the fields of *brain that all
- * behaviours share are reset. May change the memory, and then sets brain->changed. Returns true if the behaviour learns,
- * so that its memory is stored.
+/* bool NAME_begin(brain): Begins a run. The memory is already of the behaviour's kind, and the fields of *brain that
+ * all behaviours share are reset. May change the memory, and then sets brain->changed. Returns true if the behaviour
+ * learns, so that its memory is stored.
  *
  * struct action NAME_next(brain, config, senses): As brain_next. */
 #define BEHAVIOUR_DECLARE(profile, name, kind) \

@@ -1,5 +1,5 @@
-/* distance: the article's robot, but the nearer the obstacle, the bigger the remembered turn: TURN_DEG at the sensors' maximum
- * range, FARTHER_DEG more at the body, linear between, rounded to a degree. */
+/* distance: the article's robot, but the nearer the obstacle, the bigger the remembered turn: TURN_DEG at the
+ * sensors' maximum range, FARTHER_DEG more at the body, linear between, rounded to a degree. */
 #include "firmware/behaviours/behaviour.h"
 
 enum {
@@ -14,7 +14,7 @@ bool distance_begin(struct brain *brain)
     return true;
 }
 
-/* The nearest distance that the three front sensors see; REACH_OF_SENSORS_MM if they see nothing, or none was sent. */
+/* The nearest distance seen by the three front sensors; REACH_OF_SENSORS_MM if they see nothing, or none was sent. */
 static int nearest_mm(const struct senses *senses)
 {
     int nearest = REACH_OF_SENSORS_MM;

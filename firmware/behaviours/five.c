@@ -1,5 +1,5 @@
 /* five: the article's robot with a turn for each reading of all five sensors. The front three still decide what is in
- * the way, and judge a trial. Boredom can strike again, as in rearmed, and forgets the turns for what was in the way. */
+ * the way and judge a trial. Boredom can strike again, as in rearmed, forgetting turns for what was in the way. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/listing.h"
 #include "firmware/memory/feel_memory.h"

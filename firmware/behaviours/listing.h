@@ -1,5 +1,5 @@
-/* listing.h: the loop of the article's listing, for the behaviours that differ from it only in their knowledge. Random
- * numbers are drawn exactly where the listing draws one. */
+/* listing.h: the loop of the article's listing, for the behaviours that differ from it only in their knowledge.
+ * Random numbers are drawn exactly where the listing draws one. */
 #ifndef OCTET_LISTING_H
 #define OCTET_LISTING_H
 
@@ -15,12 +15,12 @@ enum awaits {
 };
 
 bool listing_trial_helped(const struct brain *brain, const struct senses *senses);
-        /* Whether a trial has just ended, at tried_feel and to tried_side, with fewer sensors triggered than before. Call
-           before listing_next, which begins the next action. */
+        /* Whether a trial has just ended, at tried_feel and to tried_side, with fewer sensors triggered than before.
+           Call before listing_next, which begins the next action. */
 
 bool listing_remembered_in_vain(const struct brain *brain, const struct senses *senses);
-        /* Whether a remembered turn has just ended, at tried_feel, with no fewer sensors triggered than before. Call before
-           listing_next. */
+        /* Whether a remembered turn has just ended, at tried_feel, with no fewer sensors triggered than before. Call
+           before listing_next. */
 
 struct action listing_step(struct brain *brain, const struct config *config, const struct senses *senses);
         /* A step forward; sets AWAITS_LOOK. */

@@ -1,5 +1,5 @@
-/* searcher: as adaptive, but a lesson about one side also teaches the mirror image. It looks for food in another way: it
- * drives straight on, turns once around where it has not looked for a while, and goes straight to the food that it
+/* searcher: as adaptive, but a lesson about one side also teaches the mirror image. It looks for food in another way:
+ * it drives straight on, turns once around where it has not looked for a while, and goes straight to the food that it
  * sees. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/listing.h"
@@ -86,8 +86,8 @@ static struct action choose(struct brain *brain, const struct config *config, co
     return listing_next(brain, config, senses, memory_recall(&brain->memory, pattern));
 }
 
-/* The body is symmetric, even if its wires are mixed up: a lesson about an obstacle on one side also holds, mirrored, for the
- * other side. */
+/* The body is symmetric, even if its wires are mixed up: a lesson about an obstacle on one side also holds, mirrored,
+ * for the other side. */
 static void generalize(struct brain *brain)
 {
     uint8_t *cell = brain->memory.cell;

@@ -8,12 +8,12 @@
 #include "firmware/brain.h"
 
 bool used_cells_learn(struct brain *brain, const struct senses *senses, unsigned confidence);
-        /* If a trial has just helped, stores its side with that confidence, marks the cell as used and returns true. Call
-           before the next action is chosen. */
+        /* If a trial has just helped, stores its side with that confidence, marks the cell as used and returns true.
+           Call before the next action is chosen. */
 
 void used_cells_judge(struct brain *brain, const struct action *action, uint8_t pattern, int praise);
-        /* Notes the action chosen for that pattern. An about-face lowers the confidence of each used cell by 2 and resets
-           the repeat count. */
+        /* Notes the action chosen for that pattern. An about-face lowers the confidence of each used cell by 2 and
+           resets the repeat count. */
 
 struct action used_cells_next(struct brain *brain, const struct config *config, const struct senses *senses,
                               unsigned confidence, int praise);

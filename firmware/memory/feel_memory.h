@@ -1,8 +1,8 @@
-/* feel_memory.h: the eight bytes as a turn for each reading of all five sensors: 32 times two bits, from bit 0 of byte 0
- * on.
+/* feel_memory.h: the eight bytes as a turn for each reading of all five sensors: 32 times two bits, from bit 0 of
+ * byte 0 on.
  *
- * The first two readings need no turn, since nothing is in the way. Their four bits, all set, mark the bytes as a memory
- * of this kind: no cell for a pattern has such a value. */
+ * The first two readings need no turn, since nothing is in the way. Their four bits, all set, mark the bytes as a
+ * memory of this kind: no cell for a pattern has such a value. */
 #ifndef OCTET_FEEL_MEMORY_H
 #define OCTET_FEEL_MEMORY_H
 

@@ -1,8 +1,8 @@
 /* memory.h: the eight bytes, all that the robot ever learns.
  *
- * Their meaning, or kind, depends on the behaviour (see docs/behaviours.md). In two kinds each pattern has a cell, with
- * the turn to make in its two lowest bits; in the third each reading of all five sensors has two bits. The bytes show
- * their kind, so that one kind is never mistaken for another. An empty memory, all zeros, is of every kind. */
+ * Their meaning, or kind, depends on the behaviour (see docs/behaviours.md). In two kinds each pattern has a cell,
+ * with the turn to make in its two lowest bits; in the third each reading of all five sensors has two bits. The bytes
+ * show their kind, so that one kind is never mistaken for another. An empty memory, all zeros, is of every kind. */
 #ifndef OCTET_MEMORY_H
 #define OCTET_MEMORY_H
 

@@ -12,9 +12,9 @@ enum {
     ANY_PACE = UINT16_MAX,                         /* of pace_left: never used up */
     PACE_MARGIN_TICKS = 2,                         /* at full speed, for drives that come late */
     PACED_TICKS = 8,                               /* at full speed: shorter turns are too short to tell */
-    SPEED_TICKS = 9,                               /* after one more with the same command, wheels roll at least half of it */
+    SPEED_TICKS = 9,                               /* after one more with the same command, wheels reach half of it */
     STOPPED_COUNTS = 5,                            /* of both wheels in a tick: almost at rest */
-    HOLD_TICKS = 5,                                /* a body without a new drive continues for this long, then rests */
+    HOLD_TICKS = 5,                                /* a body without a new drive continues this long, then rests */
     ASTRAY_PER_S = 5,                              /* wheels may go astray as far as they both roll in 1/5 second */
     CREDIBLE_EIGHTHS = 13,                         /* of the fastest commanded speed is credible, */
     CREDIBLE_COUNTS = 2,                           /* and this much more, for rounding over few ticks */
@@ -152,7 +152,7 @@ static void follow(struct motion *motion, int32_t left, int32_t right, unsigned 
     owed_settle(&motion->together, left + right, ticks);
 }
 
-/* Takes commands off pace_left, since even late wheels obey them in the end; all of it if half the speed is not reached. */
+/* Takes commands off pace_left, since even late wheels obey them in the end; all if half the speed is not reached. */
 static void judge_pace(struct motion *motion, unsigned ticks)
 {
     uint32_t told = wheels_magnitude(motion->apart.told[0]) * ticks;
@@ -160,7 +160,8 @@ static void judge_pace(struct motion *motion, unsigned ticks)
     if (!motion_tells(motion))
         return;
     motion->pace_left = (uint16_t)(told < motion->pace_left ? motion->pace_left - told : 0u);
-    if (motion->apart.same >= SPEED_TICKS && 2 * wheels_magnitude(motion->apart.rolled) < wheels_magnitude(motion->apart.told[0]))
+    if (motion->apart.same >= SPEED_TICKS
+        && 2 * wheels_magnitude(motion->apart.rolled) < wheels_magnitude(motion->apart.told[0]))
         motion->pace_left = 0;
 }
 
@@ -186,8 +187,8 @@ void motion_track(struct motion *motion, const struct senses *senses)
     motion->referenced = true;
 }
 
-/* Turned to within 1/8 degree, counting what the wheels still owe, which is little if the end of the turn is judged. If they
- * stop earlier, because they ignore such a small command, up to 1/2 degree is left for the next turn. */
+/* Turned to within 1/8 degree, counting what the wheels still owe, which is little if the end of the turn is judged.
+ * If they stop earlier, because they ignore such a small command, up to 1/2 degree is left for the next turn. */
 static bool has_turned(const struct motion *motion, const struct config *config)
 {
     uint32_t degree = wheels_turn_per_degree(config);
@@ -233,14 +234,15 @@ bool motion_rest(struct motion *motion, const struct config *config)
 static enum motion_kind kind_of(const struct action *action)
 {
     if (action->turn_deg != 0)
-        return action->until_food ? MOTION_TURN_UNTIL_FOOD : action->reason == REASON_LOOK_AROUND ? MOTION_GLANCE : MOTION_TURN;
+        return action->until_food ? MOTION_TURN_UNTIL_FOOD
+             : action->reason == REASON_LOOK_AROUND ? MOTION_GLANCE : MOTION_TURN;
     if (action->forward_mm < 0)
         return MOTION_BACK;
     return action->forward_mm > 0 ? MOTION_STEP : MOTION_REST;
 }
 
-/* Sets the timeout: twice what a step needs at full speed, 1.5 times what a turn needs, plus a margin. Sets what a turn may
- * command: 7/4 of its arc plus a margin, except for turns that food may end and those too short to judge. */
+/* Sets the timeout: twice what a step needs at full speed, 1.5 times what a turn needs, plus a margin. Sets what a
+ * turn may command: 7/4 of its arc plus a margin, except for turns that food may end and those too short to judge. */
 static void allow(struct motion *motion, const struct config *config)
 {
     uint32_t in_a_tick = wheels_counts_at(full_speed(motion, config), config);
@@ -253,7 +255,8 @@ static void allow(struct motion *motion, const struct config *config)
     if (motion->kind == MOTION_REST)
         motion->ticks_left = 1;
     else
-        motion->ticks_left = (uint16_t)((is_turn(motion) ? counts * 3u : counts * 4u) / 2u / in_a_tick + TIMEOUT_MARGIN_TICKS);
+        motion->ticks_left = (uint16_t)((is_turn(motion) ? counts * 3u : counts * 4u) / 2u / in_a_tick
+                                        + TIMEOUT_MARGIN_TICKS);
 }
 
 void motion_begin(struct motion *motion, const struct config *config, const struct action *action)

@@ -34,10 +34,10 @@ void motion_lift(struct motion *motion);
 
 bool motion_is_credible(const struct motion *motion, const struct config *config, const struct senses *senses,
                         unsigned ticks);
-        /* Whether the wheels can have rolled as far as the odometers say in this number of ticks since the last motion_track:
-           at up to 13/8 of the highest speed ever commanded, for at most 5 ticks, since a body holds its last drive no longer.
-           After a gap of several ticks, odometers that both restart at 0 are those of a restarted body, and not credible
-           either. */
+        /* Whether the wheels can have rolled as far as the odometers say in this number of ticks since the last
+           motion_track: at up to 13/8 of the highest speed ever commanded, for at most 5 ticks, since a body holds
+           its last drive no longer. After a gap of several ticks, odometers that both restart at 0 are those of a
+           restarted body, and not credible either. */
 
 bool motion_gave_up(const struct motion *motion);
         /* Whether the action has taken so long that the wheels cannot have obeyed. */
@@ -48,18 +48,18 @@ bool motion_tells(const struct motion *motion);
 bool motion_is_denied(const struct motion *motion, const struct config *config);
         /* Whether the wheels failed to follow their commands up to the end of this action. One of these is true:
            - The action was abandoned.
-           - It was a turn that needed commands for more than 7/4 of its arc plus 2 ticks at full speed, or whose wheels were
-             slower than half of their speed after ten ticks: wheels or odometers do half of what they should, or follow far
-             too late. If they do twice as much, they are not credible: see motion_is_credible.
-           - Over any number of actions the wheels went astray by as far as both roll in 0.2 s: one wheel rolls less than
-             1/7 of the distance of the other. */
+           - It was a turn that needed commands for more than 7/4 of its arc plus 2 ticks at full speed, or whose
+             wheels were slower than half of their speed after ten ticks: wheels or odometers do half of what they
+             should, or follow far too late. If they do twice as much, they are not credible: see motion_is_credible.
+           - Over any number of actions the wheels went astray by as far as both roll in 0.2 s: one wheel rolls less
+             than 1/7 of the distance of the other. */
 
 void motion_track(struct motion *motion, const struct senses *senses);
         /* Updates the state from the odometers. Call once for each senses. */
 
 bool motion_ended(const struct motion *motion, const struct config *config, const struct senses *senses);
-        /* Whether the action has ended: turned to within 1/8 degree or to food, or driven to within 0.25 mm, counting what the
-           wheels will still roll; stopped by an obstacle ahead; or abandoned. Also true before the first action. */
+        /* Whether the action has ended: turned to within 1/8 degree or to food, or driven to within 0.25 mm, counting
+           what wheels will still roll; stopped by an obstacle ahead; or abandoned. Also true before any action. */
 
 bool motion_rest(struct motion *motion, const struct config *config);
         /* Begins the action's rest, if it is still to come, and returns whether it did. Call when motion_ended. */

@@ -24,8 +24,8 @@ void owed_tell(struct owed *owed, int32_t counts)
     owed->told[0] = (int16_t)counts;
 }
 
-/* The increase of the distance owed. Once the same command must have arrived, wheels owe only for their acceleration: what is
- * missing at a steady speed will never be rolled. */
+/* The increase of the distance owed. Once the same command must have arrived, wheels owe only for their acceleration:
+ * what is missing at a steady speed will never be rolled. */
 static int32_t more(const struct owed *owed, int32_t rolled, int32_t told)
 {
     int32_t gathered = LAG_TICKS * (rolled - owed->rolled);
@@ -41,7 +41,7 @@ static int32_t more(const struct owed *owed, int32_t rolled, int32_t told)
 /* Limits the distance owed to what lag and pending commands can make wheels at that speed roll. */
 static int32_t possible(const struct owed *owed, int32_t counts, int32_t rolled)
 {
-    int32_t coast = LAG_TICKS * rolled + LAG_TICKS / 2 * (rolled - owed->rolled);   /* by the speed at the end of the tick */
+    int32_t coast = LAG_TICKS * rolled + LAG_TICKS / 2 * (rolled - owed->rolled);   /* by the tick's final speed */
     int32_t most = owed->told[0] > 0 ? owed->told[0] : 0;
     int32_t least = owed->told[0] - most;
 

@@ -1,7 +1,7 @@
 /* Frames there and back, and nothing else: the fastest that two processes can take turns on a link.
  *
  * octet-pingpong echo LINK         sends back what comes, until the link closes
- * octet-pingpong ping LINK COUNT   sends COUNT frames, waits for each to come back, prints microseconds a round trip */
+ * octet-pingpong ping LINK COUNT   sends COUNT frames, waits for each to return, prints microseconds a round trip */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
