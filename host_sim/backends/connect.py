@@ -118,13 +118,12 @@ def _process(link: str, node: int, brain: str, pass_fds: Sequence[int] = ()) -> 
 def _over_socket_pair(stack: ExitStack, node: int, lines: BusLines) -> Connection:
     import socket  # noqa: PLC0415 - see above
 
-    from host_sim.transport.bus_link import BusLink  # noqa: PLC0415 - see above
-    from host_sim.transport.socket_pair_bus import SocketPairBus  # noqa: PLC0415 - see above
+    from host_sim.transport.socket_pair import SocketPairLink  # noqa: PLC0415 - see above
 
     ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     line = LineStats()
     with theirs:
-        link = BusLink(SocketPairBus(ours.detach()), line, is_socket=True)
+        link = SocketPairLink(ours, line)
         stack.callback(link.close)
         process = _process(f"fd:{theirs.fileno()}", node, lines.program, [theirs.fileno()])
     stack.callback(process.close)

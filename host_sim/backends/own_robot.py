@@ -9,11 +9,11 @@ from host_sim.backends.relay import RelayedLink
 from host_sim.base.errors import LinkDownError, UsageError
 from host_sim.base.frame import Frame
 from host_sim.client.connection import Connection
-from host_sim.transport.bus_link import BusLink
 from host_sim.transport.bus_process import BusProcess, start_on_socket_pair
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.link import Link
 from host_sim.transport.reconnecting_link import ReconnectingLink
+from host_sim.transport.socket_pair import SocketPairLink
 
 BOOT_S = 10.0
 """Time within which a robot must send its first frame, s."""
@@ -42,7 +42,7 @@ class OwnRobot:
         """Its environment variables, apart from those for the bus."""
         return {"OCTET_NODE": str(self.node)}
 
-    def on_socket_pair(self, stats: LineStats) -> BusLink:
+    def on_socket_pair(self, stats: LineStats) -> SocketPairLink:
         """Starts or restarts it, and waits for its first frame.
 
         Raises:

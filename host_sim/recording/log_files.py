@@ -10,9 +10,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from itertools import dropwhile
 from pathlib import Path
-from typing import BinaryIO, TextIO, cast
-
-import can
+from typing import TYPE_CHECKING, BinaryIO, TextIO, cast
 
 from host_sim.base.errors import UsageError
 from host_sim.base.regular_file import open_bytes
@@ -27,6 +25,9 @@ from host_sim.recording.log_text import (
     counts_from_the_line_before,
     is_relative,
 )
+
+if TYPE_CHECKING:
+    from can import Message
 
 _SIZE_MAX = 64_000_000_000
 _LINE_MAX = 4096
@@ -129,23 +130,27 @@ class _NumberedLines:
 
 
 def _asc(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
+    from can import ASCReader  # noqa: PLC0415 - other logs are read sooner without python-can
+
     text = _NumberedLines(file)
     try:
-        for message in can.ASCReader(cast("TextIO", text)):
+        for message in ASCReader(cast("TextIO", text)):
             yield _from(message)
     except (ValueError, IndexError, OverflowError) as error:
         raise UsageError(f"{path}, line {text.number}: not a frame in ASC format: {error}") from None
 
 
 def _blf(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
+    from can.io.blf import BLFParseError, BLFReader  # noqa: PLC0415 - as above
+
     try:
-        for message in can.BLFReader(file):
+        for message in BLFReader(file):
             yield _from(message)
-    except (can.io.blf.BLFParseError, ValueError, struct.error) as error:
+    except (BLFParseError, ValueError, struct.error) as error:
         raise UsageError(f"{path} is a damaged BLF file, or one cut short: {error}") from None
 
 
-def _from(message: can.Message) -> Recorded | str:
+def _from(message: "Message") -> Recorded | str:
     if message.is_error_frame:
         return ERROR
     if message.is_fd:

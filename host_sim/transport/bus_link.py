@@ -19,7 +19,6 @@ class BusLink:
     """A link over any python-can bus.
 
     Attributes:
-        explain: Called when the line is gone, before the error is raised; it may raise one that says more.
         garbled: As in `FrameSocket`.
         closing: As in `FrameSocket`.
     """
@@ -32,7 +31,6 @@ class BusLink:
             stats: Counts the line's outages and errors.
             is_socket: Whether the bus is a socket that carries a frame a datagram, as SocketCAN does.
         """
-        self.explain: Callable[[], object] = lambda: None
         self.closing: Callable[[], object] = lambda: None
         self.garbled = 0
         self._bus, self._is_socket = bus, is_socket
@@ -46,7 +44,6 @@ class BusLink:
             self._bus.send(message, timeout=_SEND_S)
         except (can.CanError, OSError) as error:
             if not _has_no_room(error):
-                self.explain()
                 raise LinkDownError(f"cannot send to the robot: {error}") from error
             self._stats.unsent += 1
 
@@ -58,7 +55,6 @@ class BusLink:
         try:
             message = self._heard(timeout_s)
         except (can.CanError, OSError) as error:
-            self.explain()
             raise LinkDownError(f"cannot hear the robot: {error}") from error
         except (ValueError, LookupError):  # what some of python-can's interfaces make of noise on the line
             return _NO_FRAME

@@ -15,9 +15,8 @@ from contextlib import suppress
 from pathlib import Path
 
 from host_sim.base.errors import LinkDownError, UsageError
-from host_sim.transport.bus_link import BusLink
 from host_sim.transport.line_stats import LineStats
-from host_sim.transport.socket_pair_bus import SocketPairBus
+from host_sim.transport.socket_pair import SocketPairLink
 
 _END_S = 2.0
 _PRINTED_MAX = 300
@@ -104,7 +103,7 @@ class BusProcess:
 
 def start_on_socket_pair(
     command: str, environment: Mapping[str, str], stats: LineStats | None = None, folder: Path | None = None
-) -> tuple[BusLink, BusProcess]:
+) -> tuple[SocketPairLink, BusProcess]:
     """Starts a program at the other end of a socket pair.
 
     Args:
@@ -122,6 +121,6 @@ def start_on_socket_pair(
     ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     with ours, theirs:
         process = BusProcess(command, f"octet:{theirs.fileno()}", environment, folder, theirs.fileno())
-        link = BusLink(SocketPairBus(ours.detach()), stats, is_socket=True)
+        link = SocketPairLink(ours.dup(), stats)
     link.explain = process.account_for_silence
     return link, process

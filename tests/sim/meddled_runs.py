@@ -21,8 +21,7 @@ from host_sim.sim.make import assemble
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from host_sim.transport.bus_link import BusLink
-from host_sim.transport.socket_pair_bus import SocketPairBus
+from host_sim.transport.socket_pair import SocketPairLink
 
 PROTOCOL = Protocol()
 RAW = struct.Struct("=IB3x8s")
@@ -77,7 +76,7 @@ def connected(meddles: dict[int, Meddle], log: FrameLog) -> Iterator[RobotClient
     line = Line(far, meddles)
     thread = threading.Thread(target=line.serve)
     thread.start()
-    link = BusLink(SocketPairBus(near.detach()), is_socket=True)
+    link = SocketPairLink(near)
     client = RobotClient(Connection(link), PROTOCOL, log)
     try:
         handshake(client, client.connection.deadline_s)
@@ -134,7 +133,7 @@ def outcome(
         except RobotError as ended:
             error = str(ended)
         assert (simulation.loop is not None) == native
-        garbled = client.connection.link.garbled + client.connection.link._bus.garbled
+        garbled = client.connection.link.garbled
         log.close()
         return Outcome(
             *((folder / "run.log").read_bytes(), recorder, client.memory, [*map(str, client.incidents)]),

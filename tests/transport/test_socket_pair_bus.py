@@ -203,8 +203,8 @@ def test_a_wake_up_for_nothing_does_not_end_a_wait(raw, monkeypatch, name, nothi
     bus, far = raw
     bus.send(MESSAGES["standard"])
     far.send(far.recv(16))
-    at_first, before = [nothing] * 2, getattr(bus, name)
-    monkeypatch.setattr(bus, name, lambda *packed: at_first.pop() if at_first else before(*packed))
+    at_first, before = [nothing] * 2, getattr(bus._pair, name)
+    monkeypatch.setattr(bus._pair, name, lambda *packed: at_first.pop() if at_first else before(*packed))
 
     bus.send(MESSAGES["standard"], timeout=SOON_S)
 
@@ -263,5 +263,5 @@ def test_what_is_not_a_frame_is_counted_and_skipped(raw, junk, timeout):
     far.send(frame(0x123))
 
     assert bus.recv(timeout).arbitration_id == 0x123
-    assert bus.garbled == 2
+    assert bus._pair.garbled == 2
     assert bus.recv(0) is None

@@ -16,6 +16,7 @@ from host_sim.base.errors import LinkDownError, UsageError
 from host_sim.base.frame import Frame
 from host_sim.transport.bus_link import BusLink
 from host_sim.transport.bus_process import BusProcess, start_on_socket_pair
+from host_sim.transport.socket_pair import SocketPairLink
 
 SEAM = """
 struct frame { uint32_t id; uint8_t len; uint8_t data[8]; };
@@ -133,6 +134,7 @@ class ProcessDevice:
         Raises:
             UsageError: It cannot be started, or there is no such bus.
         """
+        self._link: BusLink | SocketPairLink
         if bus == "fd":
             self._link, self._process = start_on_socket_pair(command, {}, folder=folder)
         else:

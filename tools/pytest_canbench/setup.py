@@ -11,7 +11,10 @@ HOST_SIM = HERE.parents[1] / "host_sim"
 TAKEN = (
     *("base/errors", "base/frame", "base/near_word", "base/regular_file", "base/system"),
     *(f"faults/{name}" for name in ("bus_faults", "faulty_link", "rule", "schedule", "shrink")),
-    *(f"transport/{name}" for name in ("bus_link", "bus_process", "clock", "line_stats", "link", "socket_pair_bus")),
+    *(
+        f"transport/{name}"
+        for name in ("bus_link", "bus_process", "clock", "line_stats", "link", "socket_pair", "socket_pair_bus")
+    ),
 )
 
 
