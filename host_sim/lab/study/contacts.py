@@ -150,5 +150,5 @@ def _contacts(ticks: Ticks, memories: Course[Memory], bodies: Course[BodyState])
             boredoms=turns.count(Reason.BOREDOM),
             cleared=end < len(ticks),
             body=_at(bodies, first),
-            sides=sides_of(_at(memories, end)),
+            sides=sides_of(_at(memories, end + 1)),  # the tick that finds the way clear reports the last lesson
         )

@@ -99,6 +99,18 @@ def test_a_contact_is_from_the_first_turn_to_the_clear_way():
     assert (second.tick, second.blocked_ticks, second.boredoms, second.cleared) == (8, 1, 1, False)
 
 
+@pytest.mark.parametrize("native", [True, False])
+def test_what_the_last_turn_of_a_contact_taught_is_known_at_its_end(native):
+    watch = ContactWatch(0)
+    with make(RunConfig(seed=4, environments=1, limit_s=40.0)) as simulation:
+        simulation.native, simulation.watch = native, watch
+        list(simulation.run())
+
+    first = watch.contacts()[0]
+    assert (first.pattern, first.trials, first.cleared) == (1, 1, True)
+    assert first.sides == LEARNED
+
+
 def test_the_loop_in_c_and_the_readable_one_give_the_same_contacts():
     def contacts(native: bool):
         watch = ContactWatch(0)
