@@ -108,7 +108,7 @@ def wilson(counted: Floats, each: int = 1, level: float = LEVEL) -> tuple[float,
 
 def _counted(figure: Figure, sample: Sample) -> tuple[Floats, int]:
     counted: Floats = getattr(sample, figure.counted)
-    return counted.reshape(len(sample.seeds), -1), sample.robots if counted.ndim == 1 else 1
+    return counted.reshape(len(sample.seeds), -1), sample.robots if figure.counted == "wrong" else 1
 
 
 def _difference(figure: Figure, sample: Sample, against: Sample, level: float) -> Estimate:

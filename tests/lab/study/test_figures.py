@@ -11,7 +11,7 @@ from host_sim.lab.study.goals import judge
 from host_sim.lab.study.intervals import Estimate, compare, coverage, estimate, wilson
 from host_sim.lab.study.plan import Goal
 from host_sim.lab.study.table import table
-from tests.lab.study.support import SWAPPED, contact, row, run, samples
+from tests.lab.study.support import NOTHING, SWAPPED, contact, row, run, samples
 
 LEFT_OF_LEFT = (0, 0, 0, 0, 1, 0, 0, 0)
 """A turn toward what is beside the robot, where its body is sound."""
@@ -102,6 +102,16 @@ def test_who_forgets_again_has_not_recovered_for_good():
     assert (value("recovered", *runs), value("recovery", *runs)) == (100, 1)
     assert value("lasting", *runs) == pytest.approx(100 * 2 / 3)
     assert value("lasting_recovery", *runs) == 4
+
+
+def test_a_recovery_counts_once_a_seed_however_many_robots_share_the_environment():
+    right = contact(sides=(0, 2, 0, 0, 1, 0, 0, 0), body=SWAPPED)
+    rows = [row(bodies=[SWAPPED] * 4, sides=[NOTHING] * 4, contacts=[right]) for _ in range(20)]
+    (sample,) = samples(*(run("a", seed, it, robots=4) for seed, it in enumerate(rows)))
+
+    found = estimate(FIGURES["recovered"], sample)
+
+    assert (found.low, found.high) == pytest.approx([100 * it for it in wilson(np.ones((20, 1)))[1:]])
 
 
 def test_without_a_change_there_is_no_recovery():
