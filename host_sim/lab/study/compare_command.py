@@ -165,7 +165,8 @@ def of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
 
     folder = StudyFolder(path)
     plan = read_plan(path / PLAN_FILE)
-    samples = samples_of(folder.tables(), [it.condition for it in plan.conditions])
+    seeds = range(plan.first_seed, plan.first_seed + plan.seeds)
+    samples = samples_of(folder.tables(), [it.condition for it in plan.conditions], seeds)
     if not len(samples[0].seeds):
         raise UsageError(f"no seed in {path} has a run of each condition yet: go on with tools/octet study")
     return replace(plan, title=folder.about["title"]), samples

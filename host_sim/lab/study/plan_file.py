@@ -55,7 +55,7 @@ class _Reader:
             conditions=conditions,
             first_seed=first,
             seeds=seeds,
-            chosen_on=self._chosen_on(first, first + seeds - 1),
+            chosen_on=self._chosen_on(first, first + seeds * _seeds_each(conditions) - 1),
             goals=[self._goal(i, goal, conditions) for i, goal in enumerate(self._tables("goals"))],
         )
 
@@ -208,6 +208,11 @@ def _mistake(read: Callable[[str], object], word: str) -> str:
     except UsageError as error:
         return str(error)
     return ""
+
+
+def _seeds_each(conditions: Sequence[Trial]) -> int:
+    """Number of seeds that take the place of one: those of the robots of a fleet, each with a world of its own."""
+    return max(it.config.robots if it.config.is_fleet else 1 for it in conditions)
 
 
 def _name(parts: Sequence[str], several: Sequence[bool]) -> str:

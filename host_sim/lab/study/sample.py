@@ -108,17 +108,19 @@ _BESIDE = (1, 4)
 """The patterns of an obstacle on one side of the robot."""
 
 
-def samples_of(tables: Tables, conditions: Sequence[str] = ()) -> list[Sample]:
+def samples_of(tables: Tables, conditions: Sequence[str] = (), wanted: range | None = None) -> list[Sample]:
     """A sample for each condition, all with the same seeds: those common to all conditions.
 
     Args:
         tables: The rows.
         conditions: The conditions in the desired order; by default that of the rows.
+        wanted: The seeds to take; None for all.
     """
     runs = tables["runs"]
     names = conditions or list(dict.fromkeys(runs["condition"].tolist()))
     by_name = [set(runs["seed"][runs["condition"] == name].tolist()) for name in names]
-    seeds = np.array(sorted(set.intersection(*by_name)) if by_name else [], np.int64)
+    common = sorted(set.intersection(*by_name)) if by_name else []
+    seeds = np.array([seed for seed in common if wanted is None or seed in wanted], np.int64)
     return [
         _sample({name: _of(table, condition, seeds) for name, table in tables.items()}, condition, seeds)
         for condition in names

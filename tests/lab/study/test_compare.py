@@ -47,6 +47,18 @@ def test_a_missed_goal_is_an_exit_code(tmp_path, capsys, word, bound, code):
     assert ("MISSED" in printed) == (code == 1)
 
 
+def test_seeds_that_are_no_longer_in_the_plan_are_not_compared(tmp_path, capsys):
+    plan, out = tmp_path / "a.toml", str(tmp_path / "out")
+    for seeds in ("first_seed = 1", "first_seed = 11\nchosen_on = [1, 10]"):
+        plan.write_text(f'profiles = ["article"]\nseeds = 2\nenvironments = 1\nlimit_s = 5\n{seeds}\n')
+        assert main(["study", str(plan), "--out", out, "--jobs", "1"]) == 0
+    capsys.readouterr()
+
+    assert main(["compare", out]) == 0
+
+    assert "a: 2 seeds of 1 environment each, none of 1..10" in capsys.readouterr().out
+
+
 def test_a_study_without_a_title_is_called_as_its_file(tmp_path, capsys):
     (tmp_path / "mine.toml").write_text('profiles = ["fixed"]\nseeds = 1\nenvironments = 1\nlimit_s = 5\n')
     assert main(["study", str(tmp_path / "mine.toml"), "--out", str(tmp_path / "out"), "--jobs", "1"]) == 0

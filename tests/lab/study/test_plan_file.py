@@ -1,5 +1,6 @@
 """A study's TOML: what it means, and what is said of a mistake."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -35,6 +36,14 @@ def test_every_combination_is_a_condition_and_the_seeds_are_the_same(plan):
 def test_robots_of_a_study_share_a_world_or_have_their_own(plan):
     assert not plan('profiles = ["article"]\nrobots = [4]').is_fleet
     assert plan('profiles = ["article"]\nrobots = [4]\nown_worlds = true').is_fleet
+
+
+def test_each_robot_of_a_fleet_has_a_seed_that_may_not_be_one_of_the_choice(plan):
+    text = 'profiles = ["article"]\nseeds = 10\nchosen_on = [20, 30]\nrobots = [1, 4]\nown_worlds = {}'
+    assert plan(text.format("false")).chosen_on == (20, 30)
+
+    with pytest.raises(UsageError, match=re.escape("seeds 1..40 are not held out")):
+        plan(text.format("true"))
 
 
 def test_brackets_without_end_are_refused(plan):
