@@ -26,7 +26,7 @@ examples:
 Run the same command again to resume a search that was stopped.
 """
 HELD_OUT = 1_000_001
-"""The first of the held-out seeds."""
+"""The first of the held-out seeds, unless the search itself needs so many."""
 
 
 def add(commands: "Subparsers") -> None:
@@ -48,7 +48,7 @@ def add(commands: "Subparsers") -> None:
     add("--only", nargs="+", choices=PARAMETERS, metavar="NAME", help=only)
     add("--set", type=settings, action="append", default=[], metavar="NAME=VALUE", help="fix a parameter at a value")
     add("--environments", type=number(1, 1000), default=2, metavar="N", help="environments a seed" + DEFAULT)
-    add("--trials", type=number(1, 100_000), default=200, metavar="N", help="number of settings to try" + DEFAULT)
+    add("--trials", type=number(4, 100_000), default=200, metavar="N", help="number of settings to try" + DEFAULT)
     add("--seeds", type=number(3, 100_000), default=120, metavar="N", help="seeds for a generation's best" + DEFAULT)
     add("--held-out", type=number(2, 100_000), default=400, metavar="N", help="seeds for the comparison" + DEFAULT)
     add("--out", type=file_path, default=Path("out/tune"), metavar="FOLDER", help="folder for the results" + DEFAULT)
@@ -64,7 +64,8 @@ def _tune(arguments: argparse.Namespace) -> int:
     from host_sim.sim.run_config import RunConfig
 
     a, fixed = arguments, {name: value for each in arguments.set for name, value in each.items()}
-    names = [name for name in a.only or PARAMETERS if name not in fixed and (a.only or name not in OF_THE_BODY)]
+    wanted = dict.fromkeys(a.only or (name for name in PARAMETERS if name not in OF_THE_BODY))
+    names = [name for name in wanted if name not in fixed]
     if not names:
         raise UsageError("nothing to tune: --set fixes every parameter of --only")
     workers = workers_of(a)
@@ -96,7 +97,8 @@ def _tune(arguments: argparse.Namespace) -> int:
             print("found     nothing better than the defaults")
             return 0
         without = [tuple(it for it in search.best if it != one) for one in search.best]
-        samples = samples_of(config, [(), search.best, *without], HELD_OUT, a.held_out, run)
+        held_out = max(HELD_OUT, last + 1)
+        samples = samples_of(config, [(), search.best, *without], held_out, a.held_out, run)
         path = a.out / f"{a.profile}.txt"
         write_bytes(path, _preset(search.best, f"{config.command()}: chosen on seeds {first}..{last}").encode())
         print(_report(samples, search.best))

@@ -43,6 +43,8 @@ _SPREAD = 0.15  # standard deviation of the first generation, as a fraction of a
 Settings = tuple[tuple[str, int], ...]
 """Parameters and their values, in the order of PARAMETERS; omitted ones have their defaults."""
 
+_Key = tuple[Settings, int, int]
+
 
 class Piece(NamedTuple):
     """A setting on some seeds."""
@@ -153,12 +155,12 @@ class Search:
     def _round(self, settings: Sequence[Settings], seeds: int) -> list[Settings]:
         """Runs settings on new seeds; returns them best first."""
         first, self._next = self._next, self._next + seeds
-        missing = [it for it in settings if (it, first) not in self._notes]
+        missing = [it for it in settings if (it, first, seeds) not in self._notes]
         for it, sample in zip(missing, samples_of(self._config, missing, first, seeds, self._run), strict=True):
             value = self._sign * float(self._figure.of(sample, np.arange(seeds)))
             touches = float(sample.bumped.mean()) > _BUMPED_MAX
-            self._notes.add(it, first, value + _UNFIT * touches)
-        return sorted(settings, key=lambda it: self._notes[it, first])
+            self._notes.add((it, first, seeds), value + _UNFIT * touches)
+        return sorted(settings, key=lambda it: self._notes[it, first, seeds])
 
     def _settings(self, places: Any) -> Settings:
         """The settings at a point of the search space; parameters at their defaults are omitted."""
@@ -186,31 +188,32 @@ def samples_of(config: RunConfig, settings: Sequence[Settings], first: int, seed
 
 
 class _Notes:
-    """The values found by a search, in a file of JSON lines."""
+    """The values found by a search, in a file of JSON lines: settings, first seed, number of seeds, and value."""
 
     def __init__(self, path: Path, about: str) -> None:
         self._path = path
-        self._known: dict[tuple[Settings, int], float] = {}
+        self._known: dict[_Key, float] = {}
         lines = read_text(path, _NOTES_MAX).splitlines() if path.exists() else [about]
-        if lines[0] != about:
+        if lines[:1] != [about]:
             raise UsageError(f"{path} is of another search, or of another version; choose another folder with --out")
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_bytes(path, f"{about}\n".encode())
         for line in lines[1:]:
             with suppress(ValueError):  # the last line of a search that was killed
-                settings, first, value = json.loads(line)
-                self.add(tuple((name, number) for name, number in settings), first, value)
+                settings, first, seeds, value = json.loads(line)
+                self._known[tuple((name, number) for name, number in settings), first, seeds] = value
+        path.parent.mkdir(parents=True, exist_ok=True)
+        whole = (json.dumps([*key, value]) for key, value in self._known.items())
+        write_bytes(path, "".join(f"{line}\n" for line in (about, *whole)).encode())
 
     def __contains__(self, key: object) -> bool:
         return key in self._known
 
-    def __getitem__(self, key: tuple[Settings, int]) -> float:
+    def __getitem__(self, key: _Key) -> float:
         return self._known[key]
 
-    def add(self, settings: Settings, first: int, value: float) -> None:
-        self._known[settings, first] = value
+    def add(self, key: _Key, value: float) -> None:
+        self._known[key] = value
         with self._path.open("a", encoding="ascii") as file:
-            file.write(json.dumps([settings, first, value]) + "\n")
+            file.write(json.dumps([*key, value]) + "\n")
 
 
 def _place(name: str, value: int) -> float:

@@ -8,6 +8,7 @@ import pytest
 
 from host_sim.base.errors import UsageError
 from host_sim.cli.main import main
+from host_sim.lab.study import tune_command
 from host_sim.lab.study.tuning import Piece, Search, Wanted, run_pieces, samples_of
 from host_sim.sim.run_config import RunConfig
 from tests.lab.study.support import row, run, samples
@@ -79,6 +80,43 @@ def test_a_search_that_was_stopped_goes_on_and_finds_the_same(tmp_path):
     assert 0 < again.runs < whole.runs
 
 
+def test_notes_of_fewer_trials_are_of_use_to_more_only_where_the_seeds_are_the_same(tmp_path):
+    def found(notes, *trials):
+        for number in trials:
+            one = Search(Wanted(CONFIG, "time", ["filter"], 12), World(), notes)
+            one.go(number, lambda _: None)
+        return (tmp_path / notes).read_text().splitlines()
+
+    def values(lines):
+        return {tuple(map(str, key)): value for *key, value in map(json.loads, lines[1:])}
+
+    apart, together = values(found(tmp_path / "b", 40)), values(found(tmp_path / "a", 8, 40))
+
+    assert apart == {key: together[key] for key in apart}
+
+
+def test_a_file_of_notes_that_is_empty_is_refused(tmp_path):
+    (tmp_path / "notes.jsonl").touch()
+
+    with pytest.raises(UsageError, match="of another search"):
+        search(tmp_path / "notes.jsonl", World())
+
+
+def test_notes_stay_whole_while_a_search_reads_them(tmp_path, monkeypatch):
+    notes = tmp_path / "notes.jsonl"
+    search(notes, World()).go(20, lambda _: None)
+    before = notes.read_bytes()
+
+    def killed(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(json, "loads", killed)
+    with pytest.raises(KeyboardInterrupt):
+        search(notes, World())
+
+    assert notes.read_bytes() == before
+
+
 def test_notes_of_another_search_are_refused_and_kept(tmp_path):
     search(tmp_path / "notes.jsonl", World())
     before = (tmp_path / "notes.jsonl").read_bytes()
@@ -131,6 +169,18 @@ def test_the_command_prints_what_it_found_and_a_run_takes_it(tmp_path, capsys):
     assert last_wins == log_of("--set", "turn_deg=20", "--set", "step_mm=16") != log_of("--set", f"@{preset}")
 
 
+def test_held_out_seeds_begin_after_those_of_the_search(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(tune_command, "HELD_OUT", 5)
+    monkeypatch.setattr(Search, "go", lambda search, *_: vars(search).update(best=(("turn_deg", 20),), _next=41))
+    few = ["--environments", "1", "--limit-s", "5", "--held-out", "3", "--out", str(tmp_path), "--jobs", "1"]
+
+    assert main(["tune", "--only", "turn_deg", "turn_deg", *few]) == 0
+
+    said = capsys.readouterr().out
+    assert "searched  1 parameters of article on seeds 1..40" in said
+    assert "held out  seeds 41..43" in said
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
@@ -139,6 +189,7 @@ def test_the_command_prints_what_it_found_and_a_run_takes_it(tmp_path, capsys):
         (["--set", "@nowhere.txt"], "cannot read nowhere.txt: there is no such file"),
         (["--set", "turn_deg=999"], "from 1 to 180"),
         (["--held-out", "1"], "--held-out"),
+        (["--trials", "3"], "--trials"),
     ],
 )
 def test_wrong_usage_is_one_line(tmp_path, capsys, words, said):
