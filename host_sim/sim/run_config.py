@@ -248,7 +248,7 @@ class RunConfig:
             elif isinstance(value, tuple):
                 words += [word for each in value for word in (flag, each)]
             elif name != "bus" and value != it.default:
-                words += [flag, f"{value:g}" if isinstance(value, float) else str(value)]
+                words += [flag, f"{value:.10g}" if isinstance(value, float) else str(value)]
         return shlex.join(words)
 
     @property

@@ -77,7 +77,7 @@ class Change:
         return [int(number) for number in re.findall(r"\d+", self.what)]
 
     def __str__(self) -> str:
-        seconds = f"{self.after_s:g}s"
+        seconds = f"{self.after_s:.10g}s"
         when = seconds if self.number is None else f"env{self.number}" + (f"+{seconds}" if self.after_s else "")
         return f"{self.what}@{when}" + (f"/{self.robot}" if self.robot else "")
 

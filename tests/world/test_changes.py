@@ -28,6 +28,7 @@ from host_sim.world.reach import Reach
         ("swap-motors@env6/2", Change("swap-motors", 6, 0.0, 2)),
         ("stuck-on:front-left@7s", Change("stuck-on:front-left", None, 7.0)),
         ("noise:10/1000@env1+3.25s/31", Change("noise:10/1000", 1, 3.25, 31)),
+        ("plant@999999.125s", Change("plant", None, 999_999.125)),
         ("weak-motor:left:60%@1s", Change("weak-motor:left:60%", None, 1.0)),
     ],
 )

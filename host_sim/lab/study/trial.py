@@ -142,13 +142,11 @@ def _run_environment(simulation: Simulation, trial: Trial, number: int, known_s:
 def tour_s(config: RunConfig, number: int) -> float:
     """Robot time of the shortest tour through all food of an environment, at the robot's speed, without turning, s.
 
-    NaN where several robots share the environment.
+    NaN where several robots share the environment, or where it cannot be computed.
     """
-    if config.robots > 1:
-        return math.nan
-    return _tour_mm(config.world, config.seed, number) / config.told.get(
-        "speed_mm_s", PARAMETERS["speed_mm_s"].default
-    )
+    length_mm = math.inf if config.robots > 1 else _tour_mm(config.world, config.seed, number)
+    speed_mm_s = config.told.get("speed_mm_s", PARAMETERS["speed_mm_s"].default)
+    return length_mm / speed_mm_s if math.isfinite(length_mm) else math.nan
 
 
 @cache

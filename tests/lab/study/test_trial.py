@@ -15,7 +15,7 @@ from host_sim.lab.study.fleets import samples_of_fleets
 from host_sim.lab.study.plan import Plan
 from host_sim.lab.study.sample import TRAPPED_S, samples_of
 from host_sim.lab.study.tables import tables_of
-from host_sim.lab.study.trial import Trial, knows_wrong, run_trial
+from host_sim.lab.study.trial import Trial, knows_wrong, run_trial, tour_s
 from host_sim.protocol.generated import Reason
 from host_sim.sim.make import make
 from host_sim.sim.native_fleet import loaded
@@ -38,6 +38,10 @@ def test_the_command_of_a_run_repeats_it(tmp_path):
     assert main(["run", *shlex.split(given.config.command())[1:], "--quiet", "--out", str(tmp_path)]) == 0
 
     assert json.loads((tmp_path / "summary.json").read_text())["log_sha256"] == run.log_sha256
+
+
+def test_the_command_of_a_long_run_has_its_limit_to_the_tick():
+    assert "--limit-s 86399.98" in trial("article", 1, limit_s=86_399.98).config.command()
 
 
 def blocked_ticks(run) -> list[int]:
@@ -179,6 +183,12 @@ def test_no_robot_is_quicker_than_the_shortest_tour_but_for_the_distance_from_wh
     spared_s = 5 * SimParams().eat_reach_mm / speed_mm_s
     assert all(it.robot_s > it.tour_s - spared_s for it in searching)
     assert min(it.robot_s / it.tour_s for it in searching) < 1.5
+
+
+def test_of_too_much_food_to_try_every_order_no_tour_is_known(tmp_path):
+    (tmp_path / "much.toml").write_text(f"food = {[[300 * i, 500] for i in range(2, 11)]}\n")
+
+    assert math.isnan(tour_s(RunConfig(world=str(tmp_path / "much.toml")), 1))
 
 
 def test_robots_that_share_an_environment_have_no_tour():
