@@ -42,6 +42,12 @@ def test_a_gap_is_said_once():
     assert counts.gap_s == 0.16
 
 
+def test_without_tolerance_the_first_tick_without_an_answer_is_too_many():
+    counts = Punctuality(Limits(gap_s=0.0))
+
+    assert [counts.miss(round(waited * TICK_S, 6), TICK_S) for waited in (1, 2)] == [True, False]
+
+
 def test_the_summary_has_the_worst():
     counts = counted(late=0, unanswered=0, ticks=50)
     counts.begin(0.03, TICK_S)
