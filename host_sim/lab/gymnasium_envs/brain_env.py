@@ -116,6 +116,8 @@ class BrainEnv(gymnasium.Env[Any, Any]):
         super().reset(seed=seed)
         run_seed, number = rules.chosen_environment(options) or (int(self.np_random.integers(rules.SEED_SPAN)), 1)
         simulation = self._simulation
+        simulation.record.begun.clear()
+        simulation.clients[0].dialogue.commands.clear()
         start_robots(simulation.clients, replace(self._config, seed=run_seed), [_EMPTY])
         freeze(simulation.clients[0], not self._learns)
         simulation.seed = run_seed

@@ -40,7 +40,7 @@ class Learned:
 
     def curve(self) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """Mean food per episode, over the episodes of every 500 steps."""
-        ends = np.arange(_CURVE, self.steps[-1] + _CURVE, _CURVE)
+        ends = np.arange(_CURVE, self.steps[-1] + _CURVE + 1, _CURVE)
         which = self.steps // _CURVE
         return ends, np.bincount(which, self.food, len(ends)) / np.maximum(np.bincount(which, minlength=len(ends)), 1)
 

@@ -34,6 +34,18 @@ def test_left_alone_it_is_the_run_of_the_command_line():
     env.close()
 
 
+def test_a_long_training_takes_no_more_memory_than_an_episode():
+    env = BrainEnv(step_s=0.02, acts_on="parameters")
+    for _ in range(3):
+        env.reset(seed=1)
+        env.step([10, 9])
+
+    simulation = env._simulation
+    assert len(simulation.record.begun) == 1
+    assert len(simulation.clients[0].dialogue.commands) < 10
+    env.close()
+
+
 def test_cells_are_written_and_kept():
     env = BrainEnv(step_s=0.02, learns=False)
     env.reset(seed=1)

@@ -9,7 +9,7 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 from host_sim.base.paths import ROOT
-from host_sim.lab.gymnasium_envs.q_learning import learn
+from host_sim.lab.gymnasium_envs.q_learning import Learned, learn
 from host_sim.lab.gymnasium_envs.scaled import ScaledSenses, scaled
 
 
@@ -31,6 +31,12 @@ def test_scaled_senses_say_what_is_near():
     told = scaled(np.array([[200, 0b10001, 1, 1, 2500, 9, 9], [0, 0b00100, 0, 0, 0, 0, 0]], np.int32))
 
     assert told.tolist() == [[1, 0, 0, 0, 1, 1, 1, 0.5], [0, 0, 1, 0, 0, 0, 0, 0]]
+
+
+def test_a_curve_has_a_point_for_each_500_steps_up_to_the_last_episode():
+    ends, food = Learned(np.zeros((1, 1)), np.array([1, 2, 4]), np.array([0, 499, 500])).curve()
+
+    assert (ends.tolist(), food.tolist()) == ([500, 1000], [1.5, 4.0])
 
 
 def test_the_baseline_eats_more_and_more():
