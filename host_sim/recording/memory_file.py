@@ -113,7 +113,7 @@ class MemorySaver:
 
     def _restore(self) -> None:
         if self._loaded is None:
-            self._path.unlink(missing_ok=True)
+            Path(os.path.realpath(self._path)).unlink(missing_ok=True)
         elif self._saved != self._loaded:
             write_bytes(self._path, bytes(self._loaded))
 

@@ -14,6 +14,7 @@ from host_sim.sim.episode_result import EpisodeResult, RobotResult
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.sim.world_record import WorldRecord
+from host_sim.world.changes import Change
 from host_sim.world.memory_kinds import sides_of
 
 _FAULTS_MAX = 255
@@ -121,7 +122,8 @@ def _incidents(client: RobotClient) -> list[str]:
 
 def _changes(config: RunConfig, record: WorldRecord) -> dict[str, list[str]]:
     refused = [refused.what for refused in record.refused]
-    missed = [change for change in config.changes if change not in {*record.happened, *refused}]
+    planned = (str(Change.parse(change)) for change in config.changes)
+    missed = [change for change in planned if change not in {*record.happened, *refused}]
     return {"happened": record.happened, "refused": refused, "missed": missed}
 
 

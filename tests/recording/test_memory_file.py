@@ -38,6 +38,17 @@ def test_what_is_saved_is_loaded(path, reported):
     assert reported == []
 
 
+def test_the_file_that_a_link_named_goes_when_a_run_turns_doubtful_and_the_link_stays(path, reported):
+    path.symlink_to("own.mem")
+    saver = MemorySaver(path, None, reported.append)
+    saver.save(SOME)
+
+    saver.save(MORE, doubtful=True)
+
+    assert sorted(file.name for file in path.parent.iterdir()) == ["robot.mem", "robot.mem.doubtful"]
+    assert load_memory(path) is None
+
+
 def test_no_file_is_no_memory(path):
     assert load_memory(path) is None
 

@@ -72,6 +72,15 @@ def test_a_run_that_was_cut_short_counts_the_environments_asked_for(client):
     assert summary_of(client).ending == "done      0 of 5 environments finished"
 
 
+def test_a_change_that_happened_was_not_missed_however_its_time_was_written(client):
+    record = WorldRecord(1, 1, 1, happened=["mirror@1s"])
+    run = SimpleNamespace(clients=[client], record=record)
+
+    changes = summarize(RunConfig(changes=("mirror@1.0s", "plant@2.0s")), run, [], "", 1.0).content["changes"]
+
+    assert changes == {"happened": ["mirror@1s"], "refused": [], "missed": ["plant@2s"]}
+
+
 def test_incidents_are_listed(client):
     client.distrust("the robot restarted")
 
