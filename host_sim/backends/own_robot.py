@@ -47,7 +47,7 @@ class OwnRobot:
 
         Raises:
             UsageError: It has never sent a frame.
-            LinkDownError: It has ended again.
+            LinkDownError: It has ended again, or stays silent.
         """
         self.close()
         link, self.process = start_on_socket_pair(self.command, self.environment, stats)
@@ -63,6 +63,7 @@ class OwnRobot:
 
         Raises:
             UsageError: It has never sent a frame.
+            LinkDownError: As for `on_socket_pair`.
         """
         self.process = BusProcess(self.command, bus, self.environment)
         self._first_word(link.receive)
@@ -89,7 +90,8 @@ class OwnRobot:
             if frame is not None:
                 self.was_there = True
                 return frame
-        raise UsageError(f"the robot {self.command!r} says nothing within {BOOT_S:g} s: at power-up it sends BOOT")
+        silent = f"the robot {self.command!r} says nothing within {BOOT_S:g} s: at power-up it sends BOOT"
+        raise LinkDownError(silent) if self.was_there else UsageError(silent)
 
 
 @dataclass
@@ -114,7 +116,7 @@ class _WatchedLink:
             except LinkDownError as error:
                 self.stats.outages, self.stats.reason = self.stats.outages + 1, str(error)
                 self.robot.close()
-                with suppress(LinkDownError):  # it has ended again; the next start may succeed
+                with suppress(LinkDownError):  # as it may be at the next start
                     self.robot.on_bus(self.bus, self.link)
         return frame
 

@@ -11,8 +11,9 @@ import pytest
 
 from host_sim.api import RunConfig, make
 from host_sim.backends import own_robot
-from host_sim.base.errors import RobotError
+from host_sim.base.errors import LinkDownError, RobotError
 from host_sim.cli.main import main
+from host_sim.transport.line_stats import LineStats
 
 EXAMPLE = f"{sys.executable} {Path(__file__).resolve().parents[2] / 'examples' / 'robot' / 'robot.py'}"
 
@@ -65,6 +66,16 @@ def test_one_that_does_not_come_back_ends_the_run(tmp_path):
         kill_robots()
         with pytest.raises(RobotError, match=r"the robot has been gone for 0.3 s: .*was killed by signal 9"):
             go_on(simulation, 100)
+
+
+def test_one_that_comes_back_dumb_is_lost_like_its_line_and_not_called_wrong_usage(monkeypatch):
+    monkeypatch.setattr(own_robot, "BOOT_S", 0.1)
+    robot = own_robot.OwnRobot("sleep 60", 1, was_there=True)
+    try:
+        with pytest.raises(LinkDownError, match="says nothing within 0.1 s"):
+            robot.on_socket_pair(LineStats())
+    finally:
+        robot.close()
 
 
 def go_on(simulation, until):
