@@ -43,7 +43,7 @@ def _health_is_last(talk: Talk) -> None:
 def _then_a_drive_at_rest(talk: Talk) -> None:
     talk.drive_once()
     heard = talk.stop()
-    expect(heard[-1].is_answer and _at_rest(heard[-1]), "after its reports comes no DRIVE at rest")
+    expect(bool(heard) and heard[-1].is_answer and _at_rest(heard[-1]), "after its reports comes no DRIVE at rest")
 
 
 @sentence("T6")

@@ -70,10 +70,10 @@ def started(command: str, bus: str, node: int) -> Iterator[Talk]:
         link: Link
         if bus == "fd":
             link, process = start_on_socket_pair(command, environment)
+            stack.callback(link.close)
         else:
-            link = _open(bus, node)
+            link = stack.enter_context(closing(_open(bus, node)))
             process = BusProcess(command, bus, environment)
-        stack.callback(link.close)
         stack.callback(process.close)
         talk = Talk(link, WallClock(), Protocol(node), lambda span_ms: _hang(process.pid, span_ms))
         try:

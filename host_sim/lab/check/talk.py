@@ -49,8 +49,8 @@ class Said(NamedTuple):
 
     @property
     def is_answer(self) -> bool:
-        """Whether it answers senses: a DRIVE not caused by silence."""
-        return self.name == "DRIVE" and self.signals.get("reason") != Reason.SILENCE
+        """Whether it answers senses: a whole DRIVE not caused by silence."""
+        return self.name == "DRIVE" and self.signals.get("reason", Reason.SILENCE) != Reason.SILENCE
 
 
 class Told(dict[str, int]):

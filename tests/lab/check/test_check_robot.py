@@ -4,10 +4,12 @@ import json
 import re
 import sys
 import xml.etree.ElementTree as ET
+from types import SimpleNamespace
 
 import pytest
 
 from host_sim.backends.robot_process import PROGRAM
+from host_sim.base.errors import UsageError
 from host_sim.base.frame import Frame
 from host_sim.cli.main import main
 from host_sim.lab.check import robots
@@ -20,7 +22,7 @@ from tests.lab.check.canaries import (  # noqa: F401 - they note their robots
     owner_and_held,
     silence_and_lockstep,
 )
-from tests.lab.check.canaries.meddled import CANARIES
+from tests.lab.check.canaries.meddled import CANARIES, Robot
 from tests.lab.check.virtual import EXAMPLE, example, one_for_all, virtual
 
 OF_OTHERS = (
@@ -128,6 +130,40 @@ def test_a_bus_that_is_none_is_told_in_a_line(capsys):
 def test_a_robot_must_be_named(capsys):
     assert main(["check-robot"]) == 2
     assert "--robot-command CMD" in capsys.readouterr().err
+
+
+class Dumb(Robot):
+    """Falls silent for good with its first SENSES, without ending."""
+
+    is_dumb = False
+
+    def step(self, frames, now_ms):
+        said = [] if self.is_dumb else super().step(frames, now_ms)
+        self.is_dumb = self.is_dumb or any(frame_id == example.SENSES for frame_id, _ in frames)
+        return said
+
+
+class Short(Robot):
+    """Sends DRIVE and MEMORY without their last byte."""
+
+    def meddle(self, frame_id, data):
+        return [(frame_id, data[:-1] if frame_id in (example.DRIVE, example.MEMORY) else data)]
+
+
+@pytest.mark.parametrize(("robot", "number"), [(Dumb, "T5"), (Short, "B3")])
+def test_a_robot_whatever_its_defect_is_judged_and_breaks_no_check(robot, number):
+    assert number in {verdict.number for verdict in check_robot(virtual(robot)) if verdict.state == "fails"}
+
+
+def test_where_a_robot_cannot_be_started_its_bus_is_closed_again(monkeypatch):
+    link = SimpleNamespace(closed=0)
+    link.close = lambda: vars(link).update(closed=1)
+    monkeypatch.setattr(robots, "_open", lambda *_: link)
+
+    with pytest.raises(UsageError, match="cannot start"), robots.started("no-such-robot", "virtual:a", 1):
+        pass
+
+    assert link.closed
 
 
 def test_a_good_robot_that_is_there_already_passes():
