@@ -126,7 +126,7 @@ def about_run(
     if not trajectory.first_tick <= tick <= last:
         first_s, last_s = trajectory.first_tick * tick_s, last * tick_s
         raise UsageError(f"{log} does not contain {at_s:g} s: choose a time from {first_s:.2f} to {last_s:.2f} s")
-    index, texts = index_log(log, node, round(tick_s * 1e6)), texts_of(script)
+    index, texts = index_log(log, node), texts_of(script)
     facts = RobotFacts(trajectory, index, tick, texts)
     return Conversation(script_named(script), facts.by_name(), texts), Source(log, index)
 

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from host_sim.protocol.codec import Protocol
+from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import PROFILES
 from host_sim.recording.log_files import frames_in
 from host_sim.recording.log_text import Recorded
@@ -32,26 +32,21 @@ class LogIndex:
         return [self.lines[tick] for tick in ticks if tick < len(self.lines)]
 
 
-def index_log(path: Path, node: int, tick_us: int) -> LogIndex:
-    """Indexes a log.
-
-    Args:
-        path: The log.
-        node: The robot's node number.
-        tick_us: Length of a tick, us.
+def index_log(path: Path, node: int) -> LogIndex:
+    """Indexes a log. A SENSES that comes again is of the same tick.
 
     Raises:
         UsageError: The log cannot be read, or is damaged.
     """
     protocol, index = Protocol(node), LogIndex()
     wanted = {protocol.id_of(name): name for name in ("SENSES", "COMMAND", "HEALTH")}
-    begun: int | None = None
+    senses: Frame | None = None
     for line, it in enumerate(frames_in(path), 1):
         if not isinstance(it, Recorded) or it.frame.id not in wanted:
             continue
         if wanted[it.frame.id] == "SENSES":
-            begun = it.time_us if begun is None else begun
-            if (it.time_us - begun) // tick_us == len(index.lines):
+            if it.frame != senses:
+                senses = it.frame
                 index.lines.append(line)
         elif (message := protocol.decode(it.frame)) and message.name == "HEALTH":
             index.health.append((max(0, len(index.lines) - 1), message.signals))

@@ -224,7 +224,7 @@ def differences(log: Path, ticks: list[int], times: list[int]) -> tuple[int, lis
         ticks: What is asked about: not later than one of these.
         times: The ticks of which it is asked what the robot did.
     """
-    trajectory, index, frames = resimulate(log).trajectory, index_log(log, 1, 20_000), Frames(log)
+    trajectory, index, frames = resimulate(log).trajectory, index_log(log, 1), Frames(log)
     texts, script = texts_of("robot"), script_named("robot")
     count, found = 0, []
     for tick in ticks:

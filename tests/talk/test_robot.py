@@ -1,5 +1,6 @@
 """A robot's answers: those that are marked rest on its log, and other code finds the same in the frames."""
 
+import random
 import re
 from pathlib import Path
 
@@ -47,7 +48,7 @@ def trajectory(log):
 
 @pytest.fixture(scope="module")
 def index(log):
-    return index_log(log, 1, 20_000)
+    return index_log(log, 1)
 
 
 @pytest.fixture
@@ -125,6 +126,17 @@ def test_the_lines_on_which_an_answer_rests_are_those_of_its_tick(log, ask):
     seconds, line = re.search(r"AT ([\d.]+) S:", said)[1], int(re.search(r":(\d+)\)$", said)[1])
     stamp = log.read_text().splitlines()[line - 1].split()[0]
     assert float(stamp.strip("()")) == pytest.approx(float(seconds), abs=0.02)
+
+
+def test_a_log_of_another_program_has_the_same_ticks_however_uneven_its_times(log, index, tmp_path):
+    times = random.Random(1)
+    text = [
+        f"({1_700_000_000 + float(it[1:18]) + times.random() / 1000:.6f}{it[18:]}"
+        for it in log.read_text().splitlines(True)
+    ]
+    (tmp_path / "candump.log").write_text("".join(text))
+
+    assert index_log(tmp_path / "candump.log", 1) == index
 
 
 def test_it_knows_nothing_of_what_comes_later(ask):

@@ -65,7 +65,7 @@ def test_thousands_of_sentences_get_the_same_answers_in_the_page(tmp_path: Path)
     log = tmp_path / "run.log"
     run(RunConfig(seed=11, environments=2, bus="none", profile="forgetful", world="crowded"), log)
     trajectory = resimulate(log).trajectory
-    index = index_log(log, 1, 20_000)
+    index = index_log(log, 1)
     draw = random.Random(5)
     table = [(who, draw.randrange(trajectory.ticks), sentence) for who, sentence in random_sentences(7)]
     talks = {who: Conversation(script_named(who), NO_FACTS, texts_of(who)) for who in SPEAKERS}
