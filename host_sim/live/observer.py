@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 _WAIT_S, _DRAW_S = 0.1, 0.1
 _TRAIL_MAX = 3000
+_PART_TICKS = 50_000
+"""Ticks after which earlier ones may be forgotten: an observation has no environments to forget."""
+
 _NOTHING: EnvironmentScene = {
     "number": 1, "of": 1, "seed": 0, "first_tick": 0, "start_tick": 0, "bars": [], "food": []
 }  # fmt: skip
@@ -74,6 +77,8 @@ class Observer:
             self._senses = tick.senses
             if tick.drive.eat:
                 self._meals.append(self._pose[:2])
+            if trajectory.ticks - trajectory.scenes[-1][0] >= _PART_TICKS:
+                recorder.enter({**_NOTHING, "first_tick": trajectory.ticks})
             record(recorder, tick, self._pose)
             yield trajectory.at(trajectory.ticks - 1)
 
@@ -84,7 +89,8 @@ class Observer:
         def placed(x: float, y: float) -> Point:
             return x - self._pose.x_mm + middle[0], y - self._pose.y_mm + middle[1]
 
-        trail = trajectory.tracks[0].trail(max(trajectory.ticks - _TRAIL_MAX, 0), trajectory.ticks)
+        first = max(trajectory.ticks - _TRAIL_MAX, trajectory.first_tick)
+        trail = trajectory.tracks[0].trail(first, trajectory.ticks)
         food = [placed(*meal) for meal in self._meals]
         here: State = {**state, "x": middle[0], "y": middle[1], "eaten": [1] * len(food)}
         scene: EnvironmentScene = {**_NOTHING, "food": [list(it) for it in food]}

@@ -15,8 +15,10 @@ from host_sim.api import run
 from host_sim.base.errors import OctetError
 from host_sim.cli.main import main
 from host_sim.client.frame_log import NoLog
+from host_sim.live import observer as observer_module
 from host_sim.live.observer import Line, Observer, observe
 from host_sim.live.text_picture import draw_text
+from host_sim.recording import run_recorder
 from host_sim.recording.log_reader import Recorded, read_log
 from host_sim.sim.run_config import RunConfig
 
@@ -66,6 +68,16 @@ def test_it_tells_what_the_robot_does_without_a_word_and_its_log_is_that_of_the_
     assert [line.frame for line in read_log(tmp_path / "observed.log")] == [line.frame for line in recorded]
     assert main(["replay", str(tmp_path / "observed.log")]) == 0
     assert all((tmp_path / name).stat().st_size > 1000 for name in ("observed.html", "observed.png"))
+
+
+def test_it_keeps_only_the_last_ticks_however_long_it_looks_on(recorded, monkeypatch):
+    monkeypatch.setattr(run_recorder, "TICKS_MAX", 60)
+    monkeypatch.setattr(observer_module, "_PART_TICKS", 10)
+    observer = Observer(1)
+    *_, state = observer.follow(line.frame for line in recorded)
+
+    (trail,) = observer.view(state).trails
+    assert 60 <= len(trail) <= 60 + 60 // 8 + 2 * 10
 
 
 def test_its_picture_has_the_robot_in_the_middle_and_its_way(recorded):
