@@ -72,7 +72,7 @@ def test_one_that_comes_back_dumb_is_lost_like_its_line_and_not_called_wrong_usa
     monkeypatch.setattr(own_robot, "BOOT_S", 0.1)
     robot = own_robot.OwnRobot("sleep 60", 1, was_there=True)
     try:
-        with pytest.raises(LinkDownError, match="says nothing within 0.1 s"):
+        with pytest.raises(LinkDownError, match=r"says nothing within 0\.1 s"):
             robot.on_socket_pair(LineStats())
     finally:
         robot.close()
