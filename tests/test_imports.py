@@ -132,6 +132,16 @@ def test_what_is_loaded_in_vain_is_found(tmp_path):
     assert loaded_at_the_first_tick(tmp_path, "import PIL, host_sim.report") == {"PIL", "host_sim.report"}
 
 
+@pytest.mark.parametrize(("bus", "loads"), [("fd", False), ("socketcan:nowhere", True)])
+def test_only_a_bus_of_python_cans_loads_it(tmp_path, bus, loads):
+    words = ["run", "--bus", bus, "--limit-s", "1", "--environments", "1", "--quiet", "--out", str(tmp_path)]
+    script = f"import sys, host_sim.cli.main as m; m.main({words}); print('can' in sys.modules)"
+
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+
+    assert done.stdout.splitlines()[-1] == str(loads)
+
+
 def test_only_the_command_that_is_called_is_loaded():
     script = "import sys, host_sim.cli.main as m; m.main(['load']); print(*sys.modules)"
 
