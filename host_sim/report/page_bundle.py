@@ -14,6 +14,8 @@ import posixpath
 import re
 import zlib
 from collections.abc import Iterator, Mapping
+from functools import cache
+from pathlib import Path
 
 from host_sim.base.paths import WEB
 from host_sim.view.languages import as_script, with_languages
@@ -80,4 +82,9 @@ def _place(name: str, needed: str) -> str:
 
 
 def _read(name: str) -> str:
-    return _NOT_READ.sub("", _COMMENT.sub("", (WEB / name).read_text(encoding="utf-8")))
+    return _stripped(WEB / name)
+
+
+@cache
+def _stripped(path: Path) -> str:
+    return _NOT_READ.sub("", _COMMENT.sub("", path.read_text(encoding="utf-8")))
