@@ -75,7 +75,7 @@ def write_fleet_page(path: Path, config: RunConfig, film: FleetFilm, params: Sim
 def _alone(config: RunConfig) -> str:
     words = [f"--{name} {getattr(config, name)}" for name in ("environments", "profile", "world", "body")]
     settings = (f"--set {name}={value}" for name, value in config.settings.items())
-    return " ".join([*words, f"--limit-s {config.limit_s:g}", *settings])
+    return " ".join([*words, f"--limit-s {config.limit_s:.10g}", *settings])
 
 
 def _columns(film: FleetFilm) -> Iterator[tuple[str, Sequence[int]]]:

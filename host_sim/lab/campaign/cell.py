@@ -145,5 +145,6 @@ class Cell:
         return replace(self.config, bus=self.link).command()
 
     def __str__(self) -> str:
-        head = f"{self.profile} {self.link} {self.pace} seed={self.seed} limit={self.limit_s:g}"
+        limit_s = f"{round(self.limit_s, 3):.10g}"
+        head = f"{self.profile} {self.link} {self.pace} seed={self.seed} limit={limit_s}"
         return " ".join([head, *self.items])

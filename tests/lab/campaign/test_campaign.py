@@ -124,6 +124,10 @@ def test_each_cell_is_a_line_that_is_read_as_it_was_written():
         assert Cell.parse(str(cell)) == cell
 
 
+def test_a_cell_with_a_limit_of_many_digits_can_be_repeated_to_the_tick():
+    assert Cell.parse(str(Cell("article", "none", LOCKSTEP, limit_s=12.34567))).limit_s == 12.346
+
+
 def test_a_schedule_is_shrunk_to_what_matters():
     line = "article none lockstep seed=12 limit=13 fault=duplicate:9% fault=forge:stop@300/to change=mirror@2s"
 
