@@ -10,6 +10,7 @@ import csv
 import io
 import re
 from collections.abc import Callable, Sequence
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -57,13 +58,11 @@ def fill(text: str, folder: Path) -> str:
     Raises:
         OctetError: A table or a row of it is missing.
     """
-    tables: dict[str, Rows] = {}
+    rows_of = cache(lambda table: _read(folder / table))
 
     def look_up(table: str, condition: str, figure: str, kind: str = "") -> str:
-        if table not in tables:
-            tables[table] = _read(folder / table)
         try:
-            value, low, high = tables[table][condition, figure]
+            value, low, high = rows_of(table)[condition, figure]
         except KeyError:
             raise OctetError(f"{folder / table} has no figure {figure} of {condition}") from None
         what = _ALL[figure]
@@ -75,8 +74,7 @@ def fill(text: str, folder: Path) -> str:
 
     def block(found: re.Match[str]) -> str:
         table, figures = f"{TABLES}/{found[2]}", found[3].split()
-        look_up(table, next(iter(_read(folder / table)))[0], figures[0])
-        conditions = dict.fromkeys(condition for condition, _ in tables[table])
+        conditions = dict.fromkeys(condition for condition, _ in rows_of(table))
 
         def cell(condition: str, figure: str) -> str:
             value, interval = (look_up(table, condition, figure, kind) for kind in ("", "interval"))

@@ -12,7 +12,7 @@ from host_sim.lab.study.study_command import add_workers, run_study, worker_stag
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
 
-_DOCUMENT = "learning.md"
+_DOCUMENT, _SIZE_MAX = "learning.md", 1_000_000
 _EXAMPLES = """\
 examples:
   tools/octet reproduce                  everything: a quarter of an hour on two cores
@@ -60,11 +60,15 @@ def add(commands: "Subparsers") -> None:
 
 def _reproduce(arguments: argparse.Namespace) -> int:
     from host_sim.base.atomic_file import write_bytes
+    from host_sim.base.regular_file import read_text
     from host_sim.lab.study.document import fill
 
     a = arguments
     document = a.docs / _DOCUMENT
-    asked = document.read_text()
+    try:
+        asked = read_text(document, _SIZE_MAX)
+    except FileNotFoundError:
+        raise UsageError(f"there is no {document} to fill in; choose its folder with --docs") from None
     paths = sorted(
         path for path in a.studies.glob("*.toml") if f"{path.stem}.csv" in asked and a.only in (None, path.stem)
     )
@@ -72,7 +76,7 @@ def _reproduce(arguments: argparse.Namespace) -> int:
         raise UsageError(f"there is no study {a.only or ''} in {a.studies}".replace("  ", " "))
     for path in paths:
         _reproduce_study(path, arguments)
-    write_bytes(document, fill(document.read_text(), a.docs).encode())
+    write_bytes(document, fill(read_text(document, _SIZE_MAX), a.docs).encode())
     print(f"wrote     {document}")
     return 0
 

@@ -94,6 +94,12 @@ def test_one_command_makes_tables_plots_and_numbers(tmp_path):
     assert (docs / "images/score-score.png").exists()
 
 
+def test_a_folder_without_the_document_is_said(tmp_path, capsys):
+    assert main(["reproduce", "--only", "score", "--docs", str(tmp_path)]) == 2
+
+    assert f"there is no {tmp_path / 'learning.md'}" in capsys.readouterr().err
+
+
 def test_a_study_that_is_not_there_is_said(tmp_path, capsys):
     assert main(["reproduce", "--only", "nothing", "--studies", str(tmp_path)]) == 2
 
