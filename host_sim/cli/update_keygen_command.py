@@ -151,10 +151,9 @@ def _images(arguments: argparse.Namespace, key: "Ed25519PrivateKey") -> "dict[in
 
 
 def _save(path: Path, images: "dict[int, SlotImage]") -> None:
-    try:
-        path.write_bytes(b"".join(image.data for image in images.values()))
-    except OSError as error:
-        raise UsageError(f"cannot write {path}: {error.strerror}") from error
+    from host_sim.base.atomic_file import write_bytes
+
+    write_bytes(path, b"".join(image.data for image in images.values()))
     print(f"saved: {path}, version {images[0].version}, for {images[0].board}")
 
 
