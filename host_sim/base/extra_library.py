@@ -3,7 +3,6 @@
 import importlib
 import os
 import sys
-from pathlib import Path
 from typing import Any
 
 from host_sim.base.errors import UsageError
@@ -24,18 +23,17 @@ def missing(name: str, stage: str) -> str:
     return f"this needs {needed}, which is not installed: run {how}"
 
 
-def library(name: str, stage: str, build: Path = BUILD) -> Any:
+def library(name: str, stage: str) -> Any:
     """Loads a library.
 
     Args:
         name: Its module name.
         stage: The stage of tools/setup that installs it, into a folder of that name.
-        build: Parent of that folder.
 
     Raises:
         UsageError: It is not installed.
     """
-    place = os.fspath(build / stage)
+    place = os.fspath(BUILD / stage)
     if place not in sys.path:
         sys.path.append(place)
     try:

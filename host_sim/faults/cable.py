@@ -22,16 +22,12 @@ class Cable:
         passed: Number of bytes that have passed.
     """
 
-    def __init__(self, noise: float = 0.0) -> None:
-        """Creates the ptys.
-
-        Args:
-            noise: Chance of each byte to be changed.
-        """
+    def __init__(self) -> None:
+        """Creates the ptys."""
         self._masters, self._slaves, self.ends = [_GONE] * 2, [_GONE] * 2, [""] * 2
         for end in range(2):
             self._open(end)
-        self.noise, self._dice = noise, random.Random(1)
+        self.noise, self._dice = 0.0, random.Random(1)
         self.passed = 0
         self._told, self._tell = os.pipe()
         self._done = threading.Event()

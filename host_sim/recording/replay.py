@@ -14,7 +14,6 @@ from host_sim.recording.log_reader import LogReader, Recorded, check_protocol, f
 _TO_ROBOT = ("SENSES", "COMMAND")
 _AT_REST = (Reason.STOP, Reason.SILENCE)
 _SILENT = 1 << Fault.SILENCE
-_MISSED = _SILENT | 1 << Fault.MISSED | 1 << Fault.STALE
 _NEAR = 10
 """A loss within a gap is assumed to begin and end within this many of its first and last senses."""
 

@@ -12,9 +12,6 @@ from host_sim.world.params import SimParams
 from host_sim.world.world_library import world_library
 from host_sim.world.written_layout import KEYS, WrittenLayout, written_in_c
 
-BARS_MAX = 40
-"""Maximum number of obstacles in an arena."""
-
 
 class WrittenError(ValueError):
     """A mistake in a written world; the message says what is expected.

@@ -154,10 +154,10 @@ class Talk:
         one(said, "HEALTH")
         return Told({name: value for each in said for name, value in each.signals.items()})
 
-    def senses(self, tick: int, feel: int = 0, counter: int | None = None) -> Frame:
+    def senses(self, tick: int, feel: int = 0) -> Frame:
         """The senses of a tick, of a body whose wheels have followed the last drive."""
         known = Senses(tick % TICK_SPAN, feel, False, False, 0, *self._odometers)
-        return self.protocol.encode_senses(known, tick % COUNTERS if counter is None else counter)
+        return self.protocol.encode_senses(known, tick % COUNTERS)
 
     def step(self, ahead: int = 1, feel: int = 0) -> list[Said]:
         """Sends the senses of a coming tick; returns the robot's frames up to its DRIVE."""

@@ -71,9 +71,9 @@ def learn(seed: int, steps: int = STEPS) -> Learned:
     return Learned(values.reshape(-1, _DEEDS), many, ends)
 
 
-def food_of(profile: str, robots: int = 1000) -> float:
-    """Mean food eaten by firmware robots in their first minute, starting with an empty memory."""
-    config = RunConfig(profile=profile, robots=robots, worlds="own", environments=1, limit_s=SECONDS)
+def food_of(profile: str) -> float:
+    """Mean food eaten by a thousand firmware robots in their first minute, starting with an empty memory."""
+    config = RunConfig(profile=profile, robots=1000, worlds="own", environments=1, limit_s=SECONDS)
     return float(np.mean([result.food_eaten for result in run_fleet(config)]))
 
 
