@@ -1,5 +1,5 @@
-/* choice.h: which image starts, and other settings that must survive an update: one record of eight bytes, appended as the
- * flash store appends a memory. It is all that the boot loader stores, so that every change is atomic. */
+/* choice.h: which image starts, and other settings that must survive an update: one record of eight bytes, appended
+ * as the flash store appends a memory. It is all that the boot loader stores, so that every change is atomic. */
 #ifndef OCTET_CHOICE_H
 #define OCTET_CHOICE_H
 

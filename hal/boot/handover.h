@@ -1,5 +1,5 @@
-/* handover.h: a request that a program leaves in RAM for the one that runs after a reset, in a place that each chip reserves for
- * it. */
+/* handover.h: a request that a program leaves in RAM for the one that runs after a reset, in a place that each chip
+ * reserves for it. */
 #ifndef OCTET_HANDOVER_H
 #define OCTET_HANDOVER_H
 

@@ -11,7 +11,8 @@
 enum {
     PIECE = 64,              /* bytes read at once: the size of header and signature; all else is a multiple of it */
     FORMAT = 1,
-    SIZE_AT = 8, CRC_AT = 12, VERSION_AT = 16, FORMAT_AT = 20, SLOT_AT = 21, LAYOUT_AT = 22, CHIP_AT = 24, BOARD_AT = 36
+    SIZE_AT = 8, CRC_AT = 12, VERSION_AT = 16, FORMAT_AT = 20, SLOT_AT = 21, LAYOUT_AT = 22, CHIP_AT = 24,
+    BOARD_AT = 36
 };
 
 static const uint8_t MAGIC[8] = {'O', 'C', 'T', 'E', 'T', 'I', 'M', 'G'};

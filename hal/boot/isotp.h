@@ -1,5 +1,5 @@
-/* isotp.h: ISO-TP (ISO 15765-2) on classic CAN: one connection, one message at a time each way, normal addressing. The caller
- * provides the time and the received frames, and sends the frames; nothing here waits. */
+/* isotp.h: ISO-TP (ISO 15765-2) on classic CAN: one connection, one message at a time each way, normal addressing.
+ * The caller provides the time and the received frames, and sends the frames; nothing here waits. */
 #ifndef OCTET_ISOTP_H
 #define OCTET_ISOTP_H
 
@@ -29,8 +29,8 @@ struct isotp {
 };
 
 uint16_t isotp_take(struct isotp *isotp, const struct frame *frame, uint32_t now_ms);
-        /* Handles a received frame. Returns the length of the message that it completes, in rx until the next call, or 0.
-           Unexpected frames are ignored, or abort the message in progress, as the standard says. */
+        /* Handles a received frame. Returns the length of the message that it completes, in rx until the next call,
+           or 0. Unexpected frames are ignored, or abort the message in progress, as the standard says. */
 
 bool isotp_receives(struct isotp *isotp, uint32_t now_ms);
         /* Whether a message is being received: its first rx_at bytes are in rx. */

@@ -67,8 +67,9 @@ void loader_alive(bool outage)
 /* The services of a programming session are in the boot loader. */
 static const struct entry ENTRIES[] = {
     {SESSION_CONTROL, 2, FUNCTION_1 | FUNCTION_2, EXACT}, {READ, 3, 0, EXACT}, {TESTER_PRESENT, 2, FUNCTION_0, EXACT},
-    {RESET, 0, 0, PROGRAMMING}, {SECURITY, 0, 0, PROGRAMMING}, {WRITE, 0, 0, PROGRAMMING}, {ROUTINE, 0, 0, PROGRAMMING},
-    {DOWNLOAD, 0, 0, PROGRAMMING}, {TRANSFER, 0, 0, PROGRAMMING}, {TRANSFER_EXIT, 0, 0, PROGRAMMING},
+    {RESET, 0, 0, PROGRAMMING}, {SECURITY, 0, 0, PROGRAMMING}, {WRITE, 0, 0, PROGRAMMING},
+    {ROUTINE, 0, 0, PROGRAMMING}, {DOWNLOAD, 0, 0, PROGRAMMING}, {TRANSFER, 0, 0, PROGRAMMING},
+    {TRANSFER_EXIT, 0, 0, PROGRAMMING},
 };
 
 /* A request for a programming session is answered by the boot loader once it runs. */

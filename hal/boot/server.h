@@ -6,7 +6,7 @@
 #include "hal/boot/uds.h"
 
 enum {
-    UPDATE_REQUEST_ID = 0x6E0,    /* plus the node: 0x6E1..0x6FF. The lowest priority: updates give way to robots that drive */
+    UPDATE_REQUEST_ID = 0x6E0,    /* plus the node: 0x6E1..0x6FF. Lowest priority: robots that drive come first */
     UPDATE_ANSWER_ID = 0x060,     /* plus the node: 0x061..0x07F. Short and rare, so high priority */
     SERVER_IDLE_MS = 5000,        /* without a request: then it starts the image, if any */
     SERVER_LAST_MS = 20           /* for the last answer to leave */
@@ -33,7 +33,7 @@ void server_send(struct server *server, struct link *link, uint32_t now_ms);
         /* Sends whatever is due. */
 
 bool server_work(struct server *server, uint32_t now_ms);
-        /* Does a step of any long operation, which may stall for as long as an erase. Call whenever no frame waits. False:
-           restart the chip now. */
+        /* Does a step of any long operation, which may stall for as long as an erase. Call whenever no frame waits.
+           False: restart the chip now. */
 
 #endif

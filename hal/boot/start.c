@@ -30,7 +30,8 @@ int start_pick(struct choices *choices)
     struct image image;
 
     while (is_in(&next)) {
-        if (image_check(next.slot, &image) == REFUSAL_NONE && (choices_save(choices, &next, true) == 0 || !next.trial))
+        if (image_check(next.slot, &image) == REFUSAL_NONE
+            && (choices_save(choices, &next, true) == 0 || !next.trial))
             return next.slot;
         next = choice_without(&next);
     }

@@ -7,7 +7,8 @@
 
 enum {
     SEED = 1,
-    DID_BOOT = 0xF180, DID_BOARD = 0xF191, DID_STATUS = 0xFD00, DID_WRITTEN = 0xFD01, DID_WHO = 0xFD04, DID_BITRATE = 0xFD05,
+    DID_BOOT = 0xF180, DID_BOARD = 0xF191, DID_STATUS = 0xFD00, DID_WRITTEN = 0xFD01, DID_WHO = 0xFD04,
+    DID_BITRATE = 0xFD05,
     KEY_SHOWN = 4                 /* bytes of the public key shown to identify it */
 };
 
@@ -198,7 +199,9 @@ uint16_t uds_serve(struct uds *uds, const uint8_t request[], uint16_t len, uint8
 
 uint16_t uds_do(struct uds *uds, uint8_t answer[UDS_ANSWER_MAX])
 {
-    static const uint8_t done[WORK_KINDS][5] = {{0}, {ROUTINE | POSITIVE, 1, 0xFF, 0, 0}, {ROUTINE | POSITIVE, 1, 0xFF, 1, 0}};
+    static const uint8_t done[WORK_KINDS][5] = {
+        {0}, {ROUTINE | POSITIVE, 1, 0xFF, 0, 0}, {ROUTINE | POSITIVE, 1, 0xFF, 1, 0}
+    };
     enum uds_work work = uds->work;
     enum nrc why = uds_step(uds);
 

@@ -1,7 +1,7 @@
 /* uds.h: the UDS services (ISO 14229-1) for updates. docs/update.md lists them, and what they refuse and why.
  *
- * Requests and answers are complete messages; isotp.h handles ISO-TP. What takes longer than a tester waits is first answered
- * with "response pending", then done in steps. */
+ * Requests and answers are complete messages; isotp.h handles ISO-TP. What takes longer than a tester waits is first
+ * answered with "response pending", then done in steps. */
 #ifndef OCTET_UDS_H
 #define OCTET_UDS_H
 
@@ -43,12 +43,12 @@ void uds_begin(struct uds *uds, struct choices *choices, uint32_t now_ms);
         /* Begins in the default session. choices must outlive it. */
 
 uint16_t uds_serve(struct uds *uds, const uint8_t request[], uint16_t len, uint8_t answer[UDS_ANSWER_MAX]);
-        /* Handles a request of 1..UDS_BLOCK_MAX bytes. Returns the length of the answer, or 0 for none. While uds->work is
-           not WORK_NONE, the answer is "busy". */
+        /* Handles a request of 1..UDS_BLOCK_MAX bytes. Returns the length of the answer, or 0 for none. While
+           uds->work is not WORK_NONE, the answer is "busy". */
 
 bool uds_ahead(struct uds *uds, const uint8_t request[], uint16_t len);
-        /* Handles the first 2..UDS_BLOCK_MAX bytes of an incomplete request: if it is the block that is due, writes the next unit
-           of it, in under 0.2 ms. False: there was nothing to write. */
+        /* Handles the first 2..UDS_BLOCK_MAX bytes of an incomplete request: if it is the block that is due, writes
+           the next unit of it, in under 0.2 ms. False: there was nothing to write. */
 
 uint16_t uds_do(struct uds *uds, uint8_t answer[UDS_ANSWER_MAX]);
         /* Does a step of uds->work, at most 0.1 s. Returns the length of the answer once it is done, else 0. */

@@ -7,9 +7,9 @@
 /* Negative response codes, by ISO 14229-1 annex A. */
 enum nrc {
     NRC_NONE = 0,
-    NRC_SERVICE = 0x11, NRC_FUNCTION = 0x12, NRC_LENGTH = 0x13, NRC_BUSY = 0x21, NRC_CONDITIONS = 0x22, NRC_SEQUENCE = 0x24,
-    NRC_RANGE = 0x31, NRC_LOCKED = 0x33, NRC_KEY = 0x35, NRC_TRIES = 0x36, NRC_DELAY = 0x37, NRC_FAILURE = 0x72,
-    NRC_BLOCK = 0x73, NRC_PENDING = 0x78, NRC_SESSION = 0x7F
+    NRC_SERVICE = 0x11, NRC_FUNCTION = 0x12, NRC_LENGTH = 0x13, NRC_BUSY = 0x21, NRC_CONDITIONS = 0x22,
+    NRC_SEQUENCE = 0x24, NRC_RANGE = 0x31, NRC_LOCKED = 0x33, NRC_KEY = 0x35, NRC_TRIES = 0x36,
+    NRC_DELAY = 0x37, NRC_FAILURE = 0x72, NRC_BLOCK = 0x73, NRC_PENDING = 0x78, NRC_SESSION = 0x7F
 };
 
 enum service {
@@ -54,8 +54,8 @@ void uds_put(struct exchange *exchange, uint32_t number, unsigned bytes);
         /* Appends to the answer. */
 
 enum nrc uds_admit(const struct entry *entry, const struct entry *end, unsigned given, struct exchange *exchange);
-        /* Begins the answer to a request if it meets the conditions of its entry. They are checked in the order of the
-           standard. */
+        /* Begins the answer to a request if it meets the conditions of its entry. They are checked in the order of
+           the standard. */
 
 uint16_t uds_answer(struct exchange *exchange, enum nrc why);
 uint16_t uds_refuse(uint8_t service, enum nrc why, uint8_t answer[]);

@@ -30,8 +30,8 @@ static enum nrc refuse(struct uds *uds, enum refusal why, enum nrc nrc)
     return nrc;
 }
 
-/* Erase: takes the first byte to erase, and the header of the new image. All that can be wrong with them is found before
- * anything is erased. */
+/* Erase: takes the first byte to erase, and the header of the new image. All that can be wrong with them is found
+ * before anything is erased. */
 static enum nrc begin_erase(struct uds *uds, const struct exchange *exchange)
 {
     const uint8_t *options = &exchange->request[ROUTINE_OPTIONS];
@@ -111,7 +111,8 @@ static bool write_unit(struct uds *uds, const uint8_t *block)
     uint32_t at = uds->at + uds->ahead;
 
     memcpy(words, &block[uds->ahead], flash_unit());
-    if (flash_write(LAYOUT.slot_page[uds->slot] + at / flash_page_size(), at % flash_page_size(), words, flash_unit()) < 0)
+    if (flash_write(LAYOUT.slot_page[uds->slot] + at / flash_page_size(), at % flash_page_size(), words,
+                    flash_unit()) < 0)
         return false;
     uds->ahead += flash_unit();
     return true;

@@ -17,7 +17,7 @@ struct port {
 };
 
 int port_open(struct port *port, int argc, char *const argv[]);
-        /* Fills *port from the command line, or with built-in values. Returns 0, or HAL_E_USAGE, reported on the console. */
+        /* Fills *port from the command line or built-in values. Returns 0 or HAL_E_USAGE, reported on the console. */
 
 void port_ready(const struct port *port);
         /* Reports that the link is open, in the machine's own way. */
@@ -44,14 +44,14 @@ enum port_effort { PORT_QUICKLY, PORT_AT_REST };
 enum { PORT_LATER = 1 };
 
 int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort);
-        /* As hal_store. With PORT_QUICKLY, returns PORT_LATER and changes nothing if it would take longer than a tick.
-           PORT_AT_REST: the wheels are at rest and no answer is awaited, so the call may take a second. */
+        /* As hal_store. With PORT_QUICKLY, returns PORT_LATER and changes nothing if it would take longer than a
+           tick. PORT_AT_REST: the wheels are at rest and no answer is awaited, so the call may take a second. */
 
 enum { PORT_MORE = 2 };
 
 int port_load_more(unsigned which, uint8_t bytes[CELL_COUNT]);
 int port_store_more(unsigned which, const uint8_t bytes[CELL_COUNT]);
-        /* Load and store eight further bytes for the body; which is below PORT_MORE. As port_load, and port_store with
-           PORT_AT_REST. Only on machines with a body on pins. */
+        /* Load and store eight further bytes for the body; which is below PORT_MORE. As port_load, and port_store
+           with PORT_AT_REST. Only on machines with a body on pins. */
 
 #endif

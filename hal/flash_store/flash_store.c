@@ -8,8 +8,8 @@
 
 enum { TRIES_MAX = 4 };   /* worn places skipped per save */
 
-/* An interrupted erase can leave erased bytes and zeros whose CRC is this, without any record having been written: so no record
- * uses it. */
+/* An interrupted erase can leave erased bytes and zeros whose CRC is this, without any record having been written: so
+ * no record uses it. */
 #define NOT_WRITTEN UINT32_MAX
 
 struct record {
@@ -108,8 +108,8 @@ static bool is_erased(unsigned page, union place *scratch)
     return used_of(page, scratch) == size_of_place() && look(page, 0, scratch) == MARK;
 }
 
-/* The old mark is overwritten first, so that it cannot survive an erase that loses power. If the new mark cannot be written,
- * the page is used without it: its records serve the same purpose. */
+/* The old mark is overwritten first, so that it cannot survive an erase that loses power. If the new mark cannot be
+ * written, the page is used without it: its records serve the same purpose. */
 static int erase(unsigned page, union place *scratch)
 {
     static const uint8_t nothing[CELL_COUNT];   /* zeros */
@@ -142,7 +142,7 @@ static int turn_page(struct flash_store *store, union place *scratch, bool may_e
     return 0;
 }
 
-/* The records after the newest one failed to write. They may become readable later, so their sequence numbers are skipped. */
+/* Records after the newest one failed to write. They may become readable later, so their numbers are skipped. */
 static void go_on_behind_newest(struct flash_store *store, union place *scratch)
 {
     store->page = store->kept;

@@ -1,5 +1,5 @@
-/* exchange.h: a robot as a library, frames in and frames out, for running it within another program as fast as possible. It
- * is the same robot with the same protocol as on a bus; its time is that of the frames. */
+/* exchange.h: a robot as a library, frames in and frames out, for running it within another program as fast as
+ * possible. It is the same robot with the same protocol as on a bus; its time is that of the frames. */
 #ifndef OCTET_EXCHANGE_H
 #define OCTET_EXCHANGE_H
 

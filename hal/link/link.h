@@ -20,7 +20,7 @@ enum {
 };
 
 struct frame {
-    uint32_t id;       /* 0..0x7FF for the frames we use; other kinds have a flag in the top bits, and callers ignore them */
+    uint32_t id;       /* 0..0x7FF for frames we use; others have a flag in the top bits, and callers ignore them */
     uint8_t len;       /* 0..8 */
     uint8_t data[8];   /* zero from len on */
 };
@@ -48,15 +48,15 @@ struct link;   /* one open link */
 
 int link_open(struct link **link, const char *name, const uint16_t ids[], size_t id_count);
         /* Returns 0, or LINK_E_NAME or LINK_E_OPEN with *link untouched. ids: the identifiers to listen for, at most
-           LINK_IDS_MAX; with LINK_FAMILY, a whole family each. A link that can filter drops all others, one that cannot
-           delivers them. A family that arrives faster than it is read does not displace other frames. */
+           LINK_IDS_MAX; with LINK_FAMILY, a whole family each. A link that can filter drops all others, one that
+           cannot delivers them. A family that arrives faster than it is read does not displace other frames. */
 
 int link_receive(struct link *link, struct frame *out, uint32_t wait_ms);
-        /* Returns 1 with *out filled, or 0 after wait_ms without a frame; 0 ms polls. Or LINK_E_GARBLED or LINK_E_CLOSED at
-           once, LINK_E_DOWN after wait_ms. Signals do not shorten the wait. */
+        /* Returns 1 with *out filled, or 0 after wait_ms without a frame; 0 ms polls. Or LINK_E_GARBLED or
+           LINK_E_CLOSED at once, LINK_E_DOWN after wait_ms. Signals do not shorten the wait. */
 
 int link_send(struct link *link, const struct frame *frame);
-        /* Returns 0 if the bus accepted the frame, else LINK_E_FULL, LINK_E_DOWN or LINK_E_CLOSED. Waits up to LINK_SEND_MS. */
+        /* 0: the bus accepted the frame. Else LINK_E_FULL, LINK_E_DOWN or LINK_E_CLOSED. Waits up to LINK_SEND_MS. */
 
 void link_health(const struct link *link, struct link_health *out);
         /* The state of the bus. A link that cannot know reports all zeros: an active bus without errors. */

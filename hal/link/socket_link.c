@@ -46,7 +46,8 @@ static int filter(int fd, const struct link_request *request)
     struct can_filter wanted[LINK_IDS_MAX];
     for (size_t i = 0; i < request->id_count; i++) {
         canid_t any = request->ids[i] & LINK_FAMILY ? LINK_FAMILY_BITS : 0;
-        wanted[i] = (struct can_filter){request->ids[i] & CAN_SFF_MASK, (CAN_SFF_MASK & ~any) | CAN_EFF_FLAG | CAN_RTR_FLAG};
+        wanted[i] = (struct can_filter){request->ids[i] & CAN_SFF_MASK,
+                                        (CAN_SFF_MASK & ~any) | CAN_EFF_FLAG | CAN_RTR_FLAG};
     }
     return setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FILTER, wanted, (socklen_t)(request->id_count * sizeof wanted[0]));
 }
@@ -137,7 +138,7 @@ static int receive(struct link *link, struct frame *out, uint32_t wait_ms)
             return closed_or_empty(socket->fd);
         if (errno == ENETDOWN)
             silence = LINK_E_DOWN;   /* returned once; the bus may be back before the deadline */
-        else if (errno != EINTR && errno != EAGAIN)   /* the kernel, which counts in its own ticks, may end a wait early */
+        else if (errno != EINTR && errno != EAGAIN)   /* the kernel counts in its own ticks: a wait may end early */
             return LINK_E_CLOSED;
         left_ms = deadline_left_ms(deadline);
     } while (left_ms > 0);

@@ -46,8 +46,8 @@ static bool read_drive(const struct frame *frame)
         return false;
     if (got.tick != wire.session.tick || got.counter != wire.session.counter || got.reason == REASON_SILENCE)
         return false;
-    drive = (struct drive){.tick = got.tick, .left_mm_s = got.left, .right_mm_s = got.right, .reason = (enum reason)got.reason,
-                           .eat = got.eat};
+    drive = (struct drive){.tick = got.tick, .left_mm_s = got.left, .right_mm_s = got.right,
+                           .reason = (enum reason)got.reason, .eat = got.eat};
     silent = 0;
     return true;
 }

@@ -1,5 +1,5 @@
-/* button.h: one button for a robot without a PC. Pressed while the robot runs, it stops. Pressed n times at rest, it starts with
- * the n-th profile, a second after the last press. Held for five seconds, it erases its memory. */
+/* button.h: one button for a robot without a PC. Pressed while the robot runs, it stops. Pressed n times at rest, it
+ * starts with the n-th profile, a second after the last press. Held for five seconds, it erases its memory. */
 #ifndef OCTET_BUTTON_H
 #define OCTET_BUTTON_H
 

@@ -55,7 +55,8 @@ static bool measure_light(struct calibration *calibration, const struct calibrat
     if (calibration->sights < SETTLING_TICKS + LIGHT_TICKS)
         return false;
     for (unsigned i = 0; i < FEEL_COUNT; i++)
-        take(calibration, traits, BODY_NEAR_RIGHT + i, rounded((int32_t)calibration->light[i], TRAIT_LIGHT * LIGHT_TICKS));
+        take(calibration, traits, BODY_NEAR_RIGHT + i,
+             rounded((int32_t)calibration->light[i], TRAIT_LIGHT * LIGHT_TICKS));
     return true;
 }
 
@@ -72,7 +73,8 @@ static int32_t take_motor(struct calibration *calibration, unsigned side, int32_
     int32_t push = LOW_DUTY / PUSH * calibration->low_mv, step = HIGH_DUTY / PUSH * battery_mv - push;
 
     take(calibration, traits, BODY_FORWARD_LEFT + side, rounded(step, more * FORWARD_1000 / 1000));
-    take(calibration, traits, BODY_DEAD_LEFT + side, rounded((push - rounded(step / 16 * low, more) * 16) * 10, DEAD_10));
+    take(calibration, traits, BODY_DEAD_LEFT + side,
+         rounded((push - rounded(step / 16 * low, more) * 16) * 10, DEAD_10));
     return rounded((high - stair(calibration, side, 1)) * STAIR_BEATS * WHEEL_PERIOD_MS, more);
 }
 

@@ -1,9 +1,9 @@
 /* calibrate.h: a body measures itself, one thing at a time, as BODY_MEASURE names it.
  *
  * Light: the light of its own LEDs that each sensor receives from a white wall 60 mm away, the mean of 16 ticks.
- * Motors, wheels in the air: two levels of duty, and a step from one to the other. A line through the two speeds gives the dead
- * band (its offset) and the feed-forward (its slope). The distance missing after the step gives the lag.
- * Track, turning on the spot beside one wall: the distances of both wheels from one sight of the wall to the fourth after it. */
+ * Motors, wheels in the air: two levels of duty, and a step between them. A line through the two speeds gives the
+ * dead band (its offset) and the feed-forward (its slope). The distance missing after the step gives the lag.
+ * Track, turning on the spot beside one wall: both wheels' distances from a sight of it to the fourth after that. */
 #ifndef OCTET_CALIBRATE_H
 #define OCTET_CALIBRATE_H
 
@@ -23,7 +23,7 @@ struct calibration {
     uint16_t counts[PINS_SIDES];      /* in the last beat */
     uint16_t marks[PINS_SIDES][CALIBRATE_MARKS];
     int32_t low_mv;                   /* of the battery at the lower level */
-    int32_t turned, first;            /* left wheel less right one, counts: since it began, and up to the first sight */
+    int32_t turned, first;            /* left wheel less right, counts: since it began, and up to the first sight */
     int32_t found;                    /* what was refused */
     uint32_t light[FEEL_COUNT];
 };   /* all 0: at rest */
@@ -43,8 +43,8 @@ void calibrate_interrupt(struct calibration *calibration);
         /* Aborts the measurement. */
 
 bool calibrate_beat(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits);
-        /* Call every 5 ms while it measures. True: it has ended. An impossible result is refused and changes no trait; otherwise
-           store the traits. */
+        /* Call every 5 ms while it measures. True: it has ended. An impossible result is refused and changes no
+           trait; otherwise store the traits. */
 
 int32_t calibrate_duty(const struct calibration *calibration);
         /* Duty of both motors in the next beat; 0: the wheels' controllers drive them. */

@@ -1,5 +1,5 @@
-/* A robot with a body on pins sends the same frames on a CAN bus as a separate robot and body, so that the same tools can
- * follow it. */
+/* A robot with a body on pins sends the same frames on a CAN bus as a separate robot and body, so that the same tools
+ * can follow it. */
 #include "hal/pins_body/telemetry.h"
 
 #include "hal/can_body/port.h"

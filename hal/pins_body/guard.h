@@ -31,7 +31,7 @@ bool guard_stops(struct guard *guard, const struct guard_look *look);
         /* Call every 5 ms. True: the wheels must stop now. After a bump they may be commanded again, to back off. */
 
 bool guard_forbids(const struct guard *guard);
-        /* Whether they must not turn until the next reset: the battery is empty, an encoder counts against its motor, or the bridge
-           has failed. */
+        /* Whether they must not turn until the next reset: the battery is empty, an encoder counts against its motor,
+           or the bridge has failed. */
 
 #endif

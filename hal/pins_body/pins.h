@@ -1,6 +1,6 @@
-/* pins.h: what a body on pins needs from the microcontroller. Each chip family provides it: hal/stm32/robot/robot_pins.c is
- * one. Timers and the ADC do everything in hardware; a beat of 5 ms, from the motors' timer, paces the software. One thread
- * calls all of it. */
+/* pins.h: what a body on pins needs from the microcontroller. Each chip family provides it:
+ * hal/stm32/robot/robot_pins.c is one. Timers and the ADC do everything in hardware; a beat of 5 ms, from the motors'
+ * timer, paces the software. One thread calls all of it. */
 #ifndef OCTET_PINS_H
 #define OCTET_PINS_H
 
@@ -9,8 +9,8 @@
 enum { PINS_SIDES = 2 };   /* 0 left, 1 right */
 
 void pins_open(void);
-        /* Sets up timers, ADC and pins, with the bridge asleep, both motors off and the infrared LEDs off. Beats begin with the
-           call. */
+        /* Sets up timers, ADC and pins, with the bridge asleep, both motors off and the infrared LEDs off. Beats
+           begin with the call. */
 
 void pins_wait(void);
         /* Sleeps until the next beat; returns at once if one has passed since the last call. */
@@ -25,14 +25,14 @@ void pins_wake_bridge(bool awake);
         /* Wakes the motor bridge or puts it to sleep; asleep, both motors coast. */
 
 bool pins_bridge_failed(void);
-        /* Whether the bridge reports a short circuit or overtemperature. The timer has then stopped the PWM by itself, until the
-           bridge is woken again. */
+        /* Whether the bridge reports a short circuit or overtemperature. The timer has then stopped the PWM by
+           itself, until the bridge is woken again. */
 
 void pins_shine(bool on);
         /* Switches the infrared LEDs of the proximity sensors. */
 
 void pins_measure(uint16_t light[FEEL_COUNT]);
-        /* Light received by the proximity sensors, 0..4095, in the order of feel's bits, less than half a millisecond old. */
+        /* Light received by the proximity sensors, 0..4095, in the order of feel's bits, less than 0.5 ms old. */
 
 uint32_t pins_battery_mv(void);
 

@@ -26,7 +26,8 @@ uint8_t proximity_range_mm(const struct proximity *proximity, unsigned sensor)
 
     if ((proximity->feel >> sensor & 1) == 0)
         return RANGE_NONE;
-    square = (uint32_t)proximity->near[sensor] * (WALL_MM + BEHIND_MM) * (WALL_MM + BEHIND_MM) / proximity->back[sensor];
+    square = (uint32_t)proximity->near[sensor] * (WALL_MM + BEHIND_MM) * (WALL_MM + BEHIND_MM)
+           / proximity->back[sensor];
     while ((range_mm + 1 + BEHIND_MM) * (range_mm + 1 + BEHIND_MM) <= square)
         range_mm++;
     return (uint8_t)range_mm;

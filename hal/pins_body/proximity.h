@@ -20,7 +20,7 @@ uint8_t proximity_feel(struct proximity *proximity, const uint16_t dark[FEEL_COU
         /* The triggered sensors, the sum of the FEEL_ bits, from lit and the light received with the LEDs off. */
 
 uint8_t proximity_range_mm(const struct proximity *proximity, unsigned sensor);
-        /* Distance of a wall from the rim by its light, as of the last reading: 60 mm where it just triggers the sensor.
-           RANGE_NONE: not triggered. */
+        /* Distance of a wall from the rim by its light, as of the last reading: 60 mm where it just triggers the
+           sensor. RANGE_NONE: not triggered. */
 
 #endif

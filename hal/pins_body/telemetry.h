@@ -1,5 +1,5 @@
-/* telemetry.h: how a body on pins communicates. Exactly one implementation is linked in: over CAN (can_telemetry.c), not at
- * all (no_telemetry.c), or with a brain on another node (body_node.c). Nothing here waits. */
+/* telemetry.h: how a body on pins communicates. Exactly one implementation is linked in: over CAN (can_telemetry.c),
+ * not at all (no_telemetry.c), or with a brain on another node (body_node.c). Nothing here waits. */
 #ifndef OCTET_TELEMETRY_H
 #define OCTET_TELEMETRY_H
 

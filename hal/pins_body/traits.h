@@ -1,5 +1,5 @@
-/* traits.h: calibration of one robot: body_near_right and the parameters after it in octet.dbc. They are stored in flash, in two
- * records beside that of the memory; an interrupted store leaves each record old or new. */
+/* traits.h: calibration of one robot: body_near_right and the parameters after it in octet.dbc. They are stored in
+ * flash, in two records beside that of the memory; an interrupted store leaves each record old or new. */
 #ifndef OCTET_TRAITS_H
 #define OCTET_TRAITS_H
 

@@ -10,7 +10,8 @@ void upkeep_use(const struct upkeep *upkeep, struct proximity *proximity, struct
     for (unsigned i = 0; i < FEEL_COUNT; i++)
         proximity->near[i] = (uint16_t)(upkeep_trait(upkeep, BODY_NEAR_RIGHT + i) * TRAIT_LIGHT);
     for (unsigned side = 0; side < PINS_SIDES; side++) {
-        int32_t dead = (upkeep_trait(upkeep, BODY_DEAD_LEFT + side) * TRAIT_DEAD_OF + TRAIT_DEAD_BY / 2) / TRAIT_DEAD_BY;
+        int32_t dead = (upkeep_trait(upkeep, BODY_DEAD_LEFT + side) * TRAIT_DEAD_OF + TRAIT_DEAD_BY / 2)
+                     / TRAIT_DEAD_BY;
 
         wheels[side].dead_more = (int16_t)(dead - WHEEL_DEAD);
         wheels[side].forward_more = (int16_t)(upkeep_trait(upkeep, BODY_FORWARD_LEFT + side) - WHEEL_FORWARD);

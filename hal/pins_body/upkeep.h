@@ -1,5 +1,5 @@
-/* upkeep.h: commands for the parameters of a body on pins, BODY_MEASURE and those after it, and its calibration. The robot core
- * knows none of them. */
+/* upkeep.h: commands for the parameters of a body on pins, BODY_MEASURE and those after it, and its calibration. The
+ * robot core knows none of them. */
 #ifndef OCTET_UPKEEP_H
 #define OCTET_UPKEEP_H
 
@@ -26,7 +26,7 @@ void upkeep_store(struct upkeep *upkeep);
         /* Stores new measurements, if any. Call only with the wheels at rest. */
 
 void upkeep_serve(struct upkeep *upkeep, const struct command *command, bool running);
-        /* Handles a command from outside. If it is for the body, carries it out; while the robot runs, it sets nothing. */
+        /* Handles a command from outside: executes it if for the body; while the robot runs, it sets nothing. */
 
 void upkeep_answer(const struct upkeep *upkeep, struct output *out);
         /* If the output answers such a command, replaces the robot's answer with the body's. */

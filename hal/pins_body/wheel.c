@@ -40,10 +40,12 @@ static int32_t moved_um(struct wheel *wheel, uint16_t count)
 
 int32_t wheel_run(struct wheel *wheel, uint16_t count, int16_t told_mm_s, uint32_t battery_mv)
 {
-    int32_t part = stronger(battery_mv), told_um = told_mm_s * WHEEL_PERIOD_MS, missing_256 = told_um * 256 - wheel->model_256;
+    int32_t part = stronger(battery_mv), told_um = told_mm_s * WHEEL_PERIOD_MS;
+    int32_t missing_256 = told_um * 256 - wheel->model_256;
     int32_t model_um = wheel->model_256 / 256, error_um = model_um - moved_um(wheel, count);
     int32_t behind_um = limited(wheel->behind_um + error_um, BEHIND_MAX_UM), duty, out;
-    int32_t dead = WHEEL_DEAD + wheel->dead_more, ahead_um = missing_256 / 256 * (WHEEL_LAG_MS + wheel->lag_more_ms) / MODEL_MS;
+    int32_t dead = WHEEL_DEAD + wheel->dead_more;
+    int32_t ahead_um = missing_256 / 256 * (WHEEL_LAG_MS + wheel->lag_more_ms) / MODEL_MS;
 
     wheel->model_256 += missing_256 / MODEL_PART;
     duty = (model_um + ahead_um) * (WHEEL_FORWARD + wheel->forward_more) / WHEEL_PERIOD_MS + error_um * WHEEL_KP

@@ -1,8 +1,8 @@
 /* wheel.h: speed control of one wheel by its encoder: feed-forward and PI in integers, every WHEEL_PERIOD_MS.
  *
- * The wheel follows a first-order model of 37 ms. Feed-forward drives the motor along it, and PI corrects the position
- * error, so that the wheel eventually rolls the commanded distance. The zero of the PI cancels the pole of the motor: what remains
- * is an integrator with a crossover at 20 rad/s, a phase margin of 80 degrees and a gain margin of 20 dB at a delay of 7.5 ms. */
+ * The wheel follows a first-order model of 37 ms. Feed-forward drives the motor along it; PI corrects the position
+ * error, so that the wheel finally rolls the commanded distance. The PI's zero cancels the motor's pole: what remains
+ * is an integrator with crossover at 20 rad/s, phase margin 80 degrees, gain margin 20 dB at a delay of 7.5 ms. */
 #ifndef OCTET_WHEEL_H
 #define OCTET_WHEEL_H
 
@@ -25,8 +25,8 @@ struct wheel {
 };   /* all 0: at rest */
 
 int32_t wheel_run(struct wheel *wheel, uint16_t count, int16_t told_mm_s, uint32_t battery_mv);
-        /* The duty for the next period, forward positive, at most WHEEL_DUTY_MAX either way. count: of the encoder, which wraps,
-           WHEEL_COUNT_256 each. */
+        /* The duty for the next period, forward positive, at most WHEEL_DUTY_MAX either way. count: of the encoder,
+           which wraps, WHEEL_COUNT_256 each. */
 
 uint16_t wheel_odometer(const struct wheel *wheel);
         /* Distance rolled, as of the last period: 0.1 mm, forward counts up, wraps at ODOMETER_SPAN. */

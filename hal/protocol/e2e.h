@@ -1,5 +1,5 @@
-/* e2e.h: the protection of every message, as in AUTOSAR E2E profile 1: a CRC in byte 0, an alive counter in the low half of
- * byte 1. The Data ID is the CAN identifier. */
+/* e2e.h: the protection of every message, as in AUTOSAR E2E profile 1: a CRC in byte 0, an alive counter in the low
+ * half of byte 1. The Data ID is the CAN identifier. */
 #ifndef OCTET_E2E_H
 #define OCTET_E2E_H
 

@@ -23,8 +23,8 @@ struct session {
     bool knows_tick;        /* false: any tick is accepted next */
     uint8_t tick;           /* of the last senses accepted, */
     uint8_t counter;        /* and their alive counter */
-    uint32_t told;          /* CRC-32 over the commands carried out since a stop without an owner, and over senses for a tick
-                               that had others, */
+    uint32_t told;          /* CRC-32 over the commands carried out since a stop without an owner, and over senses
+                               for a tick that had others, */
     uint32_t telling;       /* and what it becomes once the request is carried out */
     uint8_t told_opcodes;   /* the sum of those commands' opcodes */
 };
@@ -32,12 +32,12 @@ struct session {
 enum arrival { ARRIVAL_FRESH, ARRIVAL_AGAIN, ARRIVAL_STALE };
 
 enum arrival session_senses(struct session *session, uint8_t tick, uint8_t counter, unsigned *missed);
-        /* Judges received senses. Fresh: they are the next ones, and *missed is the number of ticks skipped. Again: in
-           lockstep, those of the last tick, repeated. */
+        /* Judges received senses. Fresh: they are the next ones, and *missed is the number of ticks skipped. Again:
+           in lockstep, those of the last tick, repeated. */
 
 enum arrival session_request(struct session *session, const struct request *request, enum result *why);
-        /* Judges a received valid COMMAND. Fresh: it is now session->request, to be carried out. Again: the same request,
-           repeated. Stale: it is refused, and *why says why. */
+        /* Judges a received valid COMMAND. Fresh: it is now session->request, to be carried out. Again: the same
+           request, repeated. Stale: it is refused, and *why says why. */
 
 void session_executed(struct session *session, enum result result);
         /* Notes that session->request was carried out, or refused by the robot. */

@@ -46,27 +46,27 @@ void wire_init(struct wire *wire, uint8_t node);
         /* As after power-up: no session, nothing counted. node is 1..NODE_MAX. */
 
 void wire_ids(const struct wire *wire, uint16_t ids[WIRE_LISTEN_COUNT]);
-        /* The identifiers to listen for, as link_open takes them. The robot's own are among them: another node that sends
-           those has the same number. */
+        /* The identifiers to listen for, as link_open takes them. The robot's own are among them: another node that
+           sends those has the same number. */
 
 void wire_boot(struct wire *wire, struct frame *frame);
         /* Writes the BOOT message. */
 
 enum input_kind wire_read(struct wire *wire, const struct frame *frame, struct input *in);
-        /* Reads a frame. INPUT_SENSES, INPUT_COMMAND or INPUT_PEER, as in hal_receive: it is fresh, valid and for us, and that
-           part of *in is filled. INPUT_SILENCE: none of these; *in is untouched. Either the frame was counted, or it is a
-           repetition, and wire->again is the answer to send again. A frame from a twin becomes a command to stop. */
+        /* Reads a frame. INPUT_SENSES, INPUT_COMMAND or INPUT_PEER, as in hal_receive: it is fresh, valid and for us;
+           that part of *in is filled. INPUT_SILENCE: none of these; *in is untouched. The frame was counted, or is
+           a repetition, and wire->again is the answer to repeat. A frame from a twin becomes a command to stop. */
 
 size_t wire_write(struct wire *wire, const struct output *out, struct frame frames[WIRE_FRAMES_MAX]);
-        /* Returns how many frames the marked parts make, 0..WIRE_FRAMES_MAX; the drive is last. A report is spread over this
-           output and those after it, one part each, unless it is marked whole; a new memory goes first. */
+        /* Returns how many frames the marked parts make, 0..WIRE_FRAMES_MAX; the drive is last. A report is spread
+           over this output and those after it, one part each, unless it is marked whole; a new memory goes first. */
 
 void wire_senses(struct wire *wire, const struct senses *senses, struct frame *frame);
         /* Writes the senses of the robot's own body, for listeners. The drive that is written next answers them. */
 
 void wire_outage(struct wire *wire);
-        /* Handles silence: counts it if senses had been arriving; any tick may come next, and the owner has lost the robot.
-           In lockstep only the latter. */
+        /* Handles silence: counts it if senses had been arriving; any tick may come next, and the owner has lost the
+           robot. In lockstep only the latter. */
 
 uint32_t wire_id(const struct wire *wire, uint32_t id_of_node_1);
         /* Converts an identifier of node 1, as in octet.dbc, to this node's. */

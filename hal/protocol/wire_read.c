@@ -21,7 +21,8 @@ void wire_init(struct wire *wire, uint8_t node)
 void wire_ids(const struct wire *wire, uint16_t ids[WIRE_LISTEN_COUNT])
 {
     static const uint16_t of_node_1[WIRE_LISTEN_COUNT - 1] = {
-        OCTET_SENSES_FRAME_ID, OCTET_RANGES_FRAME_ID, OCTET_COMMAND_FRAME_ID, OCTET_DRIVE_FRAME_ID, OCTET_HEARTBEAT_FRAME_ID,
+        OCTET_SENSES_FRAME_ID, OCTET_RANGES_FRAME_ID, OCTET_COMMAND_FRAME_ID, OCTET_DRIVE_FRAME_ID,
+        OCTET_HEARTBEAT_FRAME_ID,
     };
 
     for (unsigned i = 0; i < WIRE_LISTEN_COUNT - 1; i++)
@@ -95,8 +96,8 @@ static void fill_senses(const struct wire *wire, const struct octet_senses_t *go
         senses->range_mm[i] = have_ranges(wire, got->tick) ? wire->range_mm[i] : RANGE_NONE;
 }
 
-/* Two different SENSES for one tick cannot both be the owner's, so held must no longer match what the owner computes. On a
- * noisy line one in 256 damaged frames has a valid CRC, but hardly the same one twice. */
+/* Two different SENSES for one tick cannot both be the owner's, so held must no longer match what the owner computes.
+ * On a noisy line one in 256 damaged frames has a valid CRC, but hardly the same one twice. */
 static void note_other(struct wire *wire, const struct frame *frame, uint8_t tick)
 {
     uint8_t crc = frame->data[0];

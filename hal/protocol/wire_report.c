@@ -166,8 +166,8 @@ void wire_report_start(struct wire *wire)
     wire->told_lower = wire->told_upper = 0;
 }
 
-/* In silence, only a sign of life: everything else would depend on its duration. In a tick that sends a new memory, the
-   report waits. */
+/* In silence, only a sign of life: everything else would depend on its duration. In a tick that sends a new memory,
+   the report waits. */
 void wire_report(struct wire *wire, const struct output *out, struct frames *frames)
 {
     if (out->has_report && out->silent) {

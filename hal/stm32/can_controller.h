@@ -1,5 +1,5 @@
-/* can_controller.h: a chip's own CAN controller, as the link over it needs it. Exactly one implementation is linked in. It is
- * polled: no interrupt is used, and nothing but can_stop waits. */
+/* can_controller.h: a chip's own CAN controller, as the link over it needs it. Exactly one implementation is linked
+ * in. It is polled: no interrupt is used, and nothing but can_stop waits. */
 #ifndef OCTET_CAN_CONTROLLER_H
 #define OCTET_CAN_CONTROLLER_H
 
@@ -19,7 +19,7 @@ void can_set_up(uint32_t prescaler, uint32_t quanta, const uint16_t ids[], size_
         /* Sets the bit timing (can_timing.h) and the identifiers to listen for (link_open): data frames only. */
 
 void can_start(void);
-        /* Joins the bus once that has been idle for 11 bits, without waiting for it; after bus-off, 128 times as long. */
+        /* Joins the bus once idle for 11 bits, without waiting for it; after bus-off, 128 times as long. */
 
 enum can_state { CAN_JOINING, CAN_JOINED, CAN_LOST };
 
@@ -27,19 +27,19 @@ enum can_state can_state(void);
         /* CAN_LOST: bus-off, until can_stop and can_start have taken effect. */
 
 int can_take(struct frame *out);
-        /* Receives a frame: oldest first, but families after all others. Returns 1, 0 for none, or LINK_E_GARBLED if frames
-           were lost. */
+        /* Receives a frame: oldest first, but families after all others. Returns 1, 0 for none, or LINK_E_GARBLED if
+           frames were lost. */
 
 bool can_put(const struct frame *frame);
-        /* Queues a frame: the lowest identifier is sent first, and equal ones in the order of these calls. False: no free
-           buffer could keep that order. */
+        /* Queues a frame: the lowest identifier is sent first, and equal ones in the order of these calls. False: no
+           free buffer could keep that order. */
 
 uint32_t can_waiting(uint32_t ids[CAN_BUFFERS]);
         /* Bit n: buffer n holds a frame that waits or is being sent, and ids[n] is its identifier. */
 
 void can_abort(uint32_t buffers);
-        /* Cancels the frames in these buffers, one bit each. A frame that is being sent may still arrive, and keeps its buffer
-           until then. */
+        /* Cancels the frames in these buffers, one bit each. A frame that is being sent may still arrive, and keeps
+           its buffer until then. */
 
 void can_status(struct link_health *out);
         /* Fills in state, tx_errors and rx_errors. */

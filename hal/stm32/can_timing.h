@@ -11,7 +11,7 @@ enum {
 };
 
 uint32_t can_quanta(uint32_t clock_hz, uint32_t bitrate);
-        /* Quanta per bit, 8..18, for which an integer prescaler gives exactly that bit rate; each of our controllers supports
-           these. 0: the clock has no such divisor. */
+        /* Quanta per bit, 8..18, for which an integer prescaler gives exactly that bit rate; each of our controllers
+           supports these. 0: the clock has no such divisor. */
 
 #endif

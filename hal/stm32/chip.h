@@ -1,5 +1,5 @@
-/* chip.h: what each chip implements for itself. Its folder has pins_start and mcu_light, the functions of flash.h, the table of
- * clock.h, its registers, its linker script, and chip.cmake, which names its links and the shared drivers in them. */
+/* chip.h: what each chip implements for itself. Its folder has pins_start and mcu_light, the functions of flash.h,
+ * the table of clock.h, registers, linker script, and chip.cmake, which names its links and their shared drivers. */
 #ifndef OCTET_CHIP_H
 #define OCTET_CHIP_H
 
@@ -15,14 +15,14 @@ struct clocks {
 
 struct clocks clock_start(void);
         /* Starts the best clock that works: crystal and PLL, else internal oscillator and PLL, else the internal
-           oscillator alone. Each wait is bounded: a few milliseconds in all with a good crystal, 0.12 s at most. Leaves systick
-           set for the clock after reset. */
+           oscillator alone. Each wait is bounded: a few milliseconds in all with a good crystal, 0.12 s at most.
+           Leaves systick set for the clock after reset. */
 
 uint32_t chip_reset_flags(void);
         /* RCC_CSR: what has reset the chip since the last call. */
 
 void pins_start(void);
-        /* Enables the clocks of all peripherals in use, monitors the supply for flash.h, and sets up the pins of the board's LED,
-           CAN and serial port. */
+        /* Enables the clocks of all peripherals in use, monitors the supply for flash.h, and sets up the pins of the
+           board's LED, CAN and serial port. */
 
 #endif

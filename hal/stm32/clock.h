@@ -14,7 +14,7 @@ struct clock_table {
     uint32_t on_after_reset; /* a bit of CR that is never 0 on the chip itself, or 0 */
     uint32_t forget;         /* in CSR: clears the flags */
     uint32_t internal;       /* CFGR: the internal oscillator alone */
-    uint32_t buses;          /* CFGR: the same, with the buses slow enough for the PLL, where its setting does not say so */
+    uint32_t buses;          /* CFGR: the same, with buses slow enough for the PLL, if its setting does not say so */
     uint32_t switch_to_pll;  /* CFGR: SW */
     uint32_t from_pll;       /* CFGR: SWS */
     uint32_t caches;         /* ACR, and the wait states in it */

@@ -1,5 +1,5 @@
-/* fdcan_registers.h: FDCAN, the controller of STM32G0, G4 and their like (RM0440 44), and its message RAM, whose layout is
- * fixed. Notation as in registers.h. */
+/* fdcan_registers.h: FDCAN, the controller of STM32G0, G4 and their like (RM0440 44), and its message RAM, whose
+ * layout is fixed. Notation as in registers.h. */
 #ifndef OCTET_FDCAN_REGISTERS_H
 #define OCTET_FDCAN_REGISTERS_H
 
@@ -17,7 +17,7 @@ struct fdcan_registers {      /* 44.4 */
     uint32_t dbtp;            /* rw while CCE */
     uint32_t test;            /* rw while CCCR.TEST */
     uint32_t rwd;             /* rw while CCE */
-    uint32_t cccr;            /* rw   control: INIT takes a while to be read back; CCE, and all but INIT, only while INIT */
+    uint32_t cccr;            /* rw   control: INIT is read back later; CCE, and all but INIT, only while INIT */
     uint32_t nbtp;            /* rw while CCE   bit timing */
     uint32_t tscc;            /* rw while CCE */
     uint32_t tscv;            /* rw */

@@ -9,7 +9,7 @@ enum {
     WATCHDOG_ON = 0xCCCC,
     WATCHDOG_BY_32 = 3,
     WATCHDOG_BY_128 = 5,
-    WATCHDOG_COUNTS = 2000,      /* by the data sheets 1.07..2.13 s on an F103, 1.36..3.76 s on an F405, 1.88..2.17 s on a G431 */
+    WATCHDOG_COUNTS = 2000,      /* data sheets: 1.07..2.13 s on F103, 1.36..3.76 s on F405, 1.88..2.17 s on G431 */
     WATCHDOG_WAIT_MAX = 200000   /* polls; the change takes up to 5 periods of the slow clock */
 };
 
@@ -22,7 +22,7 @@ enum {                           /* in RCC_CSR: RM0008 7.3.10, RM0090 7.3.21, RM
 
 static struct clocks clocks;     /* one machine per program */
 
-/* Called first, so that any later hang ends in a reset. If the update does not complete, the longest period remains. */
+/* Called first, so that any hang ends in a reset. If the update does not complete, the longest period remains. */
 static void start_watchdog(uint32_t divisor)
 {
     IWDG.kr = WATCHDOG_ON;

@@ -1,8 +1,8 @@
 /* registers.h: the peripherals that several of our chips have alike, register by register.
  *
- * Behind each register: what an access does (rw; r: read only; w1c: writing 1 clears the bit, 0 leaves it; w1s: writing 1
- * sets it; w: write only) and where the manuals describe it: F4 is RM0090, F1 is RM0008. The objects lie where the chip's
- * linker script puts them, which says which instance they are; a test defines its own. */
+ * Behind each register: what an access does (rw; r: read only; w1c: writing 1 clears the bit, 0 leaves it; w1s:
+ * writing 1 sets it; w: write only) and where the manuals describe it: F4 is RM0090, F1 is RM0008. The objects lie
+ * where the chip's linker script puts them, which says which instance they are; a test defines its own. */
 #ifndef OCTET_REGISTERS_H
 #define OCTET_REGISTERS_H
 

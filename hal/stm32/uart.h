@@ -14,8 +14,8 @@ void uart_stop(void);
         /* Switches it off until uart_start; bytes in progress are lost. */
 
 int uart_get(void);
-        /* The received byte, 0..255. UART_NOTHING: none. UART_DAMAGED: a byte was damaged, or arrived before the last one was
-           read; both are lost. */
+        /* The received byte, 0..255. UART_NOTHING: none. UART_DAMAGED: a byte was damaged, or arrived before the last
+           one was read; both are lost. */
 
 bool uart_put(uint8_t byte);
         /* False: the previous byte has not been sent yet. */

@@ -1,5 +1,5 @@
-/* The serial port of STM32F0, F3, G4, L4 and similar (RM0440 37). Its FIFO holds eight bytes, 0.7 ms at 115200 baud, while
- * the core stalls for the flash. */
+/* The serial port of STM32F0, F3, G4, L4 and similar (RM0440 37). Its FIFO holds eight bytes, 0.7 ms at 115200 baud,
+ * while the core stalls for the flash. */
 #include "hal/stm32/uart.h"
 
 #include "hal/stm32/uart_g4_registers.h"

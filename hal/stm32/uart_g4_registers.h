@@ -1,4 +1,4 @@
-/* uart_g4_registers.h: the serial port of STM32F0, F3, G4, L4 and their like (RM0440 37.8). Notation as in registers.h. */
+/* uart_g4_registers.h: serial port of STM32F0, F3, G4, L4 and similar (RM0440 37.8). Notation as in registers.h. */
 #ifndef OCTET_UART_G4_REGISTERS_H
 #define OCTET_UART_G4_REGISTERS_H
 

@@ -1,5 +1,5 @@
-/* memcpy and memset, which the compiler calls for structs, and memcmp. Ours handle short blocks, with a quarter of the code
- * of the library's. */
+/* memcpy and memset, which the compiler calls for structs, and memcmp. Ours handle short blocks, with a quarter of
+ * the code of the library's. */
 #include <stdint.h>
 #include <string.h>
 

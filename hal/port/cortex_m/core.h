@@ -1,8 +1,8 @@
 /* core.h: what every Cortex-M has, register by register.
  *
- * Behind each register: what an access does (rw; r: read only; w: write only; w1c: writing 1 clears the bit) and where it is
- * described: PM0214 4.4, 4.5 (Cortex-M4), PM0056 4.4, 4.5 (Cortex-M3). The objects lie where sections.ld puts them; a test
- * defines its own. */
+ * Behind each register: what an access does (rw; r: read only; w: write only; w1c: writing 1 clears the bit) and
+ * where it is described: PM0214 4.4, 4.5 (Cortex-M4), PM0056 4.4, 4.5 (Cortex-M3). The objects lie where sections.ld
+ * puts them; a test defines its own. */
 #ifndef OCTET_CORE_H
 #define OCTET_CORE_H
 

@@ -1,4 +1,4 @@
-/* mcu.h: what the port needs from the microcontroller around the core. Each chip family provides it: hal/stm32 is one. */
+/* mcu.h: what the port needs of the microcontroller around the core. Each chip family has it: hal/stm32 is one. */
 #ifndef OCTET_MCU_H
 #define OCTET_MCU_H
 
@@ -20,8 +20,8 @@ void mcu_feed(void);
         /* Feeds the watchdog, which otherwise resets the chip after 1 to 4 s. */
 
 void mcu_be_patient(void);
-        /* Makes the watchdog's timeout four times as long, until mcu_start: longer than any flash erase, during which the core
-           stalls. */
+        /* Makes the watchdog's timeout four times as long, until mcu_start: longer than any flash erase, during which
+           the core stalls. */
 
 void mcu_light(bool on);
         /* Switches the board's LED. */

@@ -31,8 +31,8 @@ __attribute__((section(".vectors"), used))
 static const struct vectors vectors = {
     stack_top,
     {
-        startup_reset, startup_nmi, startup_crash, startup_crash, startup_crash, startup_crash, NULL, NULL, NULL, NULL,
-        startup_crash, startup_crash, NULL, startup_crash, startup_crash,
+        startup_reset, startup_nmi, startup_crash, startup_crash, startup_crash, startup_crash, NULL, NULL, NULL,
+        NULL, startup_crash, startup_crash, NULL, startup_crash, startup_crash,
     },
 };
 

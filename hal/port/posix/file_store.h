@@ -9,6 +9,6 @@ int file_store_load(const char *path, uint8_t memory[CELL_COUNT]);
            bytes are not interpreted. */
 
 int file_store_save(const char *path, const uint8_t memory[CELL_COUNT]);
-        /* As hal_store, by writing PATH.new and renaming it. 0: on the disk. HAL_E_STORE: the old memory is still there. */
+        /* As hal_store, by writing PATH.new and renaming it. 0: on disk. HAL_E_STORE: the old memory remains. */
 
 #endif

@@ -103,7 +103,7 @@ uint32_t port_clock_ms(void)
     struct timespec now;
 
     clock_gettime(CLOCK_MONOTONIC, &now);
-    return (uint32_t)now.tv_sec * 1000u + (uint32_t)(now.tv_nsec / 1000000);   /* wraps, where a small time_t would overflow */
+    return (uint32_t)now.tv_sec * 1000u + (uint32_t)(now.tv_nsec / 1000000);   /* wraps; a small time_t overflows */
 }
 
 void port_alive(bool outage)

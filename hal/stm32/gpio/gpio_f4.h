@@ -1,5 +1,5 @@
-/* gpio_f4.h: the pins of STM32F4, G4 and their like (RM0090 8.4, RM0440 9.4): a mode and a function each. Notation as in
- * registers.h. */
+/* gpio_f4.h: the pins of STM32F4, G4 and their like (RM0090 8.4, RM0440 9.4): a mode and a function each. Notation as
+ * in registers.h. */
 #ifndef OCTET_GPIO_F4_H
 #define OCTET_GPIO_F4_H
 

@@ -7,9 +7,9 @@
 enum { CONVERTER_SAMPLES = 6 };
 
 const volatile uint32_t *converter_power(void);
-        /* Enables the clocks of TIM1 to TIM4, DMA1 and the ADC. Returns the register from which DMA reads the samples. */
+        /* Enables the clocks of TIM1 to TIM4, DMA1 and the ADC. Returns the register from which DMA reads samples. */
 
 void converter_start(const uint8_t channels[CONVERTER_SAMPLES]);
-        /* Starts converting all channels in turn, repeatedly, in under 0.5 ms a round. Channel 1 of DMA1 must be ready. */
+        /* Starts converting all channels in rounds of under 0.5 ms, repeatedly. Channel 1 of DMA1 must be ready. */
 
 #endif

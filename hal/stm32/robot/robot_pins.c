@@ -1,5 +1,5 @@
-/* A body on the pins of an STM32F1 or G4 (RM0008, RM0440): TIM1 generates the PWM of both motors and the beat, TIM3 and TIM4
- * count the encoders, TIM2 the beacon's bursts, and the ADC fills samples continuously by DMA. */
+/* A body on the pins of an STM32F1 or G4 (RM0008, RM0440): TIM1 generates the PWM of both motors and the beat, TIM3
+ * and TIM4 count the encoders, TIM2 the beacon's bursts, and the ADC fills samples continuously by DMA. */
 #include "hal/pins_body/pins.h"
 
 #include "hal/port/cortex_m/core.h"
@@ -14,7 +14,7 @@ enum {
     TIM1_UP = 25,                                  /* number of its interrupt */
     PWM_2 = 0x6800, PWM_3 = 0x0068,                /* in ccmr: mode 1, preloaded */
     CC2N_ON = 1u << 6, CC3N_ON = 1u << 10,         /* in ccer */
-    BREAK_LOW = 1u << 12, OUTPUTS_ON = 1u << 15, IDLE_LOW = 1u << 10, BREAK_SEEN = 1u << 7,   /* in bdtr; the last in sr */
+    BREAK_LOW = 1u << 12, OUTPUTS_ON = 1u << 15, IDLE_LOW = 1u << 10, BREAK_SEEN = 1u << 7,   /* in bdtr; last: sr */
     ENCODER = 3, FROM_INPUTS = 0x0101 | 0x3030,    /* both edges of both inputs, filtered over 8 clock cycles */
     EXTERNAL_BY_INPUT_1 = 7u | 5u << 4, FROM_INPUT_1 = 0x0031,
     TOP = 0xFFFF,

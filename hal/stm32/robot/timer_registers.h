@@ -1,5 +1,5 @@
-/* timer_registers.h: timers and DMA, which STM32F1 and G4 have alike (F1: RM0008, G4: RM0440, which has more behind them). Notation
- * as in registers.h. */
+/* timer_registers.h: timers and DMA, which STM32F1 and G4 have alike (F1: RM0008, G4: RM0440, which has more behind
+ * them). Notation as in registers.h. */
 #ifndef OCTET_TIMER_REGISTERS_H
 #define OCTET_TIMER_REGISTERS_H
 

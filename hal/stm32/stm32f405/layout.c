@@ -1,4 +1,4 @@
-/* Pages of 16 kB: sector 0 for the boot loader, 1 and 2 for the memory, 3 and 4 for the choice, 5 and 6 for the slots. */
+/* Pages of 16 kB: sector 0 for the boot loader, 1 and 2 for memory, 3 and 4 for the choice, 5 and 6 for the slots. */
 #include "hal/boot/layout.h"
 
 const struct layout LAYOUT = {

@@ -1,7 +1,7 @@
 /* 64 pages, the last two for the store (RM0440 5.3).
  *
- * Eight bytes are written at once, with eight bits of error correction. A write interrupted by a power failure can leave
- * eight bytes with an uncorrectable error: reading them raises a non-maskable interrupt. */
+ * Eight bytes are written at once, with eight bits of error correction. A write interrupted by a power failure can
+ * leave eight bytes with an uncorrectable error: reading them raises a non-maskable interrupt. */
 #include "hal/stm32/flash_table.h"
 #include "hal/stm32/stm32g431/flash_errors.h"
 #include "hal/stm32/stm32g431/registers.h"
