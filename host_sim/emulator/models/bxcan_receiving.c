@@ -137,7 +137,8 @@ int64_t bxcan_read_output(struct bxcan *can, uint32_t at)
     uint32_t remote = frame->id & FRAME_REMOTE ? BXCAN_RTR : 0;
 
     if (fifo->count == 0) {
-        (void)node_refuse(&can->node, "the output mailbox of CAN1 FIFO %u was read, but the FIFO is empty", (unsigned)at / 16);
+        (void)node_refuse(&can->node, "the output mailbox of CAN1 FIFO %u was read, but the FIFO is empty",
+                          (unsigned)at / 16);
         return -1;
     }
     switch (at / 4 % 4) {

@@ -46,7 +46,8 @@ static int pick(const struct bxcan *can, unsigned mask, bool last)
     int picked = -1;
 
     for (unsigned n = 0; n < BXCAN_MAILBOXES; n++)
-        if (can->mailboxes[n].pending && mask >> n & 1u && (picked < 0 || goes_before(can, n, (unsigned)picked) != last))
+        if (can->mailboxes[n].pending && mask >> n & 1u
+            && (picked < 0 || goes_before(can, n, (unsigned)picked) != last))
             picked = (int)n;
     return picked;
 }

@@ -136,7 +136,8 @@ bool fdcan_offer(struct can_node *node, struct frame *out)
         return false;
     words = element(can, FDCAN_SENT, (unsigned)node->on_wire);
     len = words[1] >> LENGTH_AT & 15u;
-    *out = (struct frame){.id = words[0] & EXTENDED ? FRAME_EXTENDED | (words[0] & ID) : (words[0] & ID) >> STANDARD_AT};
+    *out = (struct frame){.id = words[0] & EXTENDED ? FRAME_EXTENDED | (words[0] & ID)
+                                                    : (words[0] & ID) >> STANDARD_AT};
     out->len = (uint8_t)(len < 8 ? len : 8);
     if (words[0] & REMOTE)
         out->id |= FRAME_REMOTE;

@@ -4,8 +4,8 @@
 #include <string.h>
 
 enum {
-    CREL = 0x000, ENDN = 0x004, CCCR = 0x018, NBTP = 0x01C, ECR = 0x040, PSR = 0x044, IR = 0x050, IE = 0x054, ILS = 0x058,
-    ILE = 0x05C, RXGFC = 0x080, RXF0S = 0x090, RXF0A = 0x094, RXF1S = 0x098, RXF1A = 0x09C,
+    CREL = 0x000, ENDN = 0x004, CCCR = 0x018, NBTP = 0x01C, ECR = 0x040, PSR = 0x044, IR = 0x050, IE = 0x054,
+    ILS = 0x058, ILE = 0x05C, RXGFC = 0x080, RXF0S = 0x090, RXF0A = 0x094, RXF1S = 0x098, RXF1A = 0x09C,
     TXBC = 0x0C0, TXFQS = 0x0C4, TXBRP = 0x0C8, TXBAR = 0x0CC, TXBCR = 0x0D0, TXBTO = 0x0D4, TXBCF = 0x0D8,
 
     INIT = 1 << 0, CCE = 1 << 1,
@@ -45,7 +45,8 @@ static uint32_t read_cccr(const struct fdcan *can)
 static bool write_cccr(struct fdcan *can, uint32_t value)
 {
     if (value & ~(uint32_t)(INIT | CCE))
-        return node_refuse(&can->node, "FDCAN1 CCCR was written 0x%X: only INIT and CCE are modelled", (unsigned)value);
+        return node_refuse(&can->node, "FDCAN1 CCCR was written 0x%X: only INIT and CCE are modelled",
+                           (unsigned)value);
     if (value & CCE && !(read_cccr(can) & INIT))
         return node_refuse(&can->node, "FDCAN1 CCCR.CCE was set before INIT was read back");
     can->cccr = value & INIT ? value : 0;
@@ -139,9 +140,11 @@ static bool write_ram(struct fdcan *can, uint32_t word, uint32_t value)
 static bool write_setup(struct fdcan *can, uint32_t offset, uint32_t value)
 {
     if (!(can->cccr & CCE))
-        return node_refuse(&can->node, "the register of FDCAN1 at 0x%03X was written while CCCR.CCE is 0", (unsigned)offset);
+        return node_refuse(&can->node, "the register of FDCAN1 at 0x%03X was written while CCCR.CCE is 0",
+                           (unsigned)offset);
     if (offset == RXGFC && (value & RXGFC_OVERWRITES || value >> RXGFC_EXTENDED_AT))
-        return node_refuse(&can->node, "FDCAN1 RXGFC 0x%08X is not modelled: extended filters, or FIFOs that overwrite",
+        return node_refuse(&can->node,
+                           "FDCAN1 RXGFC 0x%08X is not modelled: extended filters, or FIFOs that overwrite",
                            (unsigned)value);
     *(offset == NBTP ? &can->nbtp : offset == RXGFC ? &can->rxgfc : &can->txbc) = value;
     return true;

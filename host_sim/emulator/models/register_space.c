@@ -37,7 +37,8 @@ uint32_t space_can_word(uint32_t offset)
 /* The number of a register of CAN that can be accessed here, or NOT_CAN. */
 static uint32_t can_word(const struct register_space *space, uint32_t address, unsigned width)
 {
-    return space->direct && width == WORD && space->can->clocked ? space_can_word(address - space->can_base) : NOT_CAN;
+    return space->direct && width == WORD && space->can->clocked
+         ? space_can_word(address - space->can_base) : NOT_CAN;
 }
 
 static bool read_can(struct register_space *space, uint32_t address, uint32_t word, uint32_t *out)

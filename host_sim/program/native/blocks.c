@@ -46,7 +46,8 @@ static void close(struct compiler *compiler)
 void compile_unclosed(struct compiler *compiler)
 {
     static const enum program_expected ends[] = {
-        [BLOCK_IF] = EXPECTED_ENDIF, [BLOCK_IF_LINE] = EXPECTED_LINE_END, [BLOCK_WHILE] = EXPECTED_WEND, [BLOCK_FOR] = EXPECTED_NEXT,
+        [BLOCK_IF] = EXPECTED_ENDIF, [BLOCK_IF_LINE] = EXPECTED_LINE_END, [BLOCK_WHILE] = EXPECTED_WEND,
+        [BLOCK_FOR] = EXPECTED_NEXT,
     };
     const struct block *block = opened(compiler);
 

@@ -1,5 +1,5 @@
-/* brain.c: the robot's two questions to its brain, answered by a program. robot.c, commands.c and caution.c ask them under these names,
- * where they are compiled once more for a robot with a program: see CMakeLists.txt. */
+/* brain.c: the robot's two questions to its brain, answered by a program. robot.c, commands.c and caution.c ask them
+ * under these names, where they are compiled once more for a robot with a program: see CMakeLists.txt. */
 #include "host_sim/program/native/programmed.h"
 
 bool programmed_brain_start(struct brain *brain, uint8_t profile, uint32_t seed);

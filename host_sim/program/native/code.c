@@ -3,7 +3,8 @@
 const struct known_word CODE_FUNCTIONS[] = {
     [DO_RANDOM] = {"random", 1, 1}, [DO_FEEL] = {"rfeel", 0, 0}, [DO_LOOK] = {"rlook", 0, 1},
     [DO_BEACON] = {"rbeacon", 1, 1}, [DO_GPS_X] = {"rgpsx", 0, 0}, [DO_GPS_Y] = {"rgpsy", 0, 0},
-    [DO_COMPASS] = {"rcompass", 0, 0}, [DO_BUMPER] = {"rbumper", 0, 0}, [DO_ABS] = {"abs", 1, 1}, [DO_INT] = {"int", 1, 1},
+    [DO_COMPASS] = {"rcompass", 0, 0}, [DO_BUMPER] = {"rbumper", 0, 0}, [DO_ABS] = {"abs", 1, 1},
+    [DO_INT] = {"int", 1, 1},
 };
 const unsigned CODE_FUNCTION_COUNT = sizeof CODE_FUNCTIONS / sizeof *CODE_FUNCTIONS;
 

@@ -4,12 +4,12 @@
 
 #include "host_sim/program/native/program.h"
 
-/* The operand is an index of a number, name or instruction, a line, a parameter, or one of the enums below. A cell of an
- * array takes its index from the stack. */
+/* The operand is an index of a number, name or instruction, a line, a parameter, or one of the enums below. A cell of
+ * an array takes its index from the stack. */
 enum op {
     OP_LINE, OP_NUMBER, OP_LOAD, OP_LOAD_CELL, OP_LOAD_PARAMETER, OP_STORE, OP_STORE_CELL, OP_STORE_PARAMETER,
-    OP_UNARY, OP_BINARY, OP_FUNCTION, OP_COMMAND, OP_SHOW_NUMBER, OP_SHOW_TEXT, OP_JUMP, OP_JUMP_IF_NOT, OP_FOR, OP_GOSUB,
-    OP_CALL, OP_RETURN, OP_DIM, OP_FALL, OP_END
+    OP_UNARY, OP_BINARY, OP_FUNCTION, OP_COMMAND, OP_SHOW_NUMBER, OP_SHOW_TEXT, OP_JUMP, OP_JUMP_IF_NOT, OP_FOR,
+    OP_GOSUB, OP_CALL, OP_RETURN, OP_DIM, OP_FALL, OP_END
 };
 
 enum operation {

@@ -3,9 +3,10 @@
 #include <string.h>
 
 static const struct known_word keywords[] = {
-    [KEY_IF] = {"if", 0, 0}, [KEY_ELSEIF] = {"elseif", 0, 0}, [KEY_ELSE] = {"else", 0, 0}, [KEY_ENDIF] = {"endif", 0, 0},
-    [KEY_WHILE] = {"while", 0, 0}, [KEY_WEND] = {"wend", 0, 0}, [KEY_FOR] = {"for", 0, 0}, [KEY_NEXT] = {"next", 0, 0},
-    [KEY_GOSUB] = {"gosub", 0, 0}, [KEY_RETURN] = {"return", 0, 0}, [KEY_CALL] = {"call", 0, 0}, [KEY_SUB] = {"sub", 0, 0},
+    [KEY_IF] = {"if", 0, 0}, [KEY_ELSEIF] = {"elseif", 0, 0}, [KEY_ELSE] = {"else", 0, 0},
+    [KEY_ENDIF] = {"endif", 0, 0}, [KEY_WHILE] = {"while", 0, 0}, [KEY_WEND] = {"wend", 0, 0},
+    [KEY_FOR] = {"for", 0, 0}, [KEY_NEXT] = {"next", 0, 0}, [KEY_GOSUB] = {"gosub", 0, 0},
+    [KEY_RETURN] = {"return", 0, 0}, [KEY_CALL] = {"call", 0, 0}, [KEY_SUB] = {"sub", 0, 0},
     [KEY_END] = {"end", 0, 0}, [KEY_DIM] = {"dim", 0, 0}, [KEY_THEN] = {"then", 0, 0}, [KEY_TO] = {"to", 0, 0},
     [KEY_STEP] = {"step", 0, 0}, [KEY_AND] = {"and", 0, 0}, [KEY_OR] = {"or", 0, 0}, [KEY_NOT] = {"not", 0, 0},
     [KEY_MOD] = {"mod", 0, 0},
@@ -151,5 +152,6 @@ bool compiler_ends_statement(const struct compiler *compiler)
 {
     enum token_kind kind = compiler->token.kind;
 
-    return kind == TOKEN_SEPARATOR || kind == TOKEN_LINE_END || kind == TOKEN_END || compiler_is_word(compiler, "else");
+    return kind == TOKEN_SEPARATOR || kind == TOKEN_LINE_END || kind == TOKEN_END
+        || compiler_is_word(compiler, "else");
 }

@@ -1,4 +1,4 @@
-/* compiler.h: shared by the parts of the compiler. The first mistake acts as the end of the text, so that each part stops. */
+/* compiler.h: shared by the parts of the compiler. The first mistake acts as the end of the text: each part stops. */
 #ifndef OCTET_PROGRAM_COMPILER_H
 #define OCTET_PROGRAM_COMPILER_H
 
@@ -63,13 +63,14 @@ void compile_number(struct compiler *compiler, double number);
         /* Compiles a number, which is left on the stack. */
 
 struct instruction compile_place(struct compiler *compiler, const struct token *word, bool gives);
-        /* After the name of a variable, a parameter, or an array (with its index, left on the stack): the instruction that stores
-           or loads it. */
+        /* After the name of a variable, a parameter, or an array (with its index, left on the stack): the instruction
+           that stores or loads it. */
 
 unsigned compile_arguments(struct compiler *compiler, const char *close);
-        /* Compiles expressions between commas, up to a sign, or to the end of the statement if it is null. Returns how many. */
+        /* Compiles expressions between commas, up to a sign or, if null, the statement's end. Returns how many. */
 
-unsigned compile_values(struct compiler *compiler, const struct token *word, const struct known_word *known, const char *close);
+unsigned compile_values(struct compiler *compiler, const struct token *word, const struct known_word *known,
+                        const char *close);
         /* Compiles the arguments of a command or, with a closing sign, of a function. Returns how many. */
 
 bool compiler_ends_statement(const struct compiler *compiler);
@@ -99,8 +100,8 @@ bool compiler_is_reserved(const char *word, size_t len);
 
 /* Words of the language; those up to KEY_NEXT belong to blocks. */
 enum keyword {
-    KEY_IF, KEY_ELSEIF, KEY_ELSE, KEY_ENDIF, KEY_WHILE, KEY_WEND, KEY_FOR, KEY_NEXT, KEY_GOSUB, KEY_RETURN, KEY_CALL, KEY_SUB,
-    KEY_END, KEY_DIM, KEY_THEN, KEY_TO, KEY_STEP, KEY_AND, KEY_OR, KEY_NOT, KEY_MOD
+    KEY_IF, KEY_ELSEIF, KEY_ELSE, KEY_ENDIF, KEY_WHILE, KEY_WEND, KEY_FOR, KEY_NEXT, KEY_GOSUB, KEY_RETURN,
+    KEY_CALL, KEY_SUB, KEY_END, KEY_DIM, KEY_THEN, KEY_TO, KEY_STEP, KEY_AND, KEY_OR, KEY_NOT, KEY_MOD
 };
 
 int compiler_keyword(const char *word, size_t len);

@@ -7,9 +7,10 @@ static const struct {
     unsigned strength;
 } operators[] = {
     {"or", DO_OR, 1}, {"and", DO_AND, 2}, {"=", DO_EQUAL, 4}, {"==", DO_EQUAL, 4}, {"<>", DO_UNEQUAL, 4},
-    {"!=", DO_UNEQUAL, 4}, {"<", DO_LESS, 4}, {"<=", DO_LESS_EQUAL, 4}, {">", DO_GREATER, 4}, {">=", DO_GREATER_EQUAL, 4},
-    {"|", DO_BIT_OR, 5}, {"&", DO_BIT_AND, 6}, {"<<", DO_SHIFT_LEFT, 7}, {">>", DO_SHIFT_RIGHT, 7}, {"+", DO_ADD, 8},
-    {"-", DO_SUBTRACT, 8}, {"*", DO_MULTIPLY, 9}, {"/", DO_DIVIDE, 9}, {"%", DO_MODULO, 9}, {"mod", DO_MODULO, 9},
+    {"!=", DO_UNEQUAL, 4}, {"<", DO_LESS, 4}, {"<=", DO_LESS_EQUAL, 4}, {">", DO_GREATER, 4},
+    {">=", DO_GREATER_EQUAL, 4}, {"|", DO_BIT_OR, 5}, {"&", DO_BIT_AND, 6}, {"<<", DO_SHIFT_LEFT, 7},
+    {">>", DO_SHIFT_RIGHT, 7}, {"+", DO_ADD, 8}, {"-", DO_SUBTRACT, 8}, {"*", DO_MULTIPLY, 9}, {"/", DO_DIVIDE, 9},
+    {"%", DO_MODULO, 9}, {"mod", DO_MODULO, 9},
 };
 
 enum { ANY = 1, NOT = 3, SIGNED = 10 };   /* precedences; NOT: of the operand of NOT */
@@ -67,7 +68,8 @@ static enum program_expected expected_values(const struct known_word *known)
     return EXPECTED_PLACE;
 }
 
-unsigned compile_values(struct compiler *compiler, const struct token *word, const struct known_word *known, const char *close)
+unsigned compile_values(struct compiler *compiler, const struct token *word, const struct known_word *known,
+                        const char *close)
 {
     unsigned count = !close || compiler_takes(compiler, "(") ? compile_arguments(compiler, close) : 0;
 

@@ -1,8 +1,8 @@
 /* program.h: a robot's brain in the language of the article's listing. docs/language.md has the language.
  *
- * A program is compiled into instructions for a machine with a stack. The machine runs until the program gives the robot an
- * action, and continues from there when the action has ended: it never waits, and needs no thread. The caller provides all
- * memory. */
+ * A program is compiled into instructions for a machine with a stack. The machine runs until the program gives the
+ * robot an action, and continues from there when the action has ended: it never waits, and needs no thread. The
+ * caller provides all memory. */
 #ifndef OCTET_PROGRAM_H
 #define OCTET_PROGRAM_H
 
@@ -28,12 +28,13 @@ enum {
 
 /* What was expected; program_expected gives the words. */
 enum program_expected {
-    EXPECTED_NOTHING, EXPECTED_STATEMENT, EXPECTED_VALUE, EXPECTED_LINE_END, EXPECTED_CLOSE, EXPECTED_BRACKET, EXPECTED_QUOTE,
-    EXPECTED_EQUALS, EXPECTED_TO, EXPECTED_NAME, EXPECTED_COMMA, EXPECTED_ENDIF, EXPECTED_WEND, EXPECTED_NEXT, EXPECTED_IF,
-    EXPECTED_WHILE, EXPECTED_FOR, EXPECTED_LABEL, EXPECTED_SUB, EXPECTED_GIVEN, EXPECTED_DIM, EXPECTED_NEW_NAME, EXPECTED_SIZE,
-    EXPECTED_PLAIN, EXPECTED_SHORTER, EXPECTED_END, EXPECTED_INDEX, EXPECTED_SIDE, EXPECTED_ACTION, EXPECTED_RETURN,
-    EXPECTED_GOSUB, EXPECTED_ARGUMENTS, EXPECTED_DIVISOR, EXPECTED_DEGREES, EXPECTED_WAY, EXPECTED_DELAY, EXPECTED_CHOICES, EXPECTED_AHEAD,
-    EXPECTED_OPEN, EXPECTED_ONE_VALUE, EXPECTED_NO_VALUE, EXPECTED_PLACE, EXPECTED_COUNT
+    EXPECTED_NOTHING, EXPECTED_STATEMENT, EXPECTED_VALUE, EXPECTED_LINE_END, EXPECTED_CLOSE, EXPECTED_BRACKET,
+    EXPECTED_QUOTE, EXPECTED_EQUALS, EXPECTED_TO, EXPECTED_NAME, EXPECTED_COMMA, EXPECTED_ENDIF, EXPECTED_WEND,
+    EXPECTED_NEXT, EXPECTED_IF, EXPECTED_WHILE, EXPECTED_FOR, EXPECTED_LABEL, EXPECTED_SUB, EXPECTED_GIVEN,
+    EXPECTED_DIM, EXPECTED_NEW_NAME, EXPECTED_SIZE, EXPECTED_PLAIN, EXPECTED_SHORTER, EXPECTED_END, EXPECTED_INDEX,
+    EXPECTED_SIDE, EXPECTED_ACTION, EXPECTED_RETURN, EXPECTED_GOSUB, EXPECTED_ARGUMENTS, EXPECTED_DIVISOR,
+    EXPECTED_DEGREES, EXPECTED_WAY, EXPECTED_DELAY, EXPECTED_CHOICES, EXPECTED_AHEAD, EXPECTED_OPEN,
+    EXPECTED_ONE_VALUE, EXPECTED_NO_VALUE, EXPECTED_PLACE, EXPECTED_COUNT
 };
 
 struct program_mistake {
@@ -115,7 +116,7 @@ struct program {
 };
 
 bool program_compile(struct program *program, const char *text, size_t len);
-        /* Compiles a program, ready to begin. False: program->mistake says what is wrong, and the program does nothing. */
+        /* Compiles a program, ready to begin. False: program->mistake says why, and the program does nothing. */
 
 void program_begin(struct program *program);
         /* Starts from the top, with all variables 0. A program with a mistake does nothing. */

@@ -105,7 +105,8 @@ static bool compile_statement(struct compiler *compiler)
 {
     struct token word = compiler->token;
     const char *text = compiler->program->text + word.at;
-    int keyword = compiler_keyword(text, word.len), command = code_find(CODE_COMMANDS, CODE_COMMAND_COUNT, text, word.len);
+    int keyword = compiler_keyword(text, word.len);
+    int command = code_find(CODE_COMMANDS, CODE_COMMAND_COUNT, text, word.len);
 
     if (word.kind != TOKEN_WORD) {
         compiler_fail(compiler, EXPECTED_STATEMENT);

@@ -16,9 +16,9 @@ static void add_mistake(char told[PROGRAMMED_TOLD_MAX], const struct program_mis
 
     if (mistake->expected == EXPECTED_NOTHING)
         return;
-    (void)snprintf(text, sizeof text, "line %u: %s%s%s: expected %s", (unsigned)mistake->line, mistake->word[0] ? "\"" : "",
-                   mistake->word[0] ? mistake->word : "the line ends", mistake->word[0] ? "\"" : "",
-                   program_expected(mistake->expected));
+    (void)snprintf(text, sizeof text, "line %u: %s%s%s: expected %s", (unsigned)mistake->line,
+                   mistake->word[0] ? "\"" : "", mistake->word[0] ? mistake->word : "the line ends",
+                   mistake->word[0] ? "\"" : "", program_expected(mistake->expected));
     add(told, "", text);
 }
 

@@ -71,7 +71,7 @@ static size_t read_number(const char *at, double *number)
     return len;
 }
 
-/* The text after an opening quote, up to the closing one. Returns the bytes from the first quote to after the last one. */
+/* The text after an opening quote, up to the closing one. Returns the bytes from the first quote through the last. */
 static size_t read_text(const char *at, size_t opening, struct token *token)
 {
     size_t bytes, len = opening;
@@ -161,5 +161,6 @@ bool token_is(const char *text, const struct token *token, const char *sign)
     size_t bytes;
     bool minus = character(text + token->at, &bytes) == '-' && bytes > 1 && strcmp(sign, "-") == 0;
 
-    return token->kind == TOKEN_SIGN && (minus || (strlen(sign) == token->len && strncmp(text + token->at, sign, token->len) == 0));
+    return token->kind == TOKEN_SIGN
+        && (minus || (strlen(sign) == token->len && strncmp(text + token->at, sign, token->len) == 0));
 }

@@ -20,8 +20,8 @@ struct token {
 };
 
 void token_next(const char *text, struct token *token);
-        /* Advances to the next token; to begin, pass a token that is all 0 except line 1. Skips comments and blanks, and accepts
-           the typographic quotes and dashes of printed text. */
+        /* Advances to the next token; to begin, pass a token that is all 0 except line 1. Skips comments and blanks,
+           and accepts the typographic quotes and dashes of printed text. */
 
 bool token_is(const char *text, const struct token *token, const char *sign);
         /* Whether a token is this sign. */

@@ -26,8 +26,8 @@ struct fleet_robot {
     const uint8_t *company;           /* memories of the robots that hear each other, CELL_COUNT bytes each, */
     uint32_t company_size;            /* their number; 0: it hears nobody */
     uint32_t company_place;           /* its own among them */
-    uint32_t known_ticks;             /* from the start of the run until it knew a turn for each pattern of a thing on one
-                                         side; 0: it does not yet */
+    uint32_t known_ticks;             /* from the start of the run until it knew a turn for each pattern of a thing on
+                                         one side; 0: it does not yet */
     uint32_t begun[FLEET_REASONS];    /* actions begun in this environment, by reason */
     uint32_t food_eaten;              /* in this environment, too: */
     uint32_t denied;                  /* times that its wheels did not do what they were told */
@@ -51,8 +51,8 @@ void fleet_memories(const struct fleet_robot robots[], size_t count, uint8_t *ce
 
 size_t fleet_run_alone(struct fleet_robot robots[], size_t count, uint32_t ticks);
         /* Runs each robot in its own world for a number of ticks, one robot after the other, or to the end of its
-           environment. Returns how many are not at its end. A robot with company hears it once a second, as it is: the caller
-           copies the memories there, and runs no more than a second. */
+           environment. Returns how many are not at its end. A robot with company hears it once a second, as it is:
+           the caller copies the memories there, and runs no more than a second. */
 
 size_t fleet_run_together(struct fleet_robot robots[], size_t count, uint32_t ticks);
         /* The same for robots that share a world: they sense each other, tick by tick. */

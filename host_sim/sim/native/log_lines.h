@@ -6,7 +6,7 @@
 
 #include "hal/link/link.h"
 
-enum { LOG_STAMP = 26, LOG_LINE_MAX = 48 };   /* characters: of a stamp with its channel, and of a line with its end */
+enum { LOG_STAMP = 26, LOG_LINE_MAX = 48 };   /* characters of a stamp with its channel, of a line with its end */
 
 struct log_lines {
     char *text;   /* without a 0 at its end; null: nothing is logged */

@@ -3,9 +3,9 @@
  * Simulation.step in host_sim/sim/simulation.py is the readable reference. This does the same in the same order, with
  * the same frames: the robots use the wire's own codec. The caller provides all memory.
  *
- * A robot is in this process, or behind a link. For a robot behind a link, this handles only the common case: the drive
- * that answers its senses, and reports that say nothing new. Anything else, or a timeout, hands the unfinished tick to
- * the caller: the rules of a session are in host_sim/client/. */
+ * A robot is in this process, or behind a link. For a robot behind a link, this handles only the common case: the
+ * drive that answers its senses, and reports that say nothing new. Anything else, or a timeout, hands the unfinished
+ * tick to the caller: the rules of a session are in host_sim/client/. */
 #ifndef OCTET_LOOP_H
 #define OCTET_LOOP_H
 
@@ -42,7 +42,7 @@ struct loop_robot {
     size_t answer_count;              /* in this tick */
     struct frame drive;               /* its last DRIVE */
     struct frame known[LOOP_KINDS_MAX];     /* the last report of each kind */
-    uint32_t told[LOOP_KINDS_MAX];          /* behind a link: which of the frames received in the block it was; 0: none */
+    uint32_t told[LOOP_KINDS_MAX];          /* behind a link: which of the block's received frames it was; 0: none */
     size_t known_count;
     struct frame reports[LOOP_FRAMES_MAX];  /* of the last tick, */
     size_t report_count;
@@ -58,9 +58,9 @@ struct loop {
     uint32_t wait_ms;                 /* for a frame over a link */
     size_t (*exchange)(struct octet *octet, const struct frame *in);
     const struct frame *(*answers)(const struct octet *octet);
-    bool (*ask)(struct loop *loop, size_t robot);   /* asks one in this process that has stopped by itself how it is, and
-                                                       logs that in up to LOOP_ASK_LINES; false: it has not. null: its tick
-                                                       is handed over */
+    bool (*ask)(struct loop *loop, size_t robot);   /* asks one in this process that has stopped by itself how it
+                                                       is, and logs that in up to LOOP_ASK_LINES; false: it has not.
+                                                       null: its tick is handed over */
     struct world *world;
     size_t robot_count;               /* as many as the world has bodies */
     struct loop_robot *robots;
@@ -77,8 +77,8 @@ struct loop {
 
 void loop_run(struct loop *loop, uint32_t ticks_max);
         /* Runs a block of ticks. The log must have room for one tick's lines. It ends earlier after a tick in
-           which food was eaten or a robot reported something new, when the log is full, and when a tick is handed over,
-           which is not counted. In this process, that is one in which a robot does not answer. */
+           which food was eaten or a robot reported something new, when the log is full, and when a tick is handed
+           over, which is not counted. In this process, that is one in which a robot does not answer. */
 
 bool turns_in_process(struct loop *loop, struct turn *turns);
         /* Sends each robot its senses, then receives the answers. False: hand the tick over. */
@@ -87,7 +87,7 @@ bool turns_over_links(struct loop *loop, struct turn *turns);
         /* The same for robots behind links. */
 
 void loop_record(struct loop *loop);
-        /* Counts and records one more tick of the block, which the caller has completed. The first numbers of its rows, up to
-           the drive's, and the bodies' poses after it are already set. */
+        /* Counts and records one more tick of the block, which the caller has completed. The first numbers of its
+           rows, up to the drive's, and the bodies' poses after it are already set. */
 
 #endif

@@ -15,8 +15,8 @@ void robot_wire_report(struct loop_robot *robot, const struct frame *frame);
            LOOP_FRAMES_MAX reports. */
 
 bool robot_wire_goes_on(struct loop_robot *robot, const struct frame *frame);
-        /* Whether a report continues the last one of its kind: valid, with the next counter, and nothing new except the time.
-           Records it if so. */
+        /* Whether a report continues the last one of its kind: valid, with the next counter, and nothing new except
+           the time. Records it if so. */
 
 bool robot_wire_is_memory(const struct frame *frame);
         /* Whether the frame is half of a robot's memory. */

@@ -59,7 +59,7 @@ static bool take_answers(struct loop *loop, struct loop_robot *robot, struct tur
     return true;
 }
 
-/* Asks a robot that has stopped by itself for a report, then sends its senses again. Returns whether its drive has come. */
+/* Asks a robot that has stopped by itself for a report, then resends its senses. Returns whether its drive came. */
 static bool asks_on(struct loop *loop, size_t index, struct turn *turn)
 {
     struct loop_robot *robot = &loop->robots[index];

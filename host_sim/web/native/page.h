@@ -1,7 +1,7 @@
 /* page.h: a run for a web page. JavaScript calls these functions of page.wasm and reads their results in its memory.
  *
- * The page has an instance of the module for each run, so that a run's state is the whole memory of its instance: a copy
- * of that memory is a snapshot of the run. Robot i has node i + 1. */
+ * The page has an instance of the module for each run, so that a run's state is the whole memory of its instance: a
+ * copy of that memory is a snapshot of the run. Robot i has node i + 1. */
 #ifndef OCTET_PAGE_H
 #define OCTET_PAGE_H
 
@@ -30,8 +30,8 @@ enum { PAGE_WIDTH_MM, PAGE_HEIGHT_MM, PAGE_BODY_MM, PAGE_TRACK_MM, PAGE_REACH_MM
        PAGE_EAT_MM, PAGE_TICK_S, PAGE_SPEED_MM_S, PAGE_THICKNESS_MM, PAGE_DIMENSIONS };
 
 /* The numbers of an edit, as in struct edit; each of the last three places has two. */
-enum { PAGE_EDIT_ID, PAGE_EDIT_ROBOT, PAGE_EDIT_SEED, PAGE_EDIT_HEADING, PAGE_EDIT_RADIUS, PAGE_EDIT_A, PAGE_EDIT_B = PAGE_EDIT_A + 2,
-       PAGE_EDIT_AT = PAGE_EDIT_B + 2 };
+enum { PAGE_EDIT_ID, PAGE_EDIT_ROBOT, PAGE_EDIT_SEED, PAGE_EDIT_HEADING, PAGE_EDIT_RADIUS, PAGE_EDIT_A,
+       PAGE_EDIT_B = PAGE_EDIT_A + 2, PAGE_EDIT_AT = PAGE_EDIT_B + 2 };
 
 enum { PAGE_NUMBERS = PAGE_DIMENSIONS };   /* maximum that JavaScript passes, except for layouts */
 
@@ -120,10 +120,10 @@ const uint8_t *page_sides(uint32_t robot);
         /* The turn for each pattern in them, for any kind of memory. */
 
 void page_write_side(uint32_t robot, uint32_t pattern, uint32_t side);
-        /* Sets the turn for a pattern in page_bytes(), which hold a memory that this robot's behaviour understands. */
+        /* Sets the turn for a pattern in page_bytes(), which hold a memory for this robot's behaviour. */
 
 bool page_translate(uint32_t robot);
-        /* Makes the memory in page_bytes() one that this robot's behaviour understands. False if they are not a memory. */
+        /* Makes the memory in page_bytes() one for this robot's behaviour. False if they are not a memory. */
 
 bool page_has_halted(uint32_t robot);
         /* Whether it has stopped by itself because its wheels do not obey. */
@@ -166,8 +166,8 @@ const char *page_edit(int32_t kind);
         /* As edit_make, with what is in page_numbers() and page_text(). */
 
 const double *page_scene(void);
-        /* The numbers of bars, of plants and of pieces of food, then id and ends of each bar, id, middle and radius of each plant, and
-           of each piece of food its place and whether it is eaten. */
+        /* The numbers of bars, of plants and of pieces of food, then id and ends of each bar, id, middle and radius
+           of each plant, and of each piece of food its place and whether it is eaten. */
 
 void page_measure(uint32_t robot, uint32_t tick, uint8_t *range_mm);
         /* The FEEL_COUNT distances that a robot is told in that tick. */
@@ -188,7 +188,7 @@ void page_history_begin(uint32_t robot);
         /* As history_begin. */
 
 uint32_t page_history_take(uint32_t robot, double tick);
-        /* history_take and history_learn of the last block, whose first tick this is. Returns the number of page_notes(). */
+        /* history_take and history_learn of the last block, begun at tick. Returns the number of page_notes(). */
 
 void page_history_relearn(uint32_t robot, double tick);
 void page_history_restart(uint32_t robot);
@@ -213,12 +213,13 @@ bool page_program(uint32_t robot, uint32_t len);
         /* Replaces a robot that was never started by one with that program for a brain and an empty memory. False if
            out of memory. */
 
-enum { PAGE_PROGRAM_STATE, PAGE_PROGRAM_LINE, PAGE_PROGRAM_EXPECTED, PAGE_PROGRAM_STEPS, PAGE_PROGRAM_NAMES, PAGE_PROGRAM_NUMBERS };
+enum { PAGE_PROGRAM_STATE, PAGE_PROGRAM_LINE, PAGE_PROGRAM_EXPECTED, PAGE_PROGRAM_STEPS, PAGE_PROGRAM_NAMES,
+       PAGE_PROGRAM_NUMBERS };
 
 const double *page_program_state(uint32_t robot);
-        /* Of a robot's program: its state, an enum program_state; the line of its mistake and what was expected; the number of the
-           steps of its last decision and of its names; then line, cell and value of each step, and kind, first cell, size, place in
-           the text and length of each name. */
+        /* Of a robot's program: its state, an enum program_state; the line of its mistake and what was expected; the
+           number of the steps of its last decision and of its names; then line, cell and value of each step, and
+           kind, first cell, size, place in the text and length of each name. */
 
 const double *page_program_cells(uint32_t robot);
         /* Its variables before the last decision: PROGRAM_CELLS_MAX. */
@@ -257,11 +258,12 @@ struct layout *page_drawn(void);
         /* The layout that page_draw has drawn. */
 
 const double *page_draw(double seed, double number, uint32_t robots);
-        /* Draws an environment for 1..PAGE_ROBOTS_MAX robots. Returns the numbers of bars, of pieces of food and of starts, and then these, as in struct
-           layout. There are fewer starts than robots if there is no room for all; none if 1000 draws gave no fair layout. */
+        /* Draws an environment for 1..PAGE_ROBOTS_MAX robots. Returns the numbers of bars, of pieces of food and
+           of starts, and then these, as in struct layout. There are fewer starts than robots if there is no room for
+           all; none if 1000 draws gave no fair layout. */
 
 double page_tour(void);
-        /* The length of the shortest tour through all food of that environment, mm, from the first robot's start; infinite if none
-           was found. */
+        /* The length of the shortest tour through all food of that environment, mm, from the first robot's start;
+           infinite if none was found. */
 
 #endif

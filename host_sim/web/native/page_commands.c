@@ -28,7 +28,8 @@ static struct octet_command_t message_of(uint32_t opcode, uint32_t which, uint32
 static void send(uint32_t robot, struct octet_command_t *message)
 {
     uint8_t *counter = &page_state()->counters[robot];
-    struct frame frame = {.id = wire_id(&page_octet(robot)->wire, OCTET_COMMAND_FRAME_ID), .len = OCTET_COMMAND_LENGTH};
+    struct frame frame = {.id = wire_id(&page_octet(robot)->wire, OCTET_COMMAND_FRAME_ID),
+                          .len = OCTET_COMMAND_LENGTH};
 
     message->counter = *counter = e2e_next(*counter);
     (void)octet_command_pack(frame.data, message, sizeof frame.data);

@@ -172,7 +172,8 @@ const double *page_scene(void)
     static double scene[3 + 5 * FURNITURE_BARS_MAX + 4 * FURNITURE_PLANTS_MAX + 3 * LAYOUT_FOOD_MAX];
     const struct page_world *of = page_world();
     const struct furniture *furniture = &of->furniture;
-    const double counts[] = {(double)furniture->bar_count, (double)furniture->plant_count, (double)of->world.food_count};
+    const double counts[] = {(double)furniture->bar_count, (double)furniture->plant_count,
+                             (double)of->world.food_count};
     double *at = put(scene, counts, 3);
 
     for (size_t i = 0; i < furniture->bar_count; i++) {

@@ -32,7 +32,8 @@ void body_roll(struct body *body, double left_mm, double right_mm, double track_
     double part = 1.0 + square * (-1.0 / 6 + square * (1.0 / 120 + square * (-1.0 / 5040 + square * (1.0 / 362880))));
     double cosine = 1.0 + square * (-1.0 / 2 + square * (1.0 / 24 + square * (-1.0 / 720 + square * (1.0 / 40320))));
     double sine = half * part, chord_mm = way_mm * part;
-    struct vector along = {body->ahead.x * cosine - body->ahead.y * sine, body->ahead.y * cosine + body->ahead.x * sine};
+    struct vector along = {body->ahead.x * cosine - body->ahead.y * sine,
+                           body->ahead.y * cosine + body->ahead.x * sine};
 
     body->x_mm += chord_mm * along.x;
     body->y_mm += chord_mm * along.y;

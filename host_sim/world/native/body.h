@@ -8,8 +8,8 @@ void body_face(struct body *body);
         /* Updates the fields derived from the heading. */
 
 void body_roll(struct body *body, double left_mm, double right_mm, double track_mm);
-        /* Rolls each wheel its distance at a constant speed. If the left wheel rolls farther, the body turns right, the
-           positive direction. */
+        /* Rolls each wheel its distance at a constant speed. If the left wheel rolls farther, the body turns right,
+           the positive direction. */
 
 void body_place(struct world *world, struct body *body);
         /* Updates what the body overlaps at its pose. */

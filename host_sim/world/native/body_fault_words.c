@@ -136,8 +136,8 @@ static const char *loosen(struct body_faults *faults, enum body_fault fault, int
     if (fault == BODY_FAULT_LAG)
         faults->lag_ms = (uint16_t)much;
     else
-        *(fault == BODY_FAULT_SLACK ? &faults->slack_deg : fault == BODY_FAULT_SLIP ? &faults->slip_percent : &faults->latency_ticks)
-            = (uint8_t)much;
+        *(fault == BODY_FAULT_SLACK ? &faults->slack_deg
+          : fault == BODY_FAULT_SLIP ? &faults->slip_percent : &faults->latency_ticks) = (uint8_t)much;
     return NULL;
 }
 

@@ -1,5 +1,5 @@
-/* body_faults.h: faults of a body, on the way from its sensors to the robot and back to its motors. body_fault_words.c parses
- * their names. */
+/* body_faults.h: faults of a body, on the way from its sensors to the robot and back to its motors.
+ * body_fault_words.c parses their names. */
 #ifndef OCTET_BODY_FAULTS_H
 #define OCTET_BODY_FAULTS_H
 
@@ -43,8 +43,8 @@ void body_faults_count(const struct body_faults *faults, double *left_mm, double
         /* Converts the distances that the wheels roll to those that the odometers count. */
 
 const char *body_faults_add(struct body_faults *faults, const char *what, uint32_t seed, uint32_t robot);
-        /* Adds a fault, such as "stuck-on:front"; docs/worlds.md lists them. Seed and robot determine the ticks of noise.
-           Returns null, or why the text is refused, such as "write mirror". */
+        /* Adds a fault, such as "stuck-on:front"; docs/worlds.md lists them. Seed and robot determine the ticks of
+           noise. Returns null, or why the text is refused, such as "write mirror". */
 
 uint64_t body_faults_mix(uint64_t number);
         /* The SplitMix64 generator's number after this one. */

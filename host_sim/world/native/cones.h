@@ -17,7 +17,7 @@ struct cones {
 };
 
 void cones_set(struct cones *cones, double reach_mm, double front_extra_mm);
-        /* Lays out the cones. They reach reach_mm from the centre of the body, the front one front_extra_mm farther. */
+        /* Lays out the cones. They reach reach_mm from the body's centre, the front one front_extra_mm farther. */
 
 bool cones_overlap(const struct cone *cone, const struct capsule *thing);
         /* Whether a thing, in the body's frame, is at least partly within a cone. */

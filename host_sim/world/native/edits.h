@@ -22,7 +22,7 @@ struct edit {
 };
 
 const char *edit_make(struct furniture *furniture, struct world *world, const struct edit *edit);
-        /* Makes one edit. Returns null, or why it is impossible, with nothing changed. Afterwards the caller must pass the
-           capsules to the space and settle the world. */
+        /* Makes one edit. Returns null, or why it is impossible, with nothing changed. Afterwards the caller must
+           pass the capsules to the space and settle the world. */
 
 #endif

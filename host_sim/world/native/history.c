@@ -62,7 +62,8 @@ static void begin_action(struct history *history, double tick, const int16_t *ro
     history->action = row[ROW_ACTION];
     history->pattern = pattern_of(row[ROW_FEEL]);
     judge(history);
-    history->forgets = reason == REASON_REMEMBERED || history->reason == REASON_REMEMBERED || reason == REASON_BOREDOM;
+    history->forgets = reason == REASON_REMEMBERED || history->reason == REASON_REMEMBERED
+                    || reason == REASON_BOREDOM;
     history->reason = reason;
     if (reason == REASON_REMEMBERED) {
         history->used = history->pattern;
@@ -80,7 +81,8 @@ static struct history_note note(const struct history *history, double tick)
     int32_t cell = history->pattern;
 
     return (struct history_note){
-        tick, history->reason, cell, history->uses[cell], history->by_hand[cell], history->learned[cell], history->trial,
+        tick, history->reason, cell, history->uses[cell], history->by_hand[cell], history->learned[cell],
+        history->trial,
     };
 }
 
@@ -114,7 +116,7 @@ static bool is_of_one_side(int32_t pattern)
     return ((pattern ^ pattern >> 2) & 1) != 0;
 }
 
-/* Whether a trial taught that turn: in its own cell or, if the robot generalizes, in all cells of an obstacle on one side. */
+/* Whether a trial taught that turn: in its own cell or, if the robot generalizes, all of an obstacle on one side. */
 static bool taught(const struct history_trial *trial, int32_t cell, uint8_t side)
 {
     bool mirrored = ((trial->cell ^ cell) & 1) != 0;

@@ -62,8 +62,8 @@ size_t history_take(struct history *history, double tick, int16_t *rows, size_t 
            Returns the number of notes; there must be room for one for each tick. */
 
 void history_learn(struct history *history, double tick, const uint8_t sides[CELL_COUNT]);
-        /* Compares the turns known after that tick, the last one taken: changes that the tick explains were learned or
-           forgotten by the robot, all others were made from outside. */
+        /* Compares the turns known after that tick, the last one taken: changes that the tick explains were learned
+           or forgotten by the robot, all others were made from outside. */
 
 void history_relearn(struct history *history, double tick, const uint8_t sides[CELL_COUNT]);
         /* Sets the turns known before that tick; new ones were made from outside. */

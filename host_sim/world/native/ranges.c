@@ -109,15 +109,20 @@ static void look_around(struct view *view, double heading_rad, double width_deg)
 {
     /* Unit vectors along the edges of seamless cones, 112.5 to -112.5 degrees, for a body that faces +x. */
     static const double COS_67 = 0.38268343236508984, SIN_67 = 0.9238795325112867;
-    const struct vector seamless[] = {{-COS_67, SIN_67}, {COS_67, SIN_67}, {SIN_67, COS_67}, {SIN_67, -COS_67}, {COS_67, -SIN_67}, {-COS_67, -SIN_67}};
+    const struct vector seamless[] = {
+        {-COS_67, SIN_67}, {COS_67, SIN_67}, {SIN_67, COS_67},
+        {SIN_67, -COS_67}, {COS_67, -SIN_67}, {-COS_67, -SIN_67}
+    };
     struct vector ahead = trig_along(heading_rad);
 
     view->is_seamless = width_deg >= APART_DEG;
     for (unsigned n = 0; n < FEEL_COUNT; n++) {
         double middle_deg = APART_DEG * (FRONT - (double)n);
 
-        view->right[n] = turned(ahead, view->is_seamless ? seamless[n] : trig_along((middle_deg + width_deg / 2.0) * RAD_PER_DEG));
-        view->left[n] = turned(ahead, view->is_seamless ? seamless[n + 1] : trig_along((middle_deg - width_deg / 2.0) * RAD_PER_DEG));
+        view->right[n] = turned(ahead, view->is_seamless ? seamless[n]
+                                : trig_along((middle_deg + width_deg / 2.0) * RAD_PER_DEG));
+        view->left[n] = turned(ahead, view->is_seamless ? seamless[n + 1]
+                               : trig_along((middle_deg - width_deg / 2.0) * RAD_PER_DEG));
         view->found_mm[n] = FAR_MM;
     }
 }
@@ -132,7 +137,8 @@ static uint8_t range_to(const struct ranges *ranges, double found_mm, unsigned c
     return range_mm > 0.0 ? (uint8_t)range_mm : 0;
 }
 
-void ranges_measure(const struct ranges *ranges, const struct world *world, const struct body *body, uint8_t *range_mm)
+void ranges_measure(const struct ranges *ranges, const struct world *world, const struct body *body,
+                    uint8_t *range_mm)
 {
     struct view view = {.ranges = ranges, .at = {body->x_mm, body->y_mm}};
 

@@ -15,8 +15,9 @@ struct ranges {
     double cone_deg;          /* width of a cone; 0: 45, seamless */
 };
 
-void ranges_measure(const struct ranges *ranges, const struct world *world, const struct body *body, uint8_t *range_mm);
-        /* Distances from a body to capsules and other bodies: for each of the FEEL_COUNT cones, whole mm beyond its rim, or
-           RANGE_NONE if nothing is in range, as for a lifted body. */
+void ranges_measure(const struct ranges *ranges, const struct world *world, const struct body *body,
+                    uint8_t *range_mm);
+        /* Distances from a body to capsules and other bodies: for each of the FEEL_COUNT cones, whole mm beyond its
+           rim, or RANGE_NONE if nothing is in range, as for a lifted body. */
 
 #endif

@@ -1,5 +1,5 @@
-/* trig.h: sine, cosine and distance, equal to the last bit on every machine: computed only by additions, multiplications
- * and square roots, which IEEE 754 defines exactly. Those of C libraries differ in the last place. */
+/* trig.h: sine, cosine and distance, equal to the last bit on every machine: computed only by additions,
+ * multiplications and square roots, which IEEE 754 defines exactly. Those of C libraries differ in the last place. */
 #ifndef OCTET_TRIG_H
 #define OCTET_TRIG_H
 

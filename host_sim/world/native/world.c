@@ -41,7 +41,8 @@ void world_sense(struct world *world, struct body *body, uint32_t tick, struct s
     body_faults_sense(&body->faults, tick, out);
 }
 
-void world_measure(struct world *world, struct body *body, uint32_t tick, const struct ranges *ideal, uint8_t *range_mm)
+void world_measure(struct world *world, struct body *body, uint32_t tick, const struct ranges *ideal,
+                   uint8_t *range_mm)
 {
     struct senses senses;
 

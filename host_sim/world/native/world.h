@@ -1,5 +1,5 @@
-/* world.h: an arena: what the bodies sense and eat, and how they move, one control tick at a time. The caller provides all
- * memory, and must not move it. */
+/* world.h: an arena: what the bodies sense and eat, and how they move, one control tick at a time. The caller
+ * provides all memory, and must not move it. */
 #ifndef OCTET_WORLD_H
 #define OCTET_WORLD_H
 
@@ -71,9 +71,10 @@ void world_settle(struct world *world);
 void world_sense(struct world *world, struct body *body, uint32_t tick, struct senses *out);
         /* What the robot is told of its body's senses at its pose. tick is the number of the tick in the run. */
 
-void world_measure(struct world *world, struct body *body, uint32_t tick, const struct ranges *ideal, uint8_t *range_mm);
-        /* The distances that a robot is told in that tick, FEEL_COUNT of them as in struct senses. ideal: what an ideal body measures;
-           a real one has sensors of its own. */
+void world_measure(struct world *world, struct body *body, uint32_t tick, const struct ranges *ideal,
+                   uint8_t *range_mm);
+        /* The distances that a robot is told in that tick, FEEL_COUNT of them as in struct senses. ideal: what an
+           ideal body measures; a real one has sensors of its own. */
 
 bool world_eat(struct world *world, struct body *body);
         /* Eats the food that was last sensed straight ahead, if it is near enough and still there. */

@@ -86,7 +86,8 @@ static void run_tick(struct told *told, struct doing *doing)
 
 static bool goes_on(const struct told *told, const struct doing *doing)
 {
-    return doing->under_way > 0 && told->tick < doing->end_tick && told->tick < told->limit_ticks && world_food_left(told->world) > 0;
+    return doing->under_way > 0 && told->tick < doing->end_tick && told->tick < told->limit_ticks
+        && world_food_left(told->world) > 0;
 }
 
 size_t told_motion_size(void)
@@ -121,7 +122,8 @@ static void begin_deed(struct told *told, size_t i, const struct doing *doing)
 static void step(struct told *told, const uint8_t deeds[], const struct config *config)
 {
     struct doing doing = {
-        .config = config, .deeds = deeds, .under_way = told->world->body_count, .end_tick = told->tick + told->step_ticks
+        .config = config, .deeds = deeds, .under_way = told->world->body_count,
+        .end_tick = told->tick + told->step_ticks
     };
 
     for (size_t i = 0; i < told->world->body_count; i++)

@@ -98,7 +98,8 @@ static void add_starts(const struct layout_kind *kind, const struct layout_which
     }
 }
 
-bool layouts_draw(const struct layout_kind *kind, const struct layout_which *which, struct reach *reach, struct layout *out)
+bool layouts_draw(const struct layout_kind *kind, const struct layout_which *which, struct reach *reach,
+                  struct layout *out)
 {
     struct draws draws;
 

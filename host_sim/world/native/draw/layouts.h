@@ -11,9 +11,10 @@ struct layout_which {
     uint32_t robots;   /* at least 1; more of them do not change the rest of the layout */
 };
 
-bool layouts_draw(const struct layout_kind *kind, const struct layout_which *which, struct reach *reach, struct layout *out);
-        /* Draws the first fair layout: nothing is within sensor reach of a start or of a piece of food, and every piece can
-           be reached from each start. out->starts has room for the robots; start_count is the number of robots for which there is
-           room. False if 1000 draws gave no fair layout. reach is working memory for an arena of this size. */
+bool layouts_draw(const struct layout_kind *kind, const struct layout_which *which, struct reach *reach,
+                  struct layout *out);
+        /* Draws the first fair layout: nothing is within sensor reach of a start or of a piece of food, and every
+           piece can be reached from each start. out->starts has room for the robots; start_count is the number that
+           find room. False if 1000 draws gave no fair layout. reach is working memory for an arena of this size. */
 
 #endif

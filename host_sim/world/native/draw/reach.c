@@ -143,7 +143,7 @@ static void flood(struct reach *reach, uint32_t start)
 
 void reach_find(struct reach *reach, const struct obstacles *obstacles, double body_radius_mm, struct vector start)
 {
-    /* Clearance changes by at most the distance moved, and no point of a cell is farther from its middle than a corner is. */
+    /* Clearance changes by at most the distance moved, and a cell's corners are farthest from its middle. */
     double room = body_radius_mm + REACH_CELL_MM * sqrt(0.5);
     size_t count = reach_size(obstacles->width_mm, obstacles->height_mm);
     uint8_t *cells = reach->cells;

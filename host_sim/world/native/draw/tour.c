@@ -44,7 +44,7 @@ static bool cross(const struct capsule *one, const struct capsule *other)
     return is_across(one, other->a, other->b) && is_across(other, one->a, one->b);
 }
 
-/* Whether a straight path, a capsule of no width, misses an obstacle. Segments that do not cross are nearest at an end. */
+/* Whether a segment, a capsule of no width, misses an obstacle. Segments that do not cross are nearest at an end. */
 static bool is_clear(const struct capsule *thing, const struct capsule *way)
 {
     double apart_mm = thing->radius_mm;
@@ -83,15 +83,18 @@ static void add_round(struct tour *tour, struct vector at, double radius_mm)
 static void add_tangent(struct tour *tour, uint32_t from, uint32_t to)
 {
     const struct tour_round *one = &tour->rounds[from / TOUR_SIDES], *other = &tour->rounds[to / TOUR_SIDES];
-    double out_mm = sign_of(from) * one->radius_mm, in_mm = sign_of(to) * other->radius_mm, across_mm = in_mm - out_mm;
+    double out_mm = sign_of(from) * one->radius_mm, in_mm = sign_of(to) * other->radius_mm;
+    double across_mm = in_mm - out_mm;
     struct vector way = vector_to(one->at, other->at), along, left;
     double square = vector_dot(way, way), length_mm = vector_root(square - across_mm * across_mm);
 
     if (!(length_mm > 0.0) || tour->tangent_count == tour->tangents_max)
         return;
-    along = vector_scale(vector_add(vector_scale(way, length_mm), vector_scale(left_of(way), -across_mm)), 1.0 / square);
+    along = vector_scale(vector_add(vector_scale(way, length_mm), vector_scale(left_of(way), -across_mm)),
+                         1.0 / square);
     left = left_of(along);
-    if (is_free(tour, vector_add(one->at, vector_scale(left, -out_mm)), vector_add(other->at, vector_scale(left, -in_mm))))
+    if (is_free(tour, vector_add(one->at, vector_scale(left, -out_mm)),
+                vector_add(other->at, vector_scale(left, -in_mm))))
         tour->tangents[tour->tangent_count++] =
             (struct tour_tangent){.along = along, .length_mm = length_mm, .from = (uint16_t)from, .to = (uint16_t)to};
 }
@@ -138,7 +141,8 @@ static bool is_arc_free(const struct tour *tour, const struct tour_tangent *in, 
     for (unsigned i = 0; i < TOUR_RIM && blocked; i++, blocked >>= 1) {
         struct vector along = vector_scale(left_of(tour->rim[i]), sign);
 
-        if (blocked & 1 && sign * vector_cross(in->along, along) >= 0.0 && sign * vector_cross(along, out->along) >= 0.0)
+        if (blocked & 1 && sign * vector_cross(in->along, along) >= 0.0
+            && sign * vector_cross(along, out->along) >= 0.0)
             return false;
     }
     return true;
@@ -227,8 +231,8 @@ static void begin(struct tour *tour, const struct obstacles *obstacles, double b
                     obstacles->plants[i].radius_mm + room_mm);
 }
 
-double tour_mm(struct tour *tour, const struct obstacles *obstacles, double body_radius_mm, const struct vector places[],
-               uint32_t count)
+double tour_mm(struct tour *tour, const struct obstacles *obstacles, double body_radius_mm,
+               const struct vector places[], uint32_t count)
 {
     double way_mm[TOUR_PLACES_MAX][TOUR_PLACES_MAX];
 

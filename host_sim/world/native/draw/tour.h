@@ -47,10 +47,10 @@ struct tour {
     struct vector high;
 };
 
-double tour_mm(struct tour *tour, const struct obstacles *obstacles, double body_radius_mm, const struct vector places[],
-               uint32_t count);
-        /* The length of the shortest open path from the first place through all others, in the best order. It consists of
-           tangents and arcs; an arc counts as free if it is free every 5.6 degrees, an error of 0.15 mm in clearance. Infinite
-           if there is no path, or not enough working memory. */
+double tour_mm(struct tour *tour, const struct obstacles *obstacles, double body_radius_mm,
+               const struct vector places[], uint32_t count);
+        /* The length of the shortest open path from the first place through all others, in the best order. It
+           consists of tangents and arcs; an arc counts as free if it is free every 5.6 degrees, an error of 0.15 mm
+           in clearance. Infinite if there is no path, or not enough working memory. */
 
 #endif

@@ -68,17 +68,20 @@ static bool check_list(const struct check *it, enum written_key key, int32_t cou
 {
     if (count >= 0 && count <= most)
         return true;
-    return written_fails(it->fault, key, -1, " must be a list of at most %g lists, such as [[...], [...]]", (double)most);
+    return written_fails(it->fault, key, -1, " must be a list of at most %g lists, such as [[...], [...]]",
+                         (double)most);
 }
 
-static bool check_numbers(const struct check *it, enum written_key key, int32_t index, const struct written_entry *entry)
+static bool check_numbers(const struct check *it, enum written_key key, int32_t index,
+                          const struct written_entry *entry)
 {
     const struct form *form = &FORMS[key];
     bool good = entry->count == form->count;
 
     for (int32_t i = 0; good && i < form->count; i++)
         good = fabs(entry->numbers[i]) < NUMBER_MAX;
-    return good || written_fails(it->fault, key, index, " must be %s: %g numbers", form->numbers, (double)form->count);
+    return good
+        || written_fails(it->fault, key, index, " must be %s: %g numbers", form->numbers, (double)form->count);
 }
 
 static bool check_inside(const struct check *it, enum written_key key, int32_t index, struct vector at)
@@ -91,7 +94,8 @@ static bool check_inside(const struct check *it, enum written_key key, int32_t i
                          at.x, at.y, width, height);
 }
 
-static bool check_place(const struct check *it, enum written_key key, int32_t index, const struct written_entry *entry)
+static bool check_place(const struct check *it, enum written_key key, int32_t index,
+                        const struct written_entry *entry)
 {
     return check_numbers(it, key, index, entry) && check_inside(it, key, index, point(entry, 0));
 }

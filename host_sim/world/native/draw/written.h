@@ -37,8 +37,8 @@ struct written_entry *written_entry(struct written *written, enum written_key ke
 
 bool written_check(const struct written *written, struct layout_params params, struct reach *reach,
                    struct written_fault *out);
-        /* Whether it is a fair world; if not, *out is its first fault. params apply to a world that gives no size; reach is
-           working memory for WRITTEN_CELLS_MAX cells. */
+        /* Whether it is a fair world; if not, *out is its first fault. params apply to a world that gives no size;
+           reach is working memory for WRITTEN_CELLS_MAX cells. */
 
 void written_lay_out(const struct written *written, struct layout *out);
         /* Its bars and its food; it has no fault. */

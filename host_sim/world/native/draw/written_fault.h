@@ -7,7 +7,7 @@
 
 enum { WRITTEN_TEXT_MAX = 200, WRITTEN_VALUES_MAX = 8 };
 
-enum written_key { WRITTEN_SIZE, WRITTEN_START, WRITTEN_FOOD, WRITTEN_BARS };   /* food and bars are lists of entries */
+enum written_key { WRITTEN_SIZE, WRITTEN_START, WRITTEN_FOOD, WRITTEN_BARS };   /* food and bars are lists */
 
 struct written_fault {
     int32_t key;     /* where it is: an enum written_key, */
@@ -18,7 +18,7 @@ struct written_fault {
 };
 
 bool written_fails(struct written_fault *fault, enum written_key key, int32_t entry, const char *words, ...);
-        /* Fills in the fault, and returns false. Words that do not begin with a letter follow the name of the entry. The
-           arguments are a text for each %s, and for each %g a double, which goes to the values. */
+        /* Fills in the fault, and returns false. Words that do not begin with a letter follow the name of the entry.
+           The arguments are a text for each %s, and for each %g a double, which goes to the values. */
 
 #endif

@@ -4,7 +4,7 @@ enum { ROBOTS_A_SEED = 10000, KEY_BITS = 8 };
 
 static const double NOMINAL_V = 7.2, ONE = 65536.0, MV_PER_V = 1000.0;
 static const double FREE_COUNTS = 36.79;   /* per period of the controller: 674 mm/s */
-static const double RIM_MM_PER_DEG = 42.0 * 3.141592653589793 / 360.0, FULL_PERCENT = 100.0;   /* of a wheel of 42 mm */
+static const double RIM_MM_PER_DEG = 42.0 * 3.141592653589793 / 360.0, FULL_PERCENT = 100.0;   /* of a 42 mm wheel */
 static const double DARK = 0.3, WEAK_V = 4.5, WEAK_SAG_V = 1.0, MOTOR_MS = 60.0;
 
 /* name, minimum, maximum, ideal, kit, tolerance */

@@ -1,5 +1,5 @@
-/* kit.h: a real body: wheels that follow late and unevenly, sensors that differ. Each robot's is drawn from its seed. If the
- * wheels have motors, the same controller as on a board controls their speed: hal/pins_body/wheel.h. */
+/* kit.h: a real body: wheels that follow late and unevenly, sensors that differ. Each robot's is drawn from its seed.
+ * If the wheels have motors, the same controller as on a board controls their speed: hal/pins_body/wheel.h. */
 #ifndef OCTET_WORLD_KIT_H
 #define OCTET_WORLD_KIT_H
 
@@ -9,10 +9,11 @@
 enum { KIT_DELAY_MAX = 5, KIT_SENSED = 8, KIT_WHEELS = 2 };   /* KIT_SENSED: a power of 2, above KIT_DELAY_MAX */
 
 enum trait {
-    TRAIT_LAG_MS, TRAIT_DEAD_MM_S, TRAIT_ACCELERATION_MM_S2, TRAIT_SLACK_MM, TRAIT_COUNT_MM, TRAIT_LEFT_WHEEL, TRAIT_RIGHT_WHEEL,
-    TRAIT_TRACK, TRAIT_SLIP, TRAIT_DRIVES_TICKS, TRAIT_MOTOR_MS, TRAIT_LEFT_MOTOR, TRAIT_RIGHT_MOTOR, TRAIT_BATTERY_V, TRAIT_SAG_V,
-    TRAIT_SENSES_TICKS, TRAIT_RIGHT_MM, TRAIT_FRONT_RIGHT_MM, TRAIT_FRONT_MM, TRAIT_FRONT_LEFT_MM, TRAIT_LEFT_MM, TRAIT_CONE_DEG,
-    TRAIT_FOLD_MM, TRAIT_HYSTERESIS_MM, TRAIT_NOISE_MM, TRAIT_WALL, TRAIT_BEAM_DEG, TRAIT_BEACON_MM, TRAIT_BEACON_NOISE, TRAIT_COUNT
+    TRAIT_LAG_MS, TRAIT_DEAD_MM_S, TRAIT_ACCELERATION_MM_S2, TRAIT_SLACK_MM, TRAIT_COUNT_MM, TRAIT_LEFT_WHEEL,
+    TRAIT_RIGHT_WHEEL, TRAIT_TRACK, TRAIT_SLIP, TRAIT_DRIVES_TICKS, TRAIT_MOTOR_MS, TRAIT_LEFT_MOTOR,
+    TRAIT_RIGHT_MOTOR, TRAIT_BATTERY_V, TRAIT_SAG_V, TRAIT_SENSES_TICKS, TRAIT_RIGHT_MM, TRAIT_FRONT_RIGHT_MM,
+    TRAIT_FRONT_MM, TRAIT_FRONT_LEFT_MM, TRAIT_LEFT_MM, TRAIT_CONE_DEG, TRAIT_FOLD_MM, TRAIT_HYSTERESIS_MM,
+    TRAIT_NOISE_MM, TRAIT_WALL, TRAIT_BEAM_DEG, TRAIT_BEACON_MM, TRAIT_BEACON_NOISE, TRAIT_COUNT
 };
 
 /* The range and the values of each trait; docs/bodies.md explains them. */
@@ -66,8 +67,8 @@ struct kit {
 };   /* all 0: ideal */
 
 void kit_draw(struct kit *kit, const struct kit_kind *kind, uint32_t seed, uint32_t robot);
-        /* Draws a robot's body, each trait within its tolerance and its range, from the seed of the run and the number of the robot,
-           from 0. A null kind is ideal. */
+        /* Draws a robot's body, each trait within its tolerance and its range, from the seed of the run and the
+           number of the robot, from 0. A null kind is ideal. */
 
 void kit_set_kind(struct kit_kind *kind, bool is_kit);
         /* The kind of the kit, or an ideal one. */
@@ -84,12 +85,12 @@ double kit_chance(const struct kit *kit, uint64_t number);
 /* kit_wheels.c: */
 
 double kit_roll(struct kit *kit, double tick_s, double *counted_mm, double *rolled_mm);
-        /* Rolls both wheels, left and right, for a tick. rolled_mm: in, the distances commanded; out, those rolled. counted_mm:
-           what the odometers count. Returns the track as a fraction of the ideal one. */
+        /* Rolls both wheels, left and right, for a tick. rolled_mm: in, the distances commanded; out, those rolled.
+           counted_mm: what the odometers count. Returns the track as a fraction of the ideal one. */
 
 void kit_push(struct kit *kit, const int32_t duty[KIT_WHEELS]);
-        /* Lets a board drive both motors for a period of the controller: duty in 1/65536 of the battery. From now on the body rolls
-           as the motors push it and ignores commands, and its senses are not delayed: the board has its own delay. */
+        /* Lets a board drive both motors for a controller's period: duty in 1/65536 of the battery. From now on the
+           body rolls as the motors push it, ignores commands and senses without delay: the board has its own. */
 
 uint32_t kit_supply_mv(const struct kit *kit);
         /* Voltage of the battery under the load of both motors. */
@@ -99,17 +100,20 @@ uint16_t kit_count(const struct kit *kit, unsigned side);
 
 /* kit_senses.c: */
 
-void kit_light(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, uint16_t light[FEEL_COUNT]);
-        /* Light of its own LEDs that each infrared sensor receives, 0..4095: PROXIMITY_NEAR from a wall at the sensor's maximum
-           range. */
+void kit_light(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick,
+               uint16_t light[FEEL_COUNT]);
+        /* Light of its own LEDs that each infrared sensor receives, 0..4095: PROXIMITY_NEAR from a wall at the
+           sensor's maximum range. */
 
-void kit_light_from(const struct kit *kit, const uint8_t range_mm[FEEL_COUNT], uint32_t tick, uint16_t light[FEEL_COUNT]);
+void kit_light_from(const struct kit *kit, const uint8_t range_mm[FEEL_COUNT], uint32_t tick,
+                    uint16_t light[FEEL_COUNT]);
         /* The same, from walls at these distances beyond its rim; RANGE_NONE: no wall. */
 
-void kit_sense(struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, struct senses *senses);
+void kit_sense(struct kit *kit, const struct world *world, const struct body *body, uint32_t tick,
+               struct senses *senses);
         /* Converts what an ideal body senses to what this one senses: the same, if called again in a tick. */
 
 bool kit_sees(const struct kit *kit, double ahead_mm, double aside_mm, double beam_mm);
-        /* Whether its receiver sees food this far ahead and this far to the side; beam_mm: the width of the ideal beam. */
+        /* Whether its receiver sees food this far ahead and to the side; beam_mm: the width of the ideal beam. */
 
 #endif

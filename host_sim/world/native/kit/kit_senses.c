@@ -16,7 +16,8 @@ static double chance(const struct kit *kit, uint32_t tick, unsigned n)
 
 bool kit_sees(const struct kit *kit, double ahead_mm, double aside_mm, double beam_mm)
 {
-    double slope = kit->trait[TRAIT_BEAM_DEG] * RAD_PER_DEG, beside_mm = __builtin_fabs(aside_mm) - beam_mm / 2.0, left;
+    double slope = kit->trait[TRAIT_BEAM_DEG] * RAD_PER_DEG, beside_mm = __builtin_fabs(aside_mm) - beam_mm / 2.0;
+    double left;
 
     if (!kit->senses_differ)
         return beside_mm <= 0.0;
@@ -53,7 +54,8 @@ static void measure(const struct kit *kit, const struct world *world, const stru
     ranges_measure(&ranges, world, body, range_mm);
 }
 
-void kit_light(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, uint16_t light[FEEL_COUNT])
+void kit_light(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick,
+               uint16_t light[FEEL_COUNT])
 {
     uint8_t range_mm[FEEL_COUNT] = {RANGE_NONE, RANGE_NONE, RANGE_NONE, RANGE_NONE, RANGE_NONE};
 
@@ -64,12 +66,14 @@ void kit_light(const struct kit *kit, const struct world *world, const struct bo
 }
 
 /* The window of a sensor acts like BEHIND_MM more distance. */
-void kit_light_from(const struct kit *kit, const uint8_t range_mm[FEEL_COUNT], uint32_t tick, uint16_t light[FEEL_COUNT])
+void kit_light_from(const struct kit *kit, const uint8_t range_mm[FEEL_COUNT], uint32_t tick,
+                    uint16_t light[FEEL_COUNT])
 {
     static const double BEHIND_MM = 20.0, MOST = 4095.0;
 
     for (unsigned n = 0; n < FEEL_COUNT; n++) {
-        double part = (reach(kit, n) + noise(kit, tick, n) + BEHIND_MM) / (range_mm[n] + BEHIND_MM), received = PROXIMITY_NEAR * part * part;
+        double part = (reach(kit, n) + noise(kit, tick, n) + BEHIND_MM) / (range_mm[n] + BEHIND_MM);
+        double received = PROXIMITY_NEAR * part * part;
 
         light[n] = range_mm[n] == RANGE_NONE ? 0 : (uint16_t)(received < MOST ? received : MOST);
     }
@@ -82,7 +86,8 @@ static void feel(const struct kit *kit, uint32_t tick, const uint8_t *range_mm, 
 
     senses->feel = 0;
     for (unsigned n = 0; n < FEEL_COUNT; n++) {
-        double noise_mm = noise(kit, tick, n), reach_mm = reach(kit, n) + noise_mm, seems_mm = seeming(kit, range_mm[n]);
+        double noise_mm = noise(kit, tick, n), reach_mm = reach(kit, n) + noise_mm;
+        double seems_mm = seeming(kit, range_mm[n]);
 
         if (before >> n & 1u)
             reach_mm += kit->trait[TRAIT_HYSTERESIS_MM];
@@ -93,7 +98,8 @@ static void feel(const struct kit *kit, uint32_t tick, const uint8_t *range_mm, 
     }
 }
 
-static void sense(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, struct senses *senses)
+static void sense(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick,
+                  struct senses *senses)
 {
     uint8_t range_mm[FEEL_COUNT];
 
@@ -102,13 +108,15 @@ static void sense(const struct kit *kit, const struct world *world, const struct
         feel(kit, tick, range_mm, senses);
     }
     if (senses->look) {
-        double far_mm = vector_whole(senses->beacon_mm * (1.0 + kit->trait[TRAIT_BEACON_NOISE] * chance(kit, tick, FEEL_COUNT)));
+        double far_mm = vector_whole(senses->beacon_mm
+                                     * (1.0 + kit->trait[TRAIT_BEACON_NOISE] * chance(kit, tick, FEEL_COUNT)));
 
         senses->beacon_mm = (uint16_t)(far_mm < 1.0 ? 1.0 : far_mm > BEACON_MAX_MM ? BEACON_MAX_MM : far_mm);
     }
 }
 
-void kit_sense(struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, struct senses *senses)
+void kit_sense(struct kit *kit, const struct world *world, const struct body *body, uint32_t tick,
+               struct senses *senses)
 {
     unsigned late = kit->pushed ? 0 : (unsigned)kit->trait[TRAIT_SENSES_TICKS];
     uint8_t told_tick = senses->tick;

@@ -77,7 +77,8 @@ static void run_motors(struct kit *kit)
     int32_t duty[KIT_WHEELS];
 
     for (unsigned side = 0; side < KIT_WHEELS; side++)
-        duty[side] = wheel_run(&kit->wheels[side].control, kit_count(kit, side), kit->wheels[side].told, kit->battery_mv);
+        duty[side] = wheel_run(&kit->wheels[side].control, kit_count(kit, side), kit->wheels[side].told,
+                               kit->battery_mv);
     turn_motors(kit, duty);
 }
 
@@ -133,7 +134,8 @@ static void finish(struct kit *kit, unsigned side, double *counted_mm, double *r
 {
     struct kit_wheel *wheel = &kit->wheels[side];
     double slack_mm = kit->trait[TRAIT_SLACK_MM] / 2.0, wheel_mm = wheel->wheel_mm, odometer_mm = wheel->counted_mm;
-    double slip = kit->trait[TRAIT_SLIP] * (1.0 + kit_chance(kit, SLIPS + (uint64_t)kit->moved * KIT_WHEELS + side)) / 2.0;
+    double slip = kit->trait[TRAIT_SLIP] * (1.0 + kit_chance(kit, SLIPS + (uint64_t)kit->moved * KIT_WHEELS + side))
+                / 2.0;
 
     wheel->motor_mm += (double)(int64_t)(wheel->place - wheel->place_was) * MM_PER_PLACE;
     wheel->place_was = wheel->place;

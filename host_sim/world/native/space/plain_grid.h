@@ -13,7 +13,7 @@ struct plain_grid {
     double cell_mm;            /* more than from the middle of a body to that of another one which it feels */
     uint32_t columns;
     uint32_t rows;
-    const uint32_t *firsts;    /* for each cell, row by row, where its capsules begin in numbers; and where the last end */
+    const uint32_t *firsts;    /* by cell, row by row, where its capsules begin in numbers; and where the last end */
     const uint32_t *numbers;   /* of the capsules that can be felt from within a cell */
     uint32_t *heads;           /* for each cell, one more than the number of a body in it; 0: none */
     uint32_t *nexts;           /* the same for each body: the next one in its cell */
