@@ -81,7 +81,7 @@ def erase_memory(client: RobotClient) -> None:
         RobotError: The robot does not answer.
     """
     client.dialogue.command("erase")
-    client.dialogue.await_memory()
+    client.await_memory()
 
 
 def freeze(client: RobotClient, on: bool) -> None:
@@ -105,4 +105,4 @@ def _write(client: RobotClient, content: Mapping[int, int]) -> None:
         if cells:
             content_of_half = {f"byte_{i}": cells.get(i, 0) for i in range(_HALF)}
             client.dialogue.command("write", mask=sum(1 << i for i in cells), half=half, **content_of_half)
-            client.dialogue.await_memory()
+            client.await_memory()

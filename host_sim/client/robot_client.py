@@ -209,6 +209,15 @@ class RobotClient:
         """Notes a loss if answers from before the last answered tick are still owed, since answers come in order."""
         self._lossy = self._lossy or (self.inbox.owed > 0 and self._owed_tick < ticks)
 
+    def await_memory(self) -> None:
+        """Waits for the memory that the robot reports after a change: one that is not that of the environment's end.
+
+        Raises:
+            RobotError: The robot does not report it.
+        """
+        self.dialogue.await_memory()
+        self._settled = None
+
     def check_settled(self) -> None:
         """Notes an incident if the last memory of an environment may have been lost, as later reports show."""
         at, settled = self._settled or (self.tick, self.memory)

@@ -9,6 +9,8 @@ from host_sim.client.robot_client import INCIDENTS_MAX
 from host_sim.client.session import Session
 from host_sim.protocol.codec import Frame, counter_of
 from host_sim.protocol.generated import Opcode, Result
+from host_sim.sim.make import make
+from host_sim.sim.run_config import RunConfig
 from tests.client.meddled_link import MeddledLink, learned
 from tests.client.support import PROTOCOL, connected, drive_for
 
@@ -136,3 +138,13 @@ def test_the_log_has_the_reports_of_the_handshake_even_if_the_first_answer_is_lo
     assert True in lost
     assert names[:2] == ["COMMAND", "ANSWER"]
     assert {"HEARTBEAT", "BOOT", "MEMORY", "FAULTS", "HEALTH"} <= set(names)
+
+
+def test_a_memory_that_a_person_changes_after_an_environment_is_not_one_lost_on_the_way():
+    with make(RunConfig(environments=1, limit_s=1.0)) as simulation:
+        list(simulation.run())
+        (client,) = simulation.clients
+        write_cells(client, {1: 1})
+        stop(client)
+
+    assert client.incidents == []
