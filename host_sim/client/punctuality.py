@@ -61,7 +61,7 @@ class Punctuality:
         """Notes a tick without an answer, and the time since the last answer. Returns whether it is now too long."""
         self.unanswered += 1
         self.gap_s = max(self.gap_s, gap_s)
-        return round(gap_s - tick_s, 6) <= self.limits.gap_s < gap_s
+        return round(gap_s - tick_s, 6) < max(self.limits.gap_s, tick_s) <= gap_s
 
     @property
     def unanswered_percent(self) -> float:
