@@ -92,6 +92,7 @@ class TickReader:
         self._last: Drive | None = None
         self._frozen, self._lockstep = False, True
         self._started: tuple[int, ...] | None = None
+        self._begins = False  # whether a new memory is what the robot starts with
         self._written: list[tuple[int, ...]] = []
 
     def read(self, frames: Iterable[Frame]) -> Iterator[Tick]:
@@ -131,7 +132,7 @@ class TickReader:
         if senses is not None and (fresh is not None or not self._lockstep):
             between = self._started, tuple(self._written)
             self.ticks += 1
-            self._started = None
+            self._started, self._begins = None, False
             self._written.clear()
             yield Tick(senses, self._applied(senses.tick), self._memory, self._frozen, *between)
         self._senses, self._fresh = None, None
@@ -149,11 +150,14 @@ class TickReader:
             return
         if not self.ticks:
             self.recording.first_memory = memory
+        elif changed and self._begins:
+            self._started = memory
         elif changed:
             self._written.append(memory)
 
     def _accept_command(self, signals: dict[str, int]) -> None:
         opcode = signals["opcode"]
+        self._begins = opcode == Opcode.START or (self._begins and opcode not in (Opcode.WRITE, Opcode.ERASE))
         self.recording.stopped = opcode == Opcode.STOP or (self.recording.stopped and opcode == Opcode.REPORT)
         if opcode == Opcode.START:
             self._frozen, self._lockstep = False, bool(signals["lockstep"])

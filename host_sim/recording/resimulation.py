@@ -1,7 +1,7 @@
 """Reconstructs a run from its log: rebuilds the world and moves the robots through it with their recorded drives."""
 
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -137,8 +137,7 @@ class _Resimulator:
     def _prepare(self, tick: int) -> Arena:
         """The arena of a tick, with the changes made by people before that tick."""
         arena, changed = self._arena, False
-        begun = self._due(tick)
-        if begun is not None:
+        for begun in self._due(tick):
             arena = self._enter(begun)
             changed = True
         if arena is None:
@@ -157,21 +156,16 @@ class _Resimulator:
         if begun.number == 1:
             self._arena.begin(begun.seed)
         self._begun = begun
+        self._all_begun.append(begun)
         return self._arena
 
-    def _due(self, tick: int) -> Begun | None:
-        """The environment that begins with a tick, the last one if there are several; None if none does."""
-        begun = None
+    def _due(self, tick: int) -> Iterator[Begun]:
+        """Yields the environments that begin with a tick; all but the last one ended without any."""
         while self._planned and self._planned[0].first_tick == tick:
-            begun = self._planned.popleft()
-            self._all_begun.append(begun)
-        if not self._runs_on:
-            return begun
+            yield self._planned.popleft()
         over = self._arena is None or not self._arena.food.left
-        if over or tick - self._begun.first_tick >= self._record.limit_ticks:
-            begun = Begun(self._begun.seed, self._begun.number + 1, tick)
-            self._all_begun.append(begun)
-        return begun
+        if self._runs_on and (over or tick - self._begun.first_tick >= self._record.limit_ticks):
+            yield Begun(self._begun.seed, self._begun.number + 1, tick)
 
     def _edit(self, arena: Arena, tick: int, edit: Edit) -> None:
         try:

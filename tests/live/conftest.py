@@ -26,8 +26,9 @@ def live(tmp_path: Path) -> Iterator[Live]:
     """Makes runs that have begun, each with a log of its own."""
     with ExitStack() as stack:
 
-        def begin(name: str = "run", robots: int = 1, **options) -> PacedRun:
+        def begin(name: str = "run", robots: int = 1, *, fixed: bool = False, **options) -> PacedRun:
             config = RunConfig(seed=1, robots=robots)
+            config = replace(config, profile="fixed", settings={"filter": 1}) if fixed else config
             simulation = open_simulation(stack, tmp_path / f"{name}.log", config)
 
             def restart(seed: int) -> None:

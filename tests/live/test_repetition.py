@@ -5,6 +5,7 @@ from host_sim.live.page_commands import EraseMemory, Freeze, NewSeed, NextEnviro
 from host_sim.recording.resimulation import resimulate
 from host_sim.recording.world_file import world_path, write_world
 from host_sim.report.replay_page import run_data
+from host_sim.view.news import news_of
 from host_sim.world.edits import Edit
 from tests.live.support import order
 
@@ -27,6 +28,36 @@ def test_equal_orders_at_equal_ticks_give_equal_runs(live):
         return simulation.clients[0].log.close()
 
     assert meddle("once") == meddle("again")
+
+
+def test_an_environment_that_ended_without_a_tick_began_all_the_same(live, tmp_path):
+    run = live("skipped")
+    for orders in ([Edit("body", what="odometer:left:150%")], [NewSeed(4), NextEnvironment()], []):
+        for _ in range(137):
+            run.simulation.step()
+        order(run, *orders)
+    stop(run.simulation.clients[0])
+    run.simulation.clients[0].log.close()
+    log = tmp_path / "skipped.log"
+    write_world(run.simulation.record, world_path(log))
+
+    run.recorder.trajectory.news = news_of(run.simulation.record)
+    assert run_data(resimulate(log).trajectory, "") == run_data(run.recorder.trajectory, "")
+
+
+def test_the_memory_that_a_robot_reports_with_its_start_is_the_one_it_starts_with(live, tmp_path):
+    run = live("fixed", fixed=True)
+    for orders in ([WriteCell(3, 2)], [NewSeed(4)], [NewSeed(5, keep=True), WriteCell(2, 2)], []):
+        for _ in range(137):
+            run.simulation.step()
+        order(run, *orders)
+    stop(run.simulation.clients[0])
+    run.simulation.clients[0].log.close()
+    write_world(run.simulation.record, world_path(tmp_path / "fixed.log"))
+
+    again = resimulate(tmp_path / "fixed.log").trajectory
+
+    assert run_data(again, "") == run_data(run.recorder.trajectory, "")
 
 
 def test_what_a_person_wrote_between_two_ticks_is_the_same_from_the_log(live, tmp_path):
