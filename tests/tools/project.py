@@ -41,6 +41,7 @@ def test_that_waits_for_another_stage():
     while not pathlib.Path({note!r}).exists():
         time.sleep(0.01)
 """
+ENDS = "import os\ndef test_that_ends_all():\n    os._exit(0)\n"
 BROKEN = "import nothing_of_this_name\n"
 
 

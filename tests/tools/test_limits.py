@@ -136,15 +136,17 @@ def test_ended_from_outside_it_leaves_nothing_behind(project):
     assert soon(lambda: not any(alive(int(note.read_text())) for note in notes))
 
 
-def test_a_second_one_in_the_same_checkout_is_refused_and_the_first_goes_on(project):
+@pytest.mark.parametrize("tool", ["test", "prove"])
+def test_a_second_one_in_the_same_checkout_is_refused_and_the_first_goes_on(project, tool):
     note, leave = project.folder / "pid", project.folder / "leave"
     project.c_tests(one=f"echo $$ >'{note}'; until [ -e '{leave}' ]; do sleep 0.05; done")
     first = subprocess.Popen(project.command("c"), stdout=subprocess.PIPE, text=True)
     assert soon(note.exists)
 
-    second = subprocess.run(project.command("c"), capture_output=True, text=True, check=False)
+    words = project.command("fuzz" if tool == "prove" else "c", tool=tool)
+    second = subprocess.run(words, capture_output=True, text=True, check=False)
     leave.touch()
 
     assert (second.returncode, second.stdout) == (2, "")
-    assert second.stderr.endswith("tools/test: error: already running in this checkout: wait until it ends\n")
+    assert second.stderr.endswith(f"tools/{tool}: error: tools/test or tools/prove runs in this checkout: wait until it ends\n")
     assert last(first.communicate()[0]) == "1 passed, 0 failed"

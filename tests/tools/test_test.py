@@ -3,11 +3,12 @@
 import re
 import signal
 import sys
+import time
 from pathlib import Path
 
 import pytest
 
-from tests.tools.project import BROKEN, FAILS, PASSES, ROOT, SKIPS, TEARDOWN_FAILS, WAITS, Project, last
+from tests.tools.project import BROKEN, ENDS, FAILS, PASSES, ROOT, SKIPS, TEARDOWN_FAILS, WAITS, Project, last
 
 sys.path.insert(0, str(ROOT))
 
@@ -62,11 +63,36 @@ def test_a_c_test_that_fails_is_counted(project):
     assert (code, last(said)) == (1, "2 passed, 1 failed")
 
 
+def test_a_program_that_ends_during_a_test_as_if_all_were_well_fails(project):
+    project.python_tests(PASSES, ENDS, PASSES)
+    script = project.stages()
+    report = script.REPORTS / "bus.jsonl"
+    report.parent.mkdir()
+    stage = script.Stage("bus", "bus", [script.pytest_command(report, (), ())], [report])
+    results = {}
+
+    def lane():
+        results["bus"] = yield from script.run_stage(stage, (), script.Limits(1, 1, time.monotonic()), None)
+
+    script.side_by_side(lane())
+
+    assert (results["bus"].verdict, results["bus"].passed, results["bus"].failed) == ("FAILED", 1, 1)
+
+
 @pytest.mark.parametrize("stage", ["c", "python"])
 def test_a_stage_without_a_test_fails(stage, project):
     project.c_tests()
 
     code, said = project.run(stage)
+
+    assert (code, last(said)) == (1, "0 passed, 1 failed")
+
+
+def test_a_stage_whose_tests_are_only_listed_fails(project, monkeypatch):
+    monkeypatch.setenv("PYTEST_ADDOPTS", "--collect-only")
+    project.python_tests(PASSES)
+
+    code, said = project.run("python")
 
     assert (code, last(said)) == (1, "0 passed, 1 failed")
 

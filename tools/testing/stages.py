@@ -85,7 +85,8 @@ def run_stage(stage: Stage, allowed: Collection[str], limits: Limits, output: Te
         report.unlink(missing_ok=True)
     ended = yield from run_commands(stage, limits, output)
     tests = count(stage.reports, allowed)
-    fine = tests.failed == 0 and all(it.well for it in ended)
+    counted = tests.passed or tests.allowed or not stage.reports
+    fine = counted and not (tests.failed or tests.running) and all(it.well for it in ended)
     why = next((f"stopped: {it.why}{during(tests.running)}" for it in ended if it.why), "")
     return Result(
         verdict="ok" if fine else "FAILED",
@@ -203,13 +204,13 @@ def parse(parser: argparse.ArgumentParser, names: Sequence[str]) -> argparse.Nam
 
 
 def be_alone(parser: argparse.ArgumentParser) -> None:
-    """Ends the command if it is already running in this checkout: both would write the same reports."""
+    """Ends the command if it or its sibling runs in this checkout: both would write the same reports."""
     REPORTS.mkdir(parents=True, exist_ok=True)
-    lock = os.open(REPORTS / f"{Path(parser.prog).name}.lock", os.O_CREAT | os.O_RDWR)  # open until the end
+    lock = os.open(REPORTS / "lock", os.O_CREAT | os.O_RDWR)  # open until the end
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        parser.error("already running in this checkout: wait until it ends")
+        parser.error("tools/test or tools/prove runs in this checkout: wait until it ends")
 
 
 @contextmanager
