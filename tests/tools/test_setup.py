@@ -45,6 +45,13 @@ def test_the_stages_of_c_tests_build_what_they_run_and_no_image(tree: Tree) -> N
     assert (tree.folder / "build/unity/unity.c").exists()
 
 
+def test_what_is_fetched_is_newer_than_what_was_built_from_an_older_one(tree: Tree) -> None:
+    tree.setup("c")
+    began = (tree.folder / "build/setup.lock").stat().st_mtime
+    for name in ("unity/unity.c", "monocypher/monocypher.c"):
+        assert (tree.folder / "build" / name).stat().st_mtime >= began
+
+
 def test_warnings_are_errors_from_the_first_stage_of_tests_on(tree: Tree) -> None:
     tree.setup("run")
     assert "OCTET_WERROR" not in tree.calls.read_text()
