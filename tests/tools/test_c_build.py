@@ -70,6 +70,7 @@ def test_set_up_and_tear_down_are_called_where_there_are_any(tmp_path):
         pytest.param("TEST(a) {}\nTEST(b) { TEST_ASSERT_TRUE(0); }\nTEST(c) {}", id="that fails among others"),
         pytest.param("TEST(a) { TEST_IGNORE(); }", id="that is ignored"),
         pytest.param('TEST(a) { TEST_IGNORE_MESSAGE("later"); }', id="that is ignored for a reason"),
+        pytest.param("#include <stdlib.h>\nTEST(a) { exit(0); }\nTEST(b) {}", id="that ends the program"),
         pytest.param("", id="that is not there"),
         pytest.param("static bool never(void) { return false; }\nTEST_IF(a, never) {}", id="that never applies"),
     ],
