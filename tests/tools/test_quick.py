@@ -1,5 +1,6 @@
 """tools/test --quick: which tests a change concerns."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -26,6 +27,7 @@ build lib.o: C_COMPILER__lib_Debug {source}/hal/lib.c || order
 build liball.a: C_STATIC_LIBRARY_LINKER__all_Debug lib.o
 build tests/test_one: C_EXECUTABLE_LINKER__one_Debug one.o | liball.a || order
 build one.o: C_COMPILER__one_Debug {source}/tests/test_one.c
+build made.h | ${{cmake_ninja_workdir}}made.h: CUSTOM_COMMAND {source}/hal/bus.dbc
 build tests/test_two: C_EXECUTABLE_LINKER__two_Debug two.o
 build two.o: C_COMPILER__two_Debug {source}/tests/test_two.c
 """
@@ -69,16 +71,38 @@ def test_new_and_changed_files_count_as_changed(project):
 
 @pytest.mark.parametrize(
     ("changed", "tests"),
-    [("hal/lib.c", ["one"]), ("tests/test_two.c", ["two"]), ("hal/lib.h", ["one"]), ("hal/other.c", [])],
+    [
+        ("hal/lib.c", ["one"]),
+        ("tests/test_two.c", ["two"]),
+        ("hal/lib.h", ["one"]),
+        ("hal/bus.dbc", ["one"]),
+        ("hal/other.c", []),
+    ],
 )
-def test_a_c_source_concerns_the_tests_that_are_made_of_it(changed, tests, tmp_path, monkeypatch):
-    build = tmp_path / "build/host-san"
+@pytest.mark.parametrize("name", ["here", "in a folder"])
+def test_a_c_source_concerns_the_tests_that_are_made_of_it(name, changed, tests, tmp_path, monkeypatch):
+    build = tmp_path / name / "build/host-san"
     build.mkdir(parents=True)
-    (build / "build.ninja").write_text(BUILD.format(source=tmp_path))
-    noted = f"lib.o: #deps 2, deps mtime 1 (VALID)\n    {tmp_path}/hal/lib.c\n    {tmp_path}/hal/lib.h\n"
+    source = tmp_path / name
+    (build / "build.ninja").write_text(BUILD.format(source=str(source).replace(" ", "$ ")))
+    noted = f"lib.o: #deps 3, deps mtime 1 (VALID)\n    {source}/hal/lib.c\n    {source}/hal/lib.h\n"
+    noted += f"    {build}/made.h\n\n"
     monkeypatch.setattr(concerned, "_noted_deps", lambda _: noted)
 
     assert concerned.c_tests(build, [changed]) == tests
+
+
+@pytest.mark.parametrize(("test", "is_one"), [("slcan", True), ("link_contract_fd", True), ("slcan_decoder2", False)])
+def test_each_test_of_a_program_is_run(test, is_one):
+    assert bool(re.search(quick.selection(["slcan", "link_contract"]), test)) == is_one
+
+
+@pytest.mark.parametrize("changed", ["hal/protocol/octet.dbc", "hal/protocol/robot.toml", "hal/link/slcan.c"])
+def test_what_c_is_made_of_is_tested_in_c(changed, monkeypatch):
+    monkeypatch.setattr(quick, "set_up", lambda stages: stages)
+    monkeypatch.setattr(concerned, "c_tests", lambda _build, _changed: ["one"])
+
+    assert [stage.name for stage in quick._c_stage([changed])] == ["c"]
 
 
 @pytest.mark.parametrize(

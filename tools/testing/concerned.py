@@ -83,8 +83,8 @@ def c_tests(build: Path, changed: Sequence[str]) -> list[str]:
     """
     root = build.parent.parent
     made_of = _build_edges((build / "build.ninja").read_text())
-    for target, *headers in filter(None, map(str.split, _noted_deps(build).split("\n\n"))):
-        made_of[target.rstrip(":")] |= set(headers)
+    for target, *headers in filter(None, map(str.splitlines, _noted_deps(build).split("\n\n"))):
+        made_of[target.split(": #")[0]] |= {header.strip().removeprefix(f"{build}/") for header in headers}
     wanted = {str(root / path) for path in changed} | set(changed)
 
     def concerned(target: str, seen: set[str]) -> bool:
@@ -106,6 +106,11 @@ def _build_edges(text: str) -> dict[str, set[str]]:
     """The inputs of each target in a build.ninja, without order-only dependencies."""
     edges: dict[str, set[str]] = defaultdict(set)
     for targets, needs in re.findall(r"^build (.+?): \S+ ?(.*)$", text, re.MULTILINE):
-        for target in targets.replace(" | ", " ").split():
-            edges[target] |= set(needs.split("||")[0].replace(" | ", " ").split())
+        for target in _paths(targets):
+            edges[target] |= set(_paths(needs.split("||")[0]))
     return edges
+
+
+def _paths(text: str) -> list[str]:
+    """The paths in a line of a build.ninja, where "$ " is a space within a path."""
+    return [path.replace("$ ", " ") for path in re.split(r"(?<!\$) +", text.replace(" | ", " ").strip())]

@@ -68,8 +68,13 @@ def _checks(changed: Sequence[str]) -> list[Stage]:
 
 def _c_stage(changed: Sequence[str]) -> list[Stage]:
     """The stage of the C tests that depend on changed files."""
-    sources = [path for path in changed if path.endswith((".c", ".h"))]
+    sources = [path for path in changed if path.endswith((".c", ".h", ".dbc", "robot.toml"))]
     if not sources or not set_up([c_stage()]):
         return [c_stage()] if sources else []
     names = concerned.c_tests(ROOT / "build" / C_BUILD, sources)
-    return [c_stage("-LE", "vcan", "-R", f"^({'|'.join(names)})$")] if names else []
+    return [c_stage("-LE", "vcan", "-R", selection(names))] if names else []
+
+
+def selection(programs: Sequence[str]) -> str:
+    """The pattern of the C tests that these programs run; one of several tests has an argument, which ends its name."""
+    return f"^({'|'.join(programs)})(_[a-z]+)?$"
