@@ -73,11 +73,24 @@ RUN = ROOT / "requirements/run.lock"
 LOCKS = sorted(ROOT.glob("requirements/*.lock"))
 
 
+def unpinned(lock: str) -> list[str]:
+    """The packages of a lock file that lack a version or a hash."""
+    items = re.findall(r"^[^\s#].*(?:\n .*)*", lock, re.MULTILINE)
+    return [item.split()[0] for item in items if not re.match(r"[\w.-]+==\S+ (?s:.*)--hash=sha256:[0-9a-f]{64}", item)]
+
+
 def test_the_lock_files_pin_by_hash_and_name_no_address() -> None:
     for path in LOCKS:
         text = path.read_text()
+        assert "==" in text
         assert "://" not in text
-        assert 0 < text.count("==") <= text.count("--hash=sha256:")
+        assert unpinned(text) == []
+
+
+def test_a_package_without_a_hash_or_a_version_is_noticed() -> None:
+    lock = re.sub(r"^(numpy==\S+).*(?:\n .*)*", r"\1", RUN.read_text(), count=1, flags=re.MULTILINE)
+    assert unpinned(f"{lock}numpy>=1 --hash=sha256:0\n")[1:] == ["numpy>=1"]
+    assert unpinned(lock)[0].startswith("numpy==")
 
 
 def megabytes(locks: Sequence[Path]) -> float:

@@ -33,6 +33,7 @@ def test_there_is_no_gap(script, capsys):
     [
         ("`listing_step`", "`listing_stop`", "C1: there is no code listing_stop"),
         ("`test_a_clear_way_ends_the_count`", "`test_a`", "C1: there is no test test_a"),
+        ("`test_a_clear_way_ends_the_count`", "`setUp`", "C1: there is no test setUp"),
         ("Code: `listing_step`.", "Code: .", "C1: names no code"),
         ("- **C2**", "- **C1**", "C1: 2 requirements have this name"),
         ("- **", "- ", "requirements.md has no requirement"),
