@@ -76,5 +76,5 @@ def _c_stage(changed: Sequence[str]) -> list[Stage]:
 
 
 def selection(programs: Sequence[str]) -> str:
-    """The pattern of the C tests that these programs run; one of several tests has an argument, which ends its name."""
+    """The pattern of the C tests that these programs run; the name of one with an argument ends with it."""
     return f"^({'|'.join(programs)})(_[a-z]+)?$"
