@@ -61,7 +61,6 @@ class Updater:
             key: The key whose public half the board has.
         """
         self.node = node
-        self._key = key
         config: Any = {  # udsoncan fills in the rest
             "security_algo": lambda level, seed: key.sign(_PURPOSE + seed),  # noqa: ARG005 - udsoncan's names
             "request_timeout": _LONG_S,

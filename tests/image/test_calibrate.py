@@ -1,10 +1,13 @@
 """A robot of its own on an emulated Blue Pill measures itself: near the truth, or refused with a reason."""
 
+import sys
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
 from host_sim.backends.images import BOARDS
+from host_sim.base.errors import UsageError
 from host_sim.base.paths import ROOT
 from host_sim.cli.main import main
 from host_sim.client.connection import Connection
@@ -12,6 +15,7 @@ from host_sim.client.frame_log import NoLog
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
 from host_sim.emulator.pins_board import start_robot
+from host_sim.lab.calibrate import calibrate_command
 from host_sim.lab.calibrate.calibration import STEPS, TRAITS, Calibration
 from host_sim.lab.calibrate.places import Places
 from host_sim.protocol.codec import Protocol
@@ -149,3 +153,14 @@ def test_what_cannot_be_is_said_in_a_line(words, why, capsys):
     said = capsys.readouterr().err
     assert why in said
     assert said.count("\n") == 1
+
+
+def test_an_input_that_ends_before_a_step_is_told_in_a_line(monkeypatch):
+    def ends(_text: str) -> str:
+        raise EOFError
+
+    monkeypatch.setattr("builtins.input", ends)
+    monkeypatch.setattr(sys, "stdin", SimpleNamespace(isatty=lambda: True))
+
+    with pytest.raises(UsageError, match="motors and what follows it were not measured"):
+        calibrate_command._measures(None, None, "motors", ask=True)

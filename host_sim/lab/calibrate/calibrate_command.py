@@ -129,7 +129,10 @@ def _measures(calibration: "Calibration", places: "Places | None", step: str, *,
     if places:
         places.put(step)
     elif ask and sys.stdin.isatty():
-        input(f"{step}: {STEPS[step]}. Enter when it stands so: ")
+        try:
+            input(f"{step}: {STEPS[step]}. Enter when it stands so: ")
+        except EOFError:
+            raise UsageError(f"{step} and what follows it were not measured: the input has ended") from None
     why = calibration.measure(step)
     print(f"{step}: refused, and the old values stay: {why}" if why else f"{step}: measured and stored")
     return not why
