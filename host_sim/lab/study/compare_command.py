@@ -54,7 +54,7 @@ def add(commands: "Subparsers") -> None:
     add("what", nargs="+", metavar="STUDY|PROFILE", help=words)
     add(
         "--difference",
-        type=number(0, 100, float),
+        type=number(0.01, 100, float),
         default=5,
         metavar="PERCENT",
         help="smallest difference of interest, %%; prints how many seeds it takes to detect it" + DEFAULT,

@@ -75,6 +75,7 @@ def test_a_study_without_a_title_is_called_as_its_file(tmp_path, capsys):
         ["artcle"],
         ["article", "--change", "gremlin@env1"],
         ["article", "--set", "filter=2"],
+        ["article", "--difference", "0"],
         [".", "--seeds", "3"],
         [".", "--set", "filter=1"],
         [".", "--jobs", "77"],
