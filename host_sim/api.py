@@ -83,7 +83,8 @@ def run(
 
     Args:
         config: The run; by default, that of a command line without options, with the robot in this process.
-        log: File for every frame, with the world file beside it; None for no file.
+        log: File for every frame, with the world file beside it; None for no file. A run that ends early leaves both
+            as far as it came; one that cannot begin leaves those of an earlier run.
         memories: For each robot, the eight cells to begin with; None, or no entry, for an empty memory.
         each: Called with the result of each environment.
 
@@ -96,19 +97,21 @@ def run(
     path = None if log is None else Path(log)
     with ExitStack() as stack:
         frames = FrameLog(path)
-        stack.callback(frames.close)
+        stack.callback(frames.drop)  # where no run has begun
         simulation = stack.enter_context(make(config, frames, memories))
         recorder = RunRecorder.of(simulation, config.boredom_limit)
         episodes = []
-        for episode in simulation.run():
-            episodes.append(episode)
-            each(episode)
-        for client in simulation.clients:
-            stop(client)
+        try:
+            for episode in simulation.run():
+                episodes.append(episode)
+                each(episode)
+            for client in simulation.clients:
+                stop(client)
+        finally:
+            digest = frames.close()
+            if path is not None:
+                write_world(simulation.record, world_path(path))
         cells = [client.memory for client in simulation.clients]
-        digest = frames.close()
-        if path is not None:
-            write_world(simulation.record, world_path(path))
     return Run(episodes, recorder.trajectory, cells, digest)
 
 

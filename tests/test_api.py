@@ -44,6 +44,28 @@ def test_each_environment_is_told_as_it_ends():
     assert told == ended.episodes
 
 
+def test_a_run_that_cannot_begin_leaves_the_log_of_an_earlier_one(tmp_path):
+    run(RunConfig(environments=1, limit_s=1), log=tmp_path / "run.log")
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+
+    with pytest.raises(UsageError, match="refused"):
+        run(RunConfig(settings={"turn_deg": 200}), log=tmp_path / "run.log")
+
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+def test_a_run_that_ends_before_its_time_can_be_looked_at(tmp_path):
+    run(RunConfig(seed=1, environments=1, limit_s=1), log=tmp_path / "run.log")
+
+    def ends(_episode):
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        run(CONFIG, log=tmp_path / "run.log", each=ends)
+
+    assert resimulate(tmp_path / "run.log").trajectory.ticks == 1000
+
+
 def test_a_memory_is_begun_with():
     cells = (0, 2, 2, 2, 1, 1, 1, 1)
 
