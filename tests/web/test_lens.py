@@ -71,6 +71,20 @@ def test_a_pointer_on_the_floor_and_arrows_in_the_arena_move_what_is_in_view(pag
     assert page.evaluate("octet.tick") == tick
 
 
+def test_a_pointer_that_was_released_outside_of_the_arena_moves_nothing_later(page):
+    point(page, 0.3, 0.02)
+    page.mouse.down()
+    page.mouse.move(2, 2)
+    page.mouse.up()
+    page.click("#zoom-in")
+    before = at(page, 0.5, 0.5)
+
+    point(page, 0.4, 0.4)
+    point(page, 0.6, 0.7)
+
+    assert at(page, 0.5, 0.5) == before
+
+
 def test_what_comes_before_the_next_drawing_is_not_lost(page):
     page.click("#zoom-in")
     before = at(page, 0.5, 0.5)

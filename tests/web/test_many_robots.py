@@ -6,8 +6,8 @@ import pytest
 
 from host_sim.view.state_types import State
 from tests.runs.support import octet
-from tests.web.fake_run import HOME, FakeRun, robot_state, write_replay
-from tests.web.support import drag, pause, place_on_page, wait_for, wait_for_text
+from tests.web.fake_run import ENVIRONMENT, HOME, FakeRun, robot_state, write_replay
+from tests.web.support import drag, next_frame, pause, place_on_page, wait_for, wait_for_text
 
 # The colour of the canvas at a place of the arena, and the one that the style sheet has by a name.
 COLOUR_AT = """([x, y]) => {
@@ -162,6 +162,43 @@ def test_after_a_new_connection_the_same_robot_is_selected(page, run):
 
     assert selected(page) == 2
     assert page.evaluate("octet.scene.trails.map(({ length }) => length)") == [1, 1, 1]
+
+
+def test_trails_begin_anew_where_the_same_environment_is_started_over(page, run):
+    for state in run.states:
+        state["x"] += 400
+    run.send(environment={**ENVIRONMENT, "first_tick": 90, "start_tick": 90})
+    wait_for(page, "octet.scene.environment.first_tick === 90")
+
+    assert page.evaluate("octet.scene.trails.map(({ length }) => length)") == [1, 1, 1]
+
+
+def test_a_page_that_has_lost_its_connection_says_so_until_it_has_another_one(page):
+    page.evaluate("octet.connection.connect = () => octet.connection.socket")
+    page.evaluate("octet.connection.socket.close()")
+    wait_for_text(page, "#status", "no connection")
+
+    page.click("#zoom-in")
+    next_frame(page)
+
+    assert page.inner_text("#status").startswith("no connection")
+
+
+def test_numbers_have_the_decimal_point_of_the_language(run, open_page):
+    page = open_page(HOME, prepare=run.serve, locale="de")
+    run.send(pins=[{"volts": 7.4, "counts": [5, 6], "duty": [30, -31]}])
+    wait_for_text(page, "#pins", "V")
+
+    assert (page.inner_text("#fact-speed"), page.inner_text("#pins")[:5]) == ("1,0 ×", "7,4 V")
+
+
+def test_only_the_main_button_of_a_mouse_moves_a_robot(page, run):
+    page.mouse.move(*place_on_page(page, 2000, 1500))
+    page.mouse.down(button="right")
+    page.mouse.move(*place_on_page(page, 2300, 1200))
+    page.mouse.up(button="right")
+
+    assert run.commands == []
 
 
 @pytest.fixture

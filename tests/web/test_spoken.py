@@ -138,7 +138,8 @@ def test_the_board_and_the_pages_of_a_class_speak_it(watch, open_page):
     pages[0].evaluate("octet.send({ do: 'next' })")
     pages[1].evaluate("octet.send({ do: 'put', at: [100, 100], heading: 0 })")
     pages[2].evaluate("octet.send({ do: 'erase', node: 1 })")
-    for page in pages:
+    board.evaluate("octet.connection.send({ do: 'put', node: 1, at: [100, 100], heading: 0 })")
+    for page in (board, *pages):
         wait_for(page, "document.querySelector('#note').textContent !== ''")
 
     assert [foreign(page) for page in (board, *pages)] == [set()] * 4

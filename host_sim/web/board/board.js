@@ -6,7 +6,7 @@ import { BoardRobots } from "./board_robots.js";
 import { made } from "../core/building.js";
 import { byId, contextOf, setText, typedById } from "../core/elements.js";
 import { ending } from "../core/endings.js";
-import { inEachLanguage, say } from "../core/language.js";
+import { heard, inEachLanguage, say } from "../core/language.js";
 import { Toast } from "../core/toast.js";
 import { Renderer } from "../draw/renderer.js";
 import { Scene } from "../draw/scene.js";
@@ -76,7 +76,7 @@ class Board {
     if (board.join) showJoin(board.join);
     this.curves.add(board.curves);
     this.message = message;
-    message.notes?.forEach((text) => this.note.show(text));
+    message.notes?.forEach((text) => this.note.show(heard(text)));
     this.drawSoon();
   }
 
@@ -102,6 +102,7 @@ class Board {
     setText(byId("result"), play.ended ? ending(play.ended, play.done).join(": ") : "");
     setText(byId("fact-finished"), say("ofCount", { count: board.ended[0], all: board.ended[1] }));
     this.showPlay(play, scene.environment);
+    this.connection.tell();
   }
 
   /**

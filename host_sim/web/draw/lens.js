@@ -150,7 +150,7 @@ export class Lens {
     const hits = renderer.scene && itemAt(renderer.scene, renderer.placeOf(event));
     if (hits && event.isPrimary) return;
     this.fingers.set(event.pointerId, event);
-    if (this.zoom > 1) renderer.canvas.setPointerCapture(event.pointerId);
+    renderer.canvas.setPointerCapture(event.pointerId);
   }
 
   /**

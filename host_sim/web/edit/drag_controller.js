@@ -49,6 +49,7 @@ export class DragController {
   /** @param {PointerEvent} event */
   begin(event) {
     if (!event.isPrimary) return this.drop();
+    if (event.button !== 0) return;
     const { scene } = this.editor;
     const from = this.renderer.placeOf(event);
     const slack = event.pointerType === "touch" ? this.renderer.lengthOf(FINGER_PX) : 0;

@@ -40,9 +40,15 @@ export class Connection {
   /** @param {CloseEvent} event */
   onClose(event) {
     this.hasEnded ||= event.code === GOING_AWAY;
-    setText(byId("status"), say(this.hasEnded ? "runEnded" : "noConnection"));
     document.body.classList.add("lost");
+    this.tell();
     setTimeout(() => (this.socket = this.connect()), RECONNECT_MS);
+  }
+
+  /** Says that the connection is lost, if it is. */
+  tell() {
+    if (!document.body.classList.contains("lost")) return;
+    setText(byId("status"), say(this.hasEnded ? "runEnded" : "noConnection"));
   }
 
   /** @param {Command} command */

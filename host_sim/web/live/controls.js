@@ -3,7 +3,8 @@
 
 import { byId, isForPage, setText, typedById } from "../core/elements.js";
 import { ending } from "../core/endings.js";
-import { inEachLanguage, say } from "../core/language.js";
+import { inEachLanguage, robotWords, say } from "../core/language.js";
+import { decimal } from "../core/phrases.js";
 
 /**
  * @typedef {import("../draw/scene.js").Scene} Scene
@@ -42,7 +43,8 @@ export class Controls {
     this.showFrozen(state.frozen);
     setText(byId("play"), say(play.playing ? "pause" : "play"));
     setText(byId("status"), statusOf(play));
-    setText(byId("fact-speed"), play.rate ? `${((play.rate * measures.tick_ms) / 1000).toFixed(1)} ×` : "0 ×");
+    const rate = (play.rate * measures.tick_ms) / 1000;
+    setText(byId("fact-speed"), `${rate ? decimal(rate, 1, robotWords()) : 0} ×`);
     for (const id of NEEDS_A_RUN) typedById(id, HTMLButtonElement).disabled = play.done;
     typedById("next", HTMLButtonElement).disabled = play.done || environment.number >= environment.of;
     showEnding(play);

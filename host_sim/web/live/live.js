@@ -94,6 +94,7 @@ class LivePage {
     this.isNew = false;
     if (!view || !message) return;
     view.draw(message);
+    this.connection.tell();
     this.timing.lagMs = Date.now() - message.at;
   }
 }

@@ -11,7 +11,7 @@ import { LessonsView } from "../panel/lessons_view.js";
 import { Panel } from "../panel/panel.js";
 import { Renderer } from "../draw/renderer.js";
 import { RobotPicker } from "../panel/robot_picker.js";
-import { say } from "../core/language.js";
+import { robotWords, say } from "../core/language.js";
 import { showMessage } from "./message_scene.js";
 
 /**
@@ -81,5 +81,6 @@ export class LiveView {
 
 /** @param {import("../types.js").PinFigures} figures */
 function pinsText({ volts, counts, duty }) {
-  return say("pins", { volts, counts: counts.join(", "), duty: duty.join(", ") });
+  const said = `${volts}`.replace(".", robotWords().point);
+  return say("pins", { volts: said, counts: counts.join(", "), duty: duty.join(", ") });
 }

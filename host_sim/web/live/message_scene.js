@@ -33,8 +33,6 @@ function restart(scene, anew) {
  * @param {import("../types.js").EnvironmentScene} environment
  */
 function enter(scene, environment) {
-  const { number, seed } = scene.environment;
-  const isNew = number !== environment.number || seed !== environment.seed;
-  if (isNew) scene.trails.forEach((trail) => trail.clear());
+  if (environment.first_tick !== scene.environment.first_tick) scene.trails.forEach((trail) => trail.clear());
   scene.environment = environment;
 }

@@ -2,8 +2,9 @@
 /* "What if?" on the page of a recorded run: the laboratory of octet.html over it, with the run and a copy to change. */
 
 import { byId, setText, typedById } from "../core/elements.js";
-import { heard, say } from "../core/language.js";
+import { heard, robotWords, say } from "../core/language.js";
 import { inflate } from "../core/packed_columns.js";
+import { decimal } from "../core/phrases.js";
 import { partingOf } from "../panel/divergence.js";
 
 /**
@@ -66,7 +67,7 @@ export class ReplayWhatIf {
    */
   giveUp(error) {
     this.view.close();
-    setText(byId("no-what-if"), error instanceof Error ? error.message : `${error}`);
+    setText(byId("no-what-if"), heard(error instanceof Error ? error.message : `${error}`));
   }
 
   /** @param {string} html */
@@ -101,7 +102,7 @@ export class ReplayWhatIf {
 function verdict(recorded, repeated) {
   const parting = partingOf(recorded, repeated);
   if (!parting) return "A is the recorded run, tick for tick; B is yours to change.";
-  const seconds = ((parting.tick * recorded.measures.tick_ms) / 1000).toFixed(1);
+  const seconds = decimal((parting.tick * recorded.measures.tick_ms) / 1000, 1, robotWords());
   return `A is not the recorded run: it differs from ${seconds} s on, because something outside influenced that run.`;
 }
 
