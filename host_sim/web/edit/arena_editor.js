@@ -56,13 +56,14 @@ export class ArenaEditor {
    * @param {number} [dragged] - The robot that is being dragged.
    */
   onStates(dragged) {
-    const { states, ghosts } = this.scene;
+    const { states, ghosts, item } = this.scene;
     for (const { node, lifted } of states) {
       if (lifted) this.lifting.delete(node);
       else if (node !== dragged && !this.lifting.has(node)) ghosts.delete(node);
     }
     const { node, lifted } = this.robot;
     const several = states.length > 1;
+    typedById("remove-bar", HTMLButtonElement).disabled = item?.kind !== "bar" && item?.kind !== "plant";
     setText(byId("lift"), say(lifted ? (several ? "putDownNumber" : "putDown") : several ? "pickUpNumber" : "pickUp", { node }));
   }
 
@@ -83,7 +84,6 @@ export class ArenaEditor {
     this.scene.item = item;
     if (item?.kind === "robot") this.scene.node = item.id;
     this.onChange();
-    typedById("remove-bar", HTMLButtonElement).disabled = item?.kind !== "bar" && item?.kind !== "plant";
   }
 
   /**

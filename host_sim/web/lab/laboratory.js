@@ -141,7 +141,7 @@ export class Laboratory extends PlayingPage {
     const isNew = !lane.scene;
     lane.simulate(this.simulator, ({ run, refusals = [], error, done }) => {
       if (error) this.note.show(heard(error));
-      if (!run) return;
+      if (!run) return this.showStatus();
       if (done) this.go(this.tick);
       lane.go(this.tick, true);
       if (isNew || lane === this.lane) this.onScene();
@@ -152,7 +152,8 @@ export class Laboratory extends PlayingPage {
   }
 
   showStatus() {
-    setText(byId("status"), say(!this.scene ? "waking" : this.lanes.some((lane) => lane.isRunning) ? "runningAhead" : "realFirmware"));
+    const isRunning = this.lanes.some((lane) => lane.isRunning);
+    setText(byId("status"), say(!isRunning ? "realFirmware" : this.scene ? "runningAhead" : "waking"));
   }
 
   /**

@@ -9,6 +9,7 @@ import { experimentOf } from "./shown_run.js";
 import { nextTick } from "./run_events.js";
 import { Laboratory } from "./laboratory.js";
 import { Course } from "../lessons/course.js";
+import { settingAt } from "../lessons/evidence.js";
 import { Panel } from "../panel/panel.js";
 import { DivergenceView } from "../panel/divergence.js";
 import { RobotPicker } from "../panel/robot_picker.js";
@@ -170,6 +171,8 @@ class LabPage extends Laboratory {
       each.figure.classList.toggle("selected", each === lane);
     }
     this.panel.settle(scene, !this.playing);
+    const boredom = settingAt(lane, { robot: lane.robot, name: "boredom_limit" }, tick);
+    scene.measures = { ...scene.measures, boredom };
     this.panel.show(scene, { exact: !this.playing, ...this.otherMemory() });
     this.picker?.show();
     this.desk.show();

@@ -45,11 +45,14 @@ export function rowsOf(lane, upTo) {
   return begun.flatMap(([first], i) => {
     const last = Math.min(upTo, data.last, (begun[i + 1]?.[0] ?? Infinity) - 1);
     const eaten = data.statesAt(last)[0].eaten;
-    return data.robots.map((robot, r) => [
-      lane.name, robot.run.node, experiment.robots[r].profile, experiment.seed, data.sceneAt(first).number,
-      eaten.every(Boolean) ? "yes" : "no", seconds(last + 1 - first, data.measures.tick_ms), tourOf(lane, i, r),
-      ...numbersOf(robot, first, last, data.measures.tick_ms),
-    ]);
+    return data.robots.map((robot, r) => {
+      const { profile, settings } = lane.setupAt(last, r);
+      return [
+        lane.name, robot.run.node, profile, experiment.seed, data.sceneAt(first).number,
+        eaten.every(Boolean) ? "yes" : "no", seconds(last + 1 - first, data.measures.tick_ms),
+        tourOf(lane, i, settings), ...numbersOf(robot, first, last, data.measures.tick_ms),
+      ];
+    });
   });
 }
 
@@ -78,10 +81,9 @@ function seconds(ticks, tickMs) {
  * How long the shortest tour through all food of an environment takes at the robot's speed, s, without turning.
  * @param {ShownRun} lane
  * @param {number} environment - Counted from 0.
- * @param {number} robot
+ * @param {Record<string, number>} settings - Of the robot.
  */
-function tourOf({ tours, experiment }, environment, robot) {
-  const { speed_mm_s: speed = PARAMETERS.speed_mm_s.default } = experiment.robots[robot].settings;
+function tourOf({ tours, experiment }, environment, { speed_mm_s: speed = PARAMETERS.speed_mm_s.default }) {
   const isKnown = Number.isFinite(tours[environment]) && experiment.robots.length === 1;
   return isKnown ? Number((tours[environment] / speed).toFixed(2)) : "";
 }

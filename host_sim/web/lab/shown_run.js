@@ -19,6 +19,9 @@ import { settingsOf } from "../sim/arena.js";
 
 const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 let lanes = 0;
+/** When each change was made: a later one has a higher number. @type {WeakMap<Change, number>} */
+const made = new WeakMap();
+let changesMade = 0;
 
 /** The next lane is A again. */
 export function restartNames() {
@@ -158,6 +161,7 @@ export class ShownRun {
   change(change) {
     const { changes } = this.experiment;
     const key = draggedKey(change);
+    made.set(change, (changesMade += 1));
     const kept = changes.filter((it) => !key || draggedKey(it) !== key);
     const at = kept.findIndex(({ tick }) => tick > change.tick);
     const place = at < 0 ? kept.length : at;
@@ -170,11 +174,12 @@ export class ShownRun {
     this.experiment = { ...this.experiment, changes: this.experiment.changes.filter((it) => !changes.includes(it)) };
   }
 
-  /** Undoes the last change; false if there is none. */
+  /** Undoes the change that was made last; those of a file in the order of their ticks. False if there is none. */
   undo() {
-    const { changes } = this.experiment;
-    this.experiment = { ...this.experiment, changes: changes.slice(0, -1) };
-    return changes.length > 0;
+    const orderOf = (/** @type {Change} */ change) => made.get(change) ?? 0;
+    const last = [...this.experiment.changes].sort((a, b) => orderOf(a) - orderOf(b)).at(-1);
+    this.takeBack(last ? [last] : []);
+    return last !== undefined;
   }
 
   /**

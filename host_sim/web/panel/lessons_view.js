@@ -23,7 +23,7 @@ export class LessonsView {
    * @param {Lesson[]} lessons - Those of the robot that the panel shows, the oldest first.
    */
   show(scene, lessons) {
-    const key = [languageCode(), scene.node, scene.environment.start_tick, lessons.length, lessons.at(-1)?.tick].join();
+    const key = JSON.stringify([languageCode(), scene.environment.start_tick, lessons]);
     if (this.key === key) return;
     this.key = key;
     this.list.replaceChildren(...lessons.map((lesson) => itemFor(lesson, scene)).reverse());

@@ -74,7 +74,8 @@ export class ListingView {
     if (key === this.shown) return;
     this.shown = key;
     for (const [step, line] of this.lines) {
-      line.toggleAttribute("aria-current", steps.includes(step));
+      if (steps.includes(step)) line.setAttribute("aria-current", "true");
+      else line.removeAttribute("aria-current");
       if (steps.at(-1) === step) scrollTo(line);
     }
   }

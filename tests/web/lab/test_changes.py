@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Page
 
 from tests.runs.support import octet
-from tests.web.lab.support import saved, simulated
+from tests.web.lab.support import saved, settle, simulated
 from tests.web.support import run_in, wait_for, wait_for_text
 
 
@@ -114,6 +114,80 @@ def test_a_change_that_cannot_be_made_is_told_and_dropped(page):
 
     wait_for_text(page, "#note", "the robot stands there")
     wait_for(page, "octet.lane.experiment.changes.length === 0")
+
+
+def test_undo_takes_back_what_was_changed_last_even_where_an_older_change_is_later_in_the_run(page):
+    page.evaluate("octet.go(700)")
+    page.click("#cells li:nth-child(3) button")
+    page.evaluate("octet.go(400)")
+    page.click("#freeze")
+    page.click("#what-if")
+
+    page.click("#undo")
+    assert page.evaluate("octet.lane.experiment.changes.map((change) => change.do)") == ["write"]
+    page.click("#undo")
+    assert page.evaluate("octet.lane.experiment.changes.length") == 0
+    assert page.evaluate("octet.lanes[0].experiment.changes.length") == 2
+
+
+def test_the_list_of_what_was_learned_is_that_of_the_run_that_is_selected(page):
+    lists = []
+    page.click("#what-if")
+    for lane in (1, 0):
+        page.evaluate("lane => { octet.go(10); octet.select(octet.lanes[lane]); }", lane)
+        page.click(f"#cells li:nth-child({lane + 2}) button")
+        settle(page)
+        lists.append(page.inner_text("#lessons"))
+
+    assert lists[0].partition(":")[2] != lists[1].partition(":")[2]
+    page.evaluate("octet.select(octet.lanes[1])")
+    settle(page)
+    assert page.inner_text("#lessons") == lists[0]
+
+
+def test_boredom_is_shown_with_the_limit_that_the_robot_has_at_that_time(page):
+    page.evaluate("octet.go(400)")
+    page.evaluate("octet.change({ do: 'set', robot: 0, parameter: 'boredom_limit', value: 20 })")
+    settle(page)
+    assert page.inner_text("#boredom-count") == "0 of 20"
+
+    page.evaluate("octet.go(300)")
+    settle(page)
+    assert page.inner_text("#boredom-count").endswith(" of 10")
+
+
+def test_a_run_that_cannot_be_is_told_and_nothing_goes_on(page):
+    page.evaluate(
+        "() => { const world = { name: 'tight', size: [600, 600], food: [[300, 300]], bars: [] };"
+        " octet.begin({ ...octet.lane.experiment, world, robots: Array(4).fill(octet.lane.setup) });"
+        " octet.showStatus(); }"
+    )
+
+    wait_for_text(page, "#note", "there is room for")
+    assert page.inner_text("#status") == "the real firmware, in this page"
+
+
+def test_the_table_has_the_behaviour_that_a_robot_has_at_that_time(page):
+    page.evaluate("octet.go(400)")
+    page.select_option("#behaviour", "never")
+    page.click("#tab-curves")
+    settle(page)
+    assert page.inner_text("#results tr td:nth-child(3)") == "never"
+
+    page.evaluate("octet.go(300)")
+    settle(page)
+    assert page.inner_text("#results tr td:nth-child(3)") == "article"
+
+
+def test_the_button_to_remove_something_is_for_what_is_selected_in_the_selected_run(page):
+    page.evaluate("octet.editor.select({ kind: 'bar', id: 0, part: 'whole' })")
+    settle(page)
+    assert page.is_enabled("#remove-bar")
+
+    page.click("#what-if")
+    settle(page)
+
+    assert page.is_disabled("#remove-bar")
 
 
 PICTURES = """() => [...document.querySelectorAll("#worlds canvas")].map((canvas) => canvas.toDataURL())"""

@@ -88,7 +88,8 @@ def test_the_line_is_lit_that_the_robot_executes(shared, reason, line):
 
     wait_for(
         shared,
-        "line => [...document.querySelectorAll('#listing [aria-current]')].some((it) => it.innerText.includes(line))",
+        "line => [...document.querySelectorAll('#listing [aria-current=true]')]"
+        ".some((it) => it.innerText.includes(line))",
         line,
     )
 
