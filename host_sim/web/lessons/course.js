@@ -66,6 +66,7 @@ export class Course {
    * @param {Iterable<number>} steps
    */
   note(goals, steps) {
+    this.progress = { ...this.progress, ...progressIn(kept("lessons")) }; // another tab may be at another lesson
     this.progress[this.plan.id] = { goals: [...goals], steps: [...steps] };
     keep("lessons", JSON.stringify(this.progress));
   }

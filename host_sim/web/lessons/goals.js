@@ -115,14 +115,23 @@ export function areApart(meetings) {
 }
 
 /**
- * The ticks up to this one in which a sensor was broken in this way.
+ * The times up to a tick during which a sensor was broken in this way.
  * @param {ShownRun} lane
  * @param {string} how
  * @param {number} tick
  */
-function broken({ experiment }, how, tick) {
-  const bodies = experiment.changes.filter((change) => change.do === "body" && change.what.startsWith(how));
-  return bodies.map((change) => change.tick).filter((at) => at <= tick);
+function brokenTimes({ experiment }, how, tick) {
+  /** @type {import("./evidence.js").Stretch[]} */
+  const times = [];
+  for (const change of experiment.changes) {
+    if (change.do !== "body" || change.tick > tick) continue;
+    const now = times.at(-1) ?? { first: NaN, last: NaN };
+    if (change.what === "repair") now.last = Math.min(now.last, change.tick - 1);
+    else if (!change.what.startsWith(how)) continue;
+    else if (now.last >= change.tick - 1) now.last = tick; // not repaired, or broken anew at once
+    else times.push({ first: change.tick, last: tick });
+  }
+  return times;
 }
 
 /**
@@ -130,9 +139,9 @@ function broken({ experiment }, how, tick) {
  * @param {number} tick
  */
 export function isStuckBySensor({ lane, data }, tick) {
-  const [since = Infinity] = broken(lane, "stuck-on", tick);
-  const after = stretchesOf(data.robots[0]).filter(({ last }) => last >= since);
-  return after.some(({ first, last }) => seconds(data, Math.min(last, tick) - Math.max(first, since)) >= STUCK_S);
+  const blocked = stretchesOf(data.robots[0]);
+  return brokenTimes(lane, "stuck-on", tick).some((time) => blocked.some(({ first, last }) =>
+    seconds(data, Math.min(last, time.last) - Math.max(first, time.first)) >= STUCK_S));
 }
 
 /**
@@ -140,9 +149,9 @@ export function isStuckBySensor({ lane, data }, tick) {
  * @param {number} tick
  */
 export function eatsWithoutBelieving({ lane, data }, tick) {
-  const [since = Infinity] = broken(lane, "stuck-on", tick);
   const disbelieves = settingAt(lane, { robot: 0, name: "distrust" }, tick) > 0;
-  return disbelieves && data.robots[0].run.events.some(([at, what]) => what === "eat" && at > since && at <= tick);
+  return disbelieves && brokenTimes(lane, "stuck-on", tick).some(({ first, last }) =>
+    data.robots[0].run.events.some(([at, what]) => what === "eat" && at > first && at <= last));
 }
 
 /**
@@ -150,8 +159,8 @@ export function eatsWithoutBelieving({ lane, data }, tick) {
  * @param {number} tick
  */
 export function bumpsBlindly({ lane, data }, tick) {
-  const [since = Infinity] = broken(lane, "stuck-off", tick);
-  return since <= tick && data.robots[0].columns.bump.subarray(since, tick + 1).some(Boolean);
+  return brokenTimes(lane, "stuck-off", tick).some(({ first, last }) =>
+    data.robots[0].columns.bump.subarray(first, last + 1).some(Boolean));
 }
 
 /**

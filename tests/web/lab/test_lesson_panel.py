@@ -56,6 +56,22 @@ def test_goals_steps_and_the_lesson_survive_a_reload(page):
     assert seen() == before
 
 
+def test_what_is_done_in_another_tab_is_kept(file, page):
+    other = page.context.new_page()
+    other.goto(file.as_uri())
+    wait_for(other, READY)
+    page.evaluate("octet.course.choose('watch'), octet.course.tick(0)")
+    other.evaluate("octet.course.choose('plant'), octet.course.tick(1)")
+    wait_for(page, "localStorage.getItem('octet-lessons').includes('plant')")
+    page.evaluate("octet.course.tick(1)")
+
+    page.reload()
+    wait_for(page, READY)
+
+    steps = "Object.entries(octet.course.progress).map(([lesson, { steps }]) => [lesson, steps])"
+    assert dict(page.evaluate(steps)) == {"watch": [0, 1], "plant": [1]}
+
+
 def test_all_that_matters_is_in_view_while_a_lesson_is_open(lesson):
     page = lesson("program")
     for size in SIZES:

@@ -161,6 +161,19 @@ def test_sensor_is_not_done_by_a_sound_robot(lesson):
     assert reached(page) == [False, False, False]
 
 
+def test_sensor_is_not_done_by_one_that_was_repaired(lesson):
+    page = lesson("sensor")
+    go(page, 100)
+    for state in ("stuck-on", "stuck-off", "sound"):
+        break_sensor(page, "front", state)
+    page.check(".sensors input")
+    settle(page)
+
+    go_to_the_end(page)
+
+    assert reached(page) == [False, False, False]
+
+
 def test_share(lesson):
     page = lesson("share")
     page.click("#what-if")
