@@ -45,6 +45,7 @@ class LabPage extends Laboratory {
     this.editor = undefined;
     /** Settled when a recorded run that the page begins with, and its copy, are simulated to their ends. */
     this.repeated = begin ? this.repeat(begin) : Promise.resolve();
+    addEventListener("hashchange", () => location.reload()); // what follows the # is read when the page begins
     this.movesFirst = !begin && !location.hash && !matchMedia("(prefers-reduced-motion: reduce)").matches;
   }
 

@@ -6,7 +6,7 @@ import { inEachLanguage, say } from "../core/language.js";
 
 /** @typedef {import("../draw/scene.js").Scene} Scene */
 
-const FIELDS = "select, summary, input:not([type=range])";
+const FIELDS = "select, summary, textarea, input:not([type=range])";
 
 /** Fills the element `robots`. Keys: 1..9 for the robot of that number, [ and ] for the one before and after. */
 export class RobotPicker {

@@ -30,7 +30,10 @@ const READERS = {
   behaviour: (text) => oneOf(text, PROFILES),
   memory: (text) => memoryIn(text),
   language: (text, { languages }) => oneOf(text, languages),
-  program: (text, { programs }) => (text.startsWith("@") ? programs[text.slice(1)] : text.length <= PROGRAM_MAX ? text : undefined),
+  program: (text, { programs }) => {
+    if (text.startsWith("@")) return new Map(Object.entries(programs)).get(text.slice(1));
+    return text.length <= PROGRAM_MAX ? text : undefined;
+  },
 };
 
 /**

@@ -55,7 +55,8 @@ export class ProgramTab {
      * @type {unknown[]}
      */
     this.compared = [];
-    this.note = "";
+    /** What is told of a link, in the language of the page. */
+    this.note = () => "";
     inEachLanguage(() => this.build());
     this.choose(FIRST);
     for (const event of ["click", "focus"]) byId("tab-program").addEventListener(event, () => this.show());
@@ -113,7 +114,7 @@ export class ProgramTab {
     const { lab, own } = this;
     const program = this.editor.text;
     this.isChanged = false;
-    this.note = "";
+    this.note = () => "";
     lab.setPlaying(false);
     if (own) {
       own.experiment = programmed(own.experiment, program);
@@ -147,7 +148,7 @@ export class ProgramTab {
 
   /** What the page shows, as a link. */
   link() {
-    const { lab, texts } = this;
+    const { lab } = this;
     const { seed, environments, world = RANDOM, robots } = (this.octet ?? lab.lane).experiment;
     const { profile, memory } = robots[0];
     const named = typeof world === "string";
@@ -156,14 +157,13 @@ export class ProgramTab {
       program: this.editor.text,
     };
     history.replaceState(null, "", linkOf(linked, this.known));
-    this.note = named ? texts.inAddress : texts.noWorld;
-    navigator.clipboard?.writeText(location.href).then(() => this.tell(named ? texts.copied : texts.noWorld), () => {});
-    this.show();
+    this.tell(named ? "inAddress" : "noWorld");
+    navigator.clipboard?.writeText(location.href).then(() => this.tell(named ? "copied" : "noWorld"), () => {});
   }
 
-  /** @param {string} note */
+  /** @param {"inAddress" | "copied" | "noWorld"} note */
   tell(note) {
-    this.note = note;
+    this.note = () => this.texts[note];
     this.show();
   }
 
@@ -183,7 +183,7 @@ export class ProgramTab {
     const experiment = experimentOf({ seed, environments, robots: 1, profile: behaviour, world });
     if (memory) experiment.robots[0].memory = memory;
     this.lab.begin(experiment);
-    this.note = tellFound(found, this.texts);
+    this.note = () => tellFound(found, this.texts);
     if (program === undefined) return;
     this.editor.text = program;
     this.isChanged = false;
@@ -217,7 +217,7 @@ export class ProgramTab {
       state?.shown.length ? filled(texts.shows, { shown: state.shown.join(" | ") }) : "",
     ];
     this.news.dataset.kind = mistake ? "mistake" : "";
-    setText(this.news, [this.note, ...now].filter(Boolean).join(" "));
+    setText(this.news, [this.note(), ...now].filter(Boolean).join(" "));
   }
 
   /** @param {[string, string][]} values */

@@ -114,6 +114,16 @@ def test_a_program_that_has_changed_is_to_be_run_again(tab):
     assert tab.evaluate("octet.playing") is False
 
 
+def test_digits_and_brackets_can_be_typed_where_they_choose_one_of_several_robots_elsewhere(page):
+    page.evaluate("octet.begin({ ...octet.lane.experiment, robots: Array(2).fill(octet.lane.setup) })")
+    settle(page)
+    page.click("#tab-program")
+    page.fill("#program-text", "")
+    page.locator("#program-text").press_sequentially("x[1] = 2")
+
+    assert page.input_value("#program-text") == "x[1] = 2"
+
+
 def test_each_program_can_be_begun_with(tab):
     for name, text in programs().items():
         tab.select_option("#program-choice", name)
@@ -198,6 +208,26 @@ def test_what_of_a_link_was_taken_and_what_not_is_told(link, told, open_page, fi
     page.click("#tab-program")
 
     assert told in page.inner_text("#program-news")
+
+
+def test_what_every_object_has_is_no_program_of_a_link(open_page, file):
+    page = open_page(f"{file.as_uri()}#v=1&program=@constructor&end", ready=READY)
+    page.click("#tab-program")
+
+    assert "Not loaded: program." in page.inner_text("#program-news")
+
+
+def test_a_link_that_is_pasted_into_the_address_of_the_open_page_is_followed(page, file):
+    page.goto(f"{file.as_uri()}#v=1&seed=7&end")
+
+    wait_for(page, "window.octet?.lane.experiment.seed === 7")
+
+
+def test_what_was_told_of_a_link_is_told_in_the_language_that_is_chosen_then(tab):
+    tab.click("#program-link")
+    tab.select_option("#language", "de")
+
+    assert "Der Link" in tab.inner_text("#program-news")
 
 
 def test_the_tab_is_accessible(tab):
