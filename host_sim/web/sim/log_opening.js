@@ -85,7 +85,8 @@ export function worldIn(module, worlds, text) {
   if (world?.format !== 1 || !Array.isArray(world.edits)) throw new Error(NO_WORLD);
   const arena = new Arena(new NativeRun(module, 1), worlds.random);
   if (!isBody(module, worlds, world.body)) throw new Error(NO_WORLD);
-  const isEdited = world.edits.every((/** @type {Record<string, unknown> | null} */ edit) => isEdit(arena, edit));
+  const isEdited = world.edits.every((/** @type {Record<string, unknown> | null} */ edit, /** @type {number} */ i) =>
+    isEdit(arena, edit) && Number(edit?.tick) >= (world.edits[i - 1]?.tick ?? 0));
   if (!isCount(world.of) || !isCount(world.limit_ticks) || !isEdited) throw new Error(NO_WORLD);
   return { ...world, world: placeIn(module, worlds, world.world) };
 }
@@ -139,7 +140,9 @@ function isCount(number) {
  */
 function isEdit(arena, edit) {
   const fields = new Map(Object.entries(EDITS)).get(`${edit?.do}`)?.filter((name) => !OTHERS.includes(name));
-  const isWhole = edit !== null && Number.isInteger(edit.tick) && Boolean(fields?.every((name) => isField(edit[name])));
+  const isWhole = edit !== null && Number.isInteger(edit.tick)
+    && Boolean(fields?.every((name) => isField(edit[name])))
+    && ["robot", "seed"].every((name) => Number.isInteger(edit[name] ?? 0));
   return isWhole && (edit.do !== "body" || isFault(arena, `${edit.what}`));
 }
 
