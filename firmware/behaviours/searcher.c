@@ -97,6 +97,7 @@ static void generalize(struct brain *brain)
 
     if (right == left)
         return;
+    brain->changed = true;
     cell[FRONT_RIGHT] = right ? same : mirrored;
     cell[FRONT_RIGHT | FRONT] = cell[FRONT_RIGHT];
     cell[FRONT_LEFT] = right ? mirrored : same;

@@ -272,3 +272,15 @@ TEST(a_trial_is_not_judged_again_after_the_look_around_that_follows_it)
     next(FRONT);
     TEST_ASSERT_EQUAL(2, brain.memory.cell[PATTERN_ALL_THREE] >> 2);
 }
+
+/* As where another robot's vote filled the cell while it turned. */
+TEST(a_lesson_that_its_own_cell_holds_already_is_news_for_the_other_side)
+{
+    const uint8_t known = (uint8_t)(1u << 2 | (next(FRONT_RIGHT | FRONT).turn_deg < 0 ? SIDE_LEFT : SIDE_RIGHT));
+
+    brain.memory.cell[PATTERN_FRONT_RIGHT | PATTERN_FRONT] = known;
+    brain.changed = false;
+    next(FRONT);
+    TEST_ASSERT_NOT_EQUAL(0, brain.memory.cell[PATTERN_FRONT_LEFT]);
+    TEST_ASSERT_TRUE(brain.changed);
+}
