@@ -23,7 +23,7 @@ struct action listing_step(struct brain *brain, const struct config *config, con
 
 static struct action look_around(struct brain *brain, const struct config *config)
 {
-    enum side side = random_below(&brain->random, 2) ? SIDE_RIGHT : SIDE_LEFT;
+    enum side side = (enum side)(SIDE_LEFT + random_below(&brain->random, 2));
     unsigned more = random_below(&brain->random, config->value[LOOK_CHOICES]);
 
     return turn(REASON_LOOK_AROUND, side, config->value[LOOK_MIN_DEG] + more);
@@ -47,7 +47,7 @@ static struct action turn_as_learned(struct brain *brain, const struct config *c
 
 static struct action try_a_turn(struct brain *brain, const struct config *config)
 {
-    enum side side = random_below(&brain->random, 2) + 1 == SIDE_LEFT ? SIDE_LEFT : SIDE_RIGHT;
+    enum side side = (enum side)(SIDE_LEFT + random_below(&brain->random, 2));
     struct action trial = turn(REASON_TRIAL, side, config->value[TRIAL_DEG]);
 
     brain->tried_side = (uint8_t)side;

@@ -40,20 +40,16 @@ void memory_put(struct memory *memory, enum memory_kind kind, uint8_t pattern, e
 /* The more frequent turn among the readings with that pattern; none if there is a tie. */
 static enum side side_of_most(const struct memory *memory, uint8_t pattern)
 {
-    unsigned left = 0;
-    unsigned right = 0;
+    int right = 0;   /* less those to the left */
 
     for (unsigned i = 0; i < BESIDE_COUNT; i++) {
         enum side side = feel_memory_recall(memory, reading(pattern, i));
 
-        if (side == SIDE_LEFT)
-            left++;
-        if (side == SIDE_RIGHT)
-            right++;
+        right += (side == SIDE_RIGHT) - (side == SIDE_LEFT);
     }
-    if (left == right)
+    if (right == 0)
         return SIDE_NOTHING;
-    return left > right ? SIDE_LEFT : SIDE_RIGHT;
+    return right < 0 ? SIDE_LEFT : SIDE_RIGHT;
 }
 
 bool memory_translate(struct memory *memory, enum memory_kind kind)
