@@ -152,7 +152,8 @@ static void describe(const struct robot *robot, struct output *out)
  * was asked first in this tick. */
 static bool take_votes(struct robot *robot)
 {
-    bool took = robot->running && robot->sharing.whole && brain_take_votes(&robot->brain, robot->sharing.votes);
+    bool takes = robot->running && robot->sharing.whole && robot->config.value[SHARE] != 0;
+    bool took = takes && brain_take_votes(&robot->brain, robot->sharing.votes);
 
     sharing_begin_second(&robot->sharing, &robot->config);
     return took;

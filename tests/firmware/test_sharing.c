@@ -208,3 +208,11 @@ TEST(to_hear_another_calls_for_nothing)
     hear_front(SIDE_LEFT);
     TEST_ASSERT_FALSE(out.has_answer || out.has_report || out.has_memory || out.has_drive || out.store);
 }
+
+TEST(nothing_is_taken_in_the_second_in_which_it_is_switched_off)
+{
+    hear_front(SIDE_LEFT);
+    respond(INPUT_COMMAND, (struct input){.command = {.opcode = OPCODE_SET, .which = SHARE}});
+    pass_second();
+    assert_cell(0);
+}
