@@ -28,20 +28,20 @@ static void begin_next_action(struct robot *robot, struct senses *senses)
 static void note_denial(struct robot *robot)
 {
     robot->turn_denied = motion_tells(&robot->motion);
-    if (robot->denials < DENIALS_MAX)
+    if (robot->denials < DENIALS_MAX) {
         robot->denials++;
-    else
-        robot->running = false;
+        return;
+    }
+    robot->running = false;
+    motion_start(&robot->motion);   /* resumed, it begins with another action */
 }
 
 /* A step does not show how well the wheels turn. */
 static void judge(struct robot *robot, bool denied)
 {
-    bool tells = motion_tells(&robot->motion) || !robot->turn_denied;
-
     if (denied)
         note_denial(robot);
-    if (!denied && tells && robot->denials > 0)
+    else if (robot->denials > 0 && (!robot->turn_denied || motion_tells(&robot->motion)))
         robot->denials--;
     if (robot->denials > 0)
         brain_forget_trial(&robot->brain);

@@ -184,6 +184,19 @@ TEST(resumed_with_wheels_that_still_do_not_obey_it_stops_at_once)
     }
 }
 
+TEST(resumed_with_wheels_that_obey_again_it_goes_on)
+{
+    (void)stand_until_it_stops();
+    wheels.odometer_left = 2000;   /* somebody has turned them meanwhile */
+    command(OPCODE_RESUME, 0, 0);
+    for (unsigned i = 0; i < 100; i++) {
+        obey(FRONT);
+        TEST_ASSERT_FALSE(out.denied || out.contradiction);
+    }
+    TEST_ASSERT_TRUE(robot.running);
+    TEST_ASSERT_EQUAL_UINT8(0, robot.denials);
+}
+
 TEST(resumed_without_ever_having_been_started_it_trusts_its_wheels)
 {
     robot_init(&robot, 1);
