@@ -1,6 +1,7 @@
 #include "firmware/brain.h"
 
 #include "firmware/behaviours/behaviour.h"
+#include "firmware/behaviours/listing.h"
 #include "firmware/memory/memory_kind.h"
 #include "firmware/memory/memory_write.h"
 
@@ -98,7 +99,10 @@ bool brain_take_votes(struct brain *brain, const int8_t votes[CELL_COUNT])
     return took;
 }
 
-void brain_forget_trial(struct brain *brain)
+void brain_doubt(struct brain *brain, const struct senses *senses)
 {
-    brain->awaits = 0;
+    brain->tried_feel = 0;
+    brain->used = 0;
+    if (brain->awaits == AWAITS_LOOK && !senses->look)
+        brain->awaits = AWAITS_NOTHING;
 }

@@ -22,7 +22,7 @@ struct brain {
     uint8_t profile;         /* of the behaviour that decides, an enum profile */
     uint8_t repeat_count;    /* remembered turns since the way was last clear; stays at 255 */
     uint8_t awaits;          /* what to do when the current action ends; 0: nothing */
-    uint8_t tried_feel;      /* feel when the last turn away from an obstacle began */
+    uint8_t tried_feel;      /* feel when the last turn away from an obstacle began; 0: it teaches nothing */
     uint8_t tried_side;      /* and its side, tried or remembered */
     uint8_t used;            /* used_cells.h: bit p for cell p */
     uint8_t unlearned;       /* likewise: emptied by boredom since the start */
@@ -54,8 +54,9 @@ bool brain_take_votes(struct brain *brain, const int8_t votes[CELL_COUNT]);
            right if its vote is positive, left if negative. Only if each pattern has a cell, and the robot learns.
            True if the memory has changed; brain->changed stays as it is. */
 
-void brain_forget_trial(struct brain *brain);
-        /* The last action was not carried out: nothing is learned from it. */
+void brain_doubt(struct brain *brain, const struct senses *senses);
+        /* The wheels did not obey: nothing is learned from the action that has ended with these senses, and no look
+           around follows. */
 
 struct action brain_next(struct brain *brain, const struct config *config, const struct senses *senses);
         /* The previous action has ended with these senses: judges it and returns the next one. */

@@ -37,14 +37,14 @@ static void note_denial(struct robot *robot)
 }
 
 /* A step does not show how well the wheels turn. */
-static void judge(struct robot *robot, bool denied)
+static void judge(struct robot *robot, const struct senses *senses, bool denied)
 {
     if (denied)
         note_denial(robot);
     else if (robot->denials > 0 && (!robot->turn_denied || motion_tells(&robot->motion)))
         robot->denials--;
     if (robot->denials > 0)
-        brain_forget_trial(&robot->brain);
+        brain_doubt(&robot->brain, senses);
 }
 
 static bool has_ended(struct robot *robot, const struct senses *senses)
@@ -66,7 +66,7 @@ static bool go_on(struct robot *robot, struct senses *senses)
     if (!has_ended(robot, senses))
         return false;
     denied = motion_is_denied(&robot->motion, &robot->config);
-    judge(robot, denied);
+    judge(robot, senses, denied);
     perception_decide(&robot->perception, &robot->config, feel);
     senses->feel = perception_believed(&robot->perception, &robot->config, feel);
     caution_see(&robot->caution, senses->feel, (feel & ~senses->feel & FRONT) != 0);

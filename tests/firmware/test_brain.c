@@ -147,12 +147,41 @@ TEST(a_run_begins_with_a_decision)
     TEST_ASSERT_EQUAL(REASON_TRIAL, next(FRONT).reason);
 }
 
-TEST(an_action_that_was_not_carried_out_has_no_verdict)
+TEST(after_an_action_that_was_not_carried_out_it_does_not_look_around)
 {
+    const struct senses nothing = {.tick = 0};
+
     brain_start(&brain, PROFILE_ARTICLE, 1);
-    next(0);   /* after a step it would look around */
-    brain_forget_trial(&brain);
+    next(0);
+    brain_doubt(&brain, &nothing);
     TEST_ASSERT_EQUAL(REASON_WANDER, next(0).reason);
+}
+
+/* It makes ten remembered turns that do not help, and is bored. */
+static void assert_is_bored_without_learning(enum profile profile, uint8_t cell, uint8_t byte)
+{
+    const struct senses blocked = {.feel = FRONT};
+    struct action action = {.reason = REASON_REMEMBERED};
+
+    brain = (struct brain){.frozen = false};
+    brain_start(&brain, profile, 1);
+    brain.memory.cell[cell] = byte;
+    for (unsigned i = 0; i < 11 && action.reason == REASON_REMEMBERED; i++) {
+        action = next(FRONT);
+        if (action.reason == REASON_REMEMBERED)
+            brain_doubt(&brain, &blocked);
+    }
+    TEST_ASSERT_EQUAL(REASON_BOREDOM, action.reason);
+    TEST_ASSERT_EQUAL_HEX8(byte, brain.memory.cell[cell]);
+    TEST_ASSERT_FALSE(brain.changed);
+}
+
+TEST(from_actions_that_were_not_carried_out_no_behaviour_learns)
+{
+    assert_is_bored_without_learning(PROFILE_RECHECK, 2, SIDE_LEFT);
+    assert_is_bored_without_learning(PROFILE_FORGETFUL, 2, SIDE_LEFT);
+    assert_is_bored_without_learning(PROFILE_ADAPTIVE, 2, 5);
+    assert_is_bored_without_learning(PROFILE_FIVE, 1, SIDE_LEFT);   /* that of reading 4 in the lowest bits */
 }
 
 TEST(a_start_keeps_a_change_that_was_not_yet_reported)

@@ -184,6 +184,42 @@ TEST(resumed_with_wheels_that_still_do_not_obey_it_stops_at_once)
     }
 }
 
+/* A trial is denied; from then on the robot knows a turn for what is in front. */
+static void deny_a_trial(void)
+{
+    sense((struct senses){.tick = wheels.tick++, .feel = FRONT});
+    learned(SIDE_LEFT);
+    while (!out.denied)
+        sense((struct senses){.tick = wheels.tick++, .feel = FRONT});
+    TEST_ASSERT_EQUAL_UINT8(1, robot.denials);
+}
+
+/* Remembered turns are too short to make up for a trial. */
+TEST(boredom_strikes_a_robot_whose_wheels_once_did_not_obey_and_teaches_it_nothing)
+{
+    unsigned ticks = 0;
+
+    command(OPCODE_START, PROFILE_FORGETFUL, 1);
+    deny_a_trial();
+    while (out.drive.reason != REASON_BOREDOM && ticks++ < MANY)
+        obey(FRONT);
+    TEST_ASSERT_EQUAL(REASON_BOREDOM, out.drive.reason);
+    TEST_ASSERT_EQUAL_UINT8(SIDE_LEFT, robot.brain.memory.cell[PATTERN_FRONT]);
+}
+
+TEST(food_is_eaten_by_a_robot_whose_wheels_once_did_not_obey)
+{
+    unsigned ticks = 0;
+
+    deny_a_trial();
+    wheels.look = true;
+    wheels.beacon_mm = 100;
+    while (!out.drive.eat && ticks++ < MANY)
+        obey(CLEAR);
+    TEST_ASSERT_TRUE(out.drive.eat);
+    TEST_ASSERT_EQUAL_UINT8(1, robot.denials);
+}
+
 TEST(resumed_with_wheels_that_obey_again_it_goes_on)
 {
     (void)stand_until_it_stops();
