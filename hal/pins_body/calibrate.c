@@ -66,13 +66,17 @@ static int32_t stair(const struct calibration *calibration, unsigned side, unsig
     return (int16_t)(uint16_t)(calibration->marks[side][mark + 1] - calibration->marks[side][mark]);
 }
 
-/* Returns the motor's lag after the step, ms; negative if it did not follow. */
+/* Returns the motor's lag after the step, ms; negative if it did not follow. A slope in range overflows nothing. */
 static int32_t take_motor(struct calibration *calibration, unsigned side, int32_t battery_mv, struct traits *traits)
 {
     int32_t low = stair(calibration, side, 0), high = stair(calibration, side, 2), more = high - low;
     int32_t push = LOW_DUTY / PUSH * calibration->low_mv, step = HIGH_DUTY / PUSH * battery_mv - push;
 
     take(calibration, traits, BODY_FORWARD_LEFT + side, rounded(step, more * FORWARD_1000 / 1000));
+    if (calibration->refused != 0)
+        return 0;
+    if (low > more || low < -more)
+        low = more;   /* no motor does: its dead band is out of range, too */
     take(calibration, traits, BODY_DEAD_LEFT + side,
          rounded((push - rounded(step / 16 * low, more) * 16) * 10, DEAD_10));
     return rounded((high - stair(calibration, side, 1)) * STAIR_BEATS * WHEEL_PERIOD_MS, more);

@@ -139,6 +139,16 @@ TEST(what_motors_are_like_is_rounded_at_its_half)
     TEST_ASSERT_EQUAL_UINT8(132, trait(BODY_FORWARD_LEFT));    /* 131.50 */
 }
 
+/* An encoder with loose wires counts anything. */
+TEST(motors_that_count_wildly_are_refused)
+{
+    static const int wild[][2] = {{40, 41}, {300, 327}, {-300, 300}, {60, 80}, {-300, -280}};
+
+    for (unsigned i = 0; i < sizeof wild / sizeof *wild; i++)
+        TEST_ASSERT_FALSE(measure_motors((int[]){6, wild[i][0]}, (int[]){24, wild[i][1]}, (int[]){200, 200},
+                                         NOMINAL_MV));
+}
+
 TEST(motors_that_do_not_turn_or_not_faster_or_backward_are_refused)
 {
     TEST_ASSERT_FALSE(measure_motors((int[]){0, 0}, (int[]){0, 0}, (int[]){0, 0}, NOMINAL_MV));
