@@ -12,7 +12,7 @@ enum {
     PWM_HZ = 20000, PWM_PERIODS = 100,             /* per beat of 5 ms */
     CEN = 1u << 0, UIE = 1u << 0, UIF = 1u << 0, UG = 1u << 0, ARPE = 1u << 7,
     TIM1_UP = 25,                                  /* number of its interrupt */
-    PWM_2 = 0x6800, PWM_3 = 0x0068,                /* in ccmr: mode 1, preloaded */
+    PWM_2 = 0x6000, PWM_3 = 0x0060,                /* in ccmr: mode 1, not preloaded: as fast as the direction */
     CC2N_ON = 1u << 6, CC3N_ON = 1u << 10,         /* in ccer */
     BREAK_LOW = 1u << 12, OUTPUTS_ON = 1u << 15, IDLE_LOW = 1u << 10, BREAK_SEEN = 1u << 7,   /* in bdtr; last: sr */
     ENCODER = 3, FROM_INPUTS = 0x0101 | 0x3030,    /* both edges of both inputs, filtered over 8 clock cycles */
@@ -63,7 +63,7 @@ static void start_counter(volatile struct timer_registers *timer, uint32_t input
     timer->cr1 = CEN;
 }
 
-/* An update event loads the preloaded values at once. The break input is the bridge's fault signal, active low. */
+/* An update event loads the preloaded period at once. The break input is the bridge's fault signal, active low. */
 static void start_motors(void)
 {
     TIM1.arr = machine_clocks().core_hz / PWM_HZ - 1;

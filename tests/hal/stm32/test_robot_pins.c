@@ -72,8 +72,8 @@ TEST(the_registers_are_as_the_manual_wants_them)
     } cases[] = {
         {"TIM1 arr", TOP - 1, TIM1.arr},
         {"TIM1 rcr", 20000 / 200 - 1, TIM1.rcr},
-        {"TIM1 ccmr1", 0x6800, TIM1.ccmr[0]},
-        {"TIM1 ccmr2", 0x0068, TIM1.ccmr[1]},
+        {"TIM1 ccmr1", 0x6000, TIM1.ccmr[0]},   /* a duty takes effect at once, as the pin of its direction does */
+        {"TIM1 ccmr2", 0x0060, TIM1.ccmr[1]},
         {"TIM1 ccer", 1 << 6 | 1 << 10, TIM1.ccer},
         {"TIM1 egr", 1, TIM1.egr},
         {"TIM1 sr", 0, TIM1.sr},
