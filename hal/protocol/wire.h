@@ -34,7 +34,7 @@ struct wire {
     uint32_t told_lower, told_upper; /* bit n - 1: node n has sent this half of its memory since the last report */
     uint8_t strangers;               /* frames with our own identifiers since the last heartbeat: one may be noise */
     bool twin;                       /* another robot with this number was heard since the last start */
-    bool unasked;                    /* the current stop comes from the wire itself, and has no answer */
+    bool unasked;                    /* the command in hand is the wire's own or a button's, and has no answer */
     struct frame drive, answer;      /* as last sent, for repetition on request */
     struct frame refusal;
     const struct frame *again;       /* the frame to repeat after wire_read; null for none */

@@ -83,13 +83,14 @@ static void note(struct wire *wire, const struct output *out)
         wire_count(wire, FAULT_REFUSED);
 }
 
-/* Writes the answer to a command; a stop by the wire itself has none. */
+/* Writes the answer to a command; what the wire itself or a button asked for has none. */
 static void write_result(struct wire *wire, const struct output *out, struct frames *frames)
 {
     bool begins;
 
     if (wire->unasked) {
         wire->unasked = false;
+        wire->twin = wire->twin && !out->report.running;   /* a button may have started it */
         session_end(&wire->session);
         return;
     }

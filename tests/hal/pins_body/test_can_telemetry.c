@@ -160,6 +160,31 @@ TEST(a_stop_for_a_twin_is_not_answered)
         TEST_ASSERT_NOT_EQUAL_HEX32(OCTET_ANSWER_FRAME_ID + 1, said[i].id);
 }
 
+/* Returns whether a twin stops it. */
+static bool meets_a_twin(void)
+{
+    enum input_kind kind = INPUT_SILENCE;
+    uint8_t data[8] = {0};
+
+    for (unsigned i = 0; i < 5 && kind == INPUT_SILENCE; i++) {
+        hear(OCTET_DRIVE_FRAME_ID + 1, data, OCTET_DRIVE_LENGTH);
+        kind = telemetry_receive(&in);
+    }
+    return kind == INPUT_COMMAND;
+}
+
+TEST(a_twin_stops_it_again_once_the_button_has_started_it)
+{
+    const struct output stopped = {.has_answer = true, .answer = RESULT_DONE};
+    const struct output started = {.has_answer = true, .answer = RESULT_DONE, .report.running = true};
+
+    TEST_ASSERT_TRUE(meets_a_twin());
+    telemetry_output(&stopped, true);
+    TEST_ASSERT_FALSE(meets_a_twin());
+    telemetry_output(&started, false);
+    TEST_ASSERT_TRUE(meets_a_twin());
+}
+
 TEST(senses_of_another_body_are_not_ours)
 {
     uint8_t data[8] = {0};
