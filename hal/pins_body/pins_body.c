@@ -191,6 +191,7 @@ int hal_receive(struct hal *hal, struct input *in)
 
         if (kind != INPUT_SILENCE)
             return (int)kind;
+        port_alive(guard_forbids(&hal->guard) || (hal->upkeep.calibration.refused != 0 && !hal->running));
     } while (!pass_beat(hal));
     port_alive(guard_forbids(&hal->guard) || (hal->upkeep.calibration.refused != 0 && !hal->running));
     if (is_told(hal, &in->command))

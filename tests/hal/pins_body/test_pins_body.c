@@ -184,6 +184,17 @@ TEST(what_takes_an_erase_is_stored_when_the_wheels_rest)
     TEST_ASSERT_EQUAL_UINT(2, port.stores);
 }
 
+/* Each order at rest puts off the next tick. */
+TEST(orders_that_follow_one_another_do_not_starve_the_watchdog)
+{
+    for (unsigned i = 0; i < 20; i++) {
+        told.next = INPUT_COMMAND;
+        told.from_beat = pins.beats + BEATS - 1;
+        TEST_ASSERT_EQUAL_INT(INPUT_COMMAND, hal_receive(hal, &in));
+    }
+    TEST_ASSERT_GREATER_THAN_UINT(20, port.alive);
+}
+
 TEST(what_cannot_be_stored_or_opened_is_said)
 {
     const uint8_t memory[CELL_COUNT] = {0};
