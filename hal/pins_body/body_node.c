@@ -138,6 +138,11 @@ bool telemetry_wants_ranges(void)
     return wants_ranges;
 }
 
+void telemetry_stored(int result)
+{
+    (void)result;
+}
+
 void telemetry_output(const struct output *out, bool asked)
 {
     (void)out;

@@ -84,6 +84,13 @@ bool telemetry_wants_ranges(void)
     return false;
 }
 
+void telemetry_stored(int result)
+{
+    wire.health.unstored = result == PORT_LATER;
+    if (result == HAL_E_STORE)
+        wire_count(&wire, FAULT_UNSAVED);
+}
+
 void telemetry_output(const struct output *out, bool asked)
 {
     size_t count;

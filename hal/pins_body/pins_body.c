@@ -193,20 +193,42 @@ int hal_receive(struct hal *hal, struct input *in)
             return (int)kind;
         port_alive(guard_forbids(&hal->guard) || (hal->upkeep.calibration.refused != 0 && !hal->running));
     } while (!pass_beat(hal));
-    port_alive(guard_forbids(&hal->guard) || (hal->upkeep.calibration.refused != 0 && !hal->running));
     if (is_told(hal, &in->command))
         return INPUT_COMMAND;
     fill_senses(hal, &in->senses);
     return INPUT_SENSES;
 }
 
-/* Stores only while the wheels rest, since an erase stalls the machine for up to 40 ms. */
+/* An erase stalls the machine for up to 40 ms: until then no motor is pushed. */
+static void let_go(struct hal *hal)
+{
+    for (unsigned side = 0; side < PINS_SIDES; side++) {
+        hal->guard.duty[side] = 0;
+        pins_push(side, 0);
+    }
+}
+
+static int store(struct hal *hal, enum port_effort effort)
+{
+    int result;
+
+    if (effort == PORT_AT_REST)
+        let_go(hal);
+    result = port_store(hal->memory, effort);
+    hal->unstored = result == PORT_LATER;
+    telemetry_stored(result);
+    return hal->unstored ? 0 : result;
+}
+
+/* Stores only while the wheels are told to rest. */
 static void store_later(struct hal *hal)
 {
     if (hal->told_mm_s[0] != 0 || hal->told_mm_s[1] != 0)
         return;
     if (hal->unstored)
-        hal->unstored = port_store(hal->memory, PORT_AT_REST) == PORT_LATER;
+        (void)store(hal, PORT_AT_REST);
+    if (hal->upkeep.unkept)
+        let_go(hal);
     upkeep_store(&hal->upkeep);
 }
 
@@ -236,18 +258,21 @@ int hal_send(struct hal *hal, const struct output *out)
 
 int hal_load(struct hal *hal, uint8_t memory[CELL_COUNT])
 {
+    int result = port_load(memory);
+
     (void)hal;
-    return port_load(memory);
+    if (result < 0)
+        telemetry_stored(result);
+    return result;
 }
 
 int hal_store(struct hal *hal, const uint8_t memory[CELL_COUNT], bool at_rest)
 {
-    int result = port_store(memory, at_rest ? PORT_AT_REST : PORT_QUICKLY);
+    bool rests = at_rest && hal->upkeep.calibration.measures == MEASURE_NOTHING;
 
     for (unsigned p = 0; p < CELL_COUNT; p++)
         hal->memory[p] = memory[p];
-    hal->unstored = result == PORT_LATER;
-    return hal->unstored ? 0 : result;
+    return store(hal, rests ? PORT_AT_REST : PORT_QUICKLY);
 }
 
 uint32_t hal_entropy(struct hal *hal)

@@ -19,6 +19,9 @@ void telemetry_senses(const struct senses *senses);
 bool telemetry_wants_ranges(void);
         /* Whether the senses should include distances. */
 
+void telemetry_stored(int result);
+        /* Notes the result of storing the memory, or of a failure to load it: 0, PORT_LATER or HAL_E_STORE. */
+
 void telemetry_output(const struct output *out, bool asked);
         /* Sends the robot's output. asked: it answers a command from outside. */
 

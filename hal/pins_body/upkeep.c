@@ -54,7 +54,9 @@ static enum result try_to_set(struct upkeep *upkeep, uint8_t number, uint32_t va
 {
     if (number == BODY_REFUSED || !traits_fit(number, value))
         return RESULT_OUT_OF_RANGE;
-    return running ? RESULT_OWNED : set(upkeep, number, value);
+    if (running || (number != BODY_MEASURE && upkeep->calibration.measures != MEASURE_NOTHING))
+        return RESULT_OWNED;
+    return set(upkeep, number, value);
 }
 
 void upkeep_serve(struct upkeep *upkeep, const struct command *command, bool running)

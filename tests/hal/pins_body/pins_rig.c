@@ -42,6 +42,7 @@ int telemetry_open(const struct port *opened) { (void)opened; return told.opens;
 void telemetry_senses(const struct senses *senses) { told.said = *senses; }
 
 bool telemetry_wants_ranges(void) { return told.wants_ranges; }
+void telemetry_stored(int result) { told.stored = result; }
 
 void telemetry_output(const struct output *out, bool asked)
 {
@@ -72,16 +73,24 @@ int port_open(struct port *opened, int argc, char *const argv[])
 void port_ready(const struct port *opened) { (void)opened; }
 uint32_t port_clock_ms(void) { return 0; }
 void port_alive(bool outage) { port.alive++; port.outage = outage; }
-int port_load(uint8_t memory[CELL_COUNT]) { memory[0] = 7; return 1; }
+int port_load(uint8_t memory[CELL_COUNT]) { memory[0] = 7; return port.result < 0 ? port.result : 1; }
 uint32_t port_entropy(void) { return 1000; }
 
 int port_load_more(unsigned which, uint8_t bytes[CELL_COUNT]) { (void)which; (void)bytes; return 0; }
-int port_store_more(unsigned which, const uint8_t bytes[CELL_COUNT]) { (void)bytes; port.more |= 1u << which; return 0; }
+
+int port_store_more(unsigned which, const uint8_t bytes[CELL_COUNT])
+{
+    (void)bytes;
+    port.more |= 1u << which;
+    port.pushed = pins.duty[0] != 0 || pins.duty[1] != 0;
+    return 0;
+}
 
 int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort)
 {
     port.stores++;
     port.effort = effort;
+    port.pushed = pins.duty[0] != 0 || pins.duty[1] != 0;
     memcpy(port.memory, memory, CELL_COUNT);
     return effort == PORT_AT_REST ? 0 : port.result;
 }

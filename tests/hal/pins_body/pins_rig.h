@@ -23,7 +23,7 @@ extern struct fake_telemetry {
     unsigned outputs;
     struct output out;    /* the last */
     bool asked, wants_ranges;
-    int opens;
+    int opens, stored;
 } told;
 
 extern struct fake_port {
@@ -31,6 +31,7 @@ extern struct fake_port {
     unsigned more;        /* records of the body that were stored, bit by bit */
     int result;
     enum port_effort effort;
+    bool pushed;          /* a motor was, as something was stored */
     bool outage;
     uint8_t memory[CELL_COUNT];
 } port;

@@ -185,6 +185,25 @@ TEST(a_twin_stops_it_again_once_the_button_has_started_it)
     TEST_ASSERT_TRUE(meets_a_twin());
 }
 
+TEST(what_was_put_off_and_what_could_not_be_stored_is_reported)
+{
+    const struct output report = {.has_answer = true, .has_report = true, .whole_report = true};
+    struct octet_health_t health;
+    struct octet_faults_t faults;
+
+    telemetry_stored(HAL_E_STORE);
+    telemetry_stored(PORT_LATER);
+    telemetry_output(&report, true);
+    (void)octet_health_unpack(&health, last(OCTET_HEALTH_FRAME_ID)->data, 8);
+    TEST_ASSERT_TRUE(health.unstored);
+    (void)octet_faults_unpack(&faults, last(OCTET_FAULTS_FRAME_ID)->data, 8);
+    TEST_ASSERT_EQUAL_UINT8(1, faults.unsaved);
+    telemetry_stored(0);
+    telemetry_output(&report, true);
+    (void)octet_health_unpack(&health, last(OCTET_HEALTH_FRAME_ID)->data, 8);
+    TEST_ASSERT_FALSE(health.unstored);
+}
+
 TEST(senses_of_another_body_are_not_ours)
 {
     uint8_t data[8] = {0};

@@ -184,6 +184,44 @@ TEST(what_takes_an_erase_is_stored_when_the_wheels_rest)
     TEST_ASSERT_EQUAL_UINT(2, port.stores);
 }
 
+TEST(no_motor_is_pushed_while_a_page_may_be_erased)
+{
+    const uint8_t memory[CELL_COUNT] = {0};
+
+    port.result = PORT_LATER;
+    drive(200, 200);
+    (void)sense();
+    TEST_ASSERT_EQUAL_INT(0, hal_store(hal, memory, false));
+    TEST_ASSERT_TRUE(port.pushed);
+    drive(0, 0);
+    TEST_ASSERT_EQUAL_UINT(2, port.stores);
+    TEST_ASSERT_FALSE(port.pushed);
+    drive(200, 200);
+    (void)sense();
+    TEST_ASSERT_EQUAL_INT(0, hal_store(hal, memory, true));
+    TEST_ASSERT_FALSE(port.pushed);
+    drive(0, 0);
+}
+
+TEST(what_was_put_off_or_could_not_be_stored_or_loaded_is_said)
+{
+    const uint8_t memory[CELL_COUNT] = {0};
+    uint8_t loaded[CELL_COUNT];
+
+    port.result = PORT_LATER;
+    drive(200, 200);
+    (void)hal_store(hal, memory, false);
+    TEST_ASSERT_EQUAL_INT(PORT_LATER, told.stored);
+    drive(0, 0);
+    TEST_ASSERT_EQUAL_INT(0, told.stored);
+    port.result = HAL_E_STORE;
+    (void)hal_store(hal, memory, false);
+    TEST_ASSERT_EQUAL_INT(HAL_E_STORE, told.stored);
+    told.stored = 0;
+    TEST_ASSERT_EQUAL_INT(HAL_E_STORE, hal_load(hal, loaded));
+    TEST_ASSERT_EQUAL_INT(HAL_E_STORE, told.stored);
+}
+
 /* Each order at rest puts off the next tick. */
 TEST(orders_that_follow_one_another_do_not_starve_the_watchdog)
 {
@@ -203,6 +241,7 @@ TEST(what_cannot_be_stored_or_opened_is_said)
     port.result = HAL_E_STORE;
     TEST_ASSERT_EQUAL_INT(HAL_E_STORE, hal_store(hal, memory, false));
     TEST_ASSERT_EQUAL_INT(0, hal_store(hal, memory, true));
+    port.result = 0;
     TEST_ASSERT_EQUAL_INT(1, hal_load(hal, loaded));
     TEST_ASSERT_EQUAL_INT(HAL_E_USAGE, hal_open(&hal, -1, NULL));
     told.opens = HAL_E_BODY;

@@ -27,6 +27,19 @@ static void measure_light(uint16_t light)
     TEST_ASSERT_EQUAL_UINT32(0, told_by_the_body(OPCODE_GET, BODY_MEASURE, 0));
 }
 
+TEST(no_motor_is_pushed_while_what_was_measured_is_stored)
+{
+    pins.light = 1600;
+    (void)told_by_the_body(OPCODE_SET, BODY_MEASURE, 1);
+    for (unsigned i = 0; i < 30; i++) {
+        pins.counts[0] = (uint16_t)(i % 2 * 40);   /* somebody shakes it, and its wheel resists */
+        (void)sense();
+        rest_with(false);
+    }
+    TEST_ASSERT_EQUAL_UINT(3, port.more);
+    TEST_ASSERT_FALSE(port.pushed);
+}
+
 TEST(a_sensor_is_triggered_by_the_light_that_was_measured_and_that_is_stored)
 {
     measure_light(1600);
@@ -59,6 +72,21 @@ TEST(motors_are_pushed_as_they_are_measured_and_a_bump_ends_it)
     (void)sense();
     TEST_ASSERT_EQUAL_INT32(0, pins.duty[0]);
     TEST_ASSERT_EQUAL_UINT32(BODY_MEASURE, told_by_the_body(OPCODE_GET, BODY_REFUSED, 0));
+}
+
+TEST(what_takes_an_erase_waits_for_the_end_of_a_measurement)
+{
+    const uint8_t memory[CELL_COUNT] = {0};
+
+    (void)told_by_the_body(OPCODE_SET, BODY_MEASURE, 2);
+    stay(2);
+    port.result = PORT_LATER;
+    TEST_ASSERT_EQUAL_INT(0, hal_store(hal, memory, true));
+    TEST_ASSERT_EQUAL_INT(PORT_QUICKLY, port.effort);
+    (void)told_by_the_body(OPCODE_SET, BODY_MEASURE, 0);
+    (void)sense();
+    rest_with(false);
+    TEST_ASSERT_EQUAL_INT(PORT_AT_REST, port.effort);
 }
 
 TEST(it_turns_on_the_spot_to_measure_its_track_until_the_robot_is_started)

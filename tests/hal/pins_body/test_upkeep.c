@@ -52,6 +52,15 @@ static uint32_t got(uint8_t which)
     return upkeep.value;
 }
 
+TEST(while_it_measures_nothing_else_is_set)
+{
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_MEASURE, MEASURE_MOTORS, false));
+    TEST_ASSERT_EQUAL_INT(RESULT_OWNED, asked(OPCODE_SET, BODY_LAG_MS, 61, false));
+    TEST_ASSERT_EQUAL_UINT(0, stores);
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_MEASURE, MEASURE_NOTHING, false));
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_LAG_MS, 61, false));
+}
+
 TEST(an_uncalibrated_body_is_as_planned)
 {
     struct proximity proximity;

@@ -18,6 +18,7 @@ TEST(it_opens_hears_nothing_and_says_nothing)
     TEST_ASSERT_EQUAL_INT(0, telemetry_open(&port));
     telemetry_senses(&senses);
     telemetry_output(&out, true);
+    telemetry_stored(0);
     line_pump();
     TEST_ASSERT_EQUAL_INT(INPUT_SILENCE, telemetry_receive(&in));
 }
