@@ -117,12 +117,15 @@ TEST(a_step_that_is_cut_off_eats)
 
 TEST(nothing_happens_after_the_time_of_the_world)
 {
+    bodies[0].x_mm = 1900.0;
     told.limit_ticks = 3;
     begin();
-    step(TOLD_TURN_ABOUT, TOLD_TURN_ABOUT);
+    step(TOLD_TURN_LEFT, TOLD_TURN_ABOUT);
+    TEST_ASSERT_EQUAL_UINT8(0, bodies[0].seen);
     step(TOLD_FORWARD, TOLD_FORWARD);
 
     TEST_ASSERT_EQUAL_UINT32(3, told.tick);
+    TEST_ASSERT_EQUAL_UINT32(0, robots[0].food_eaten);
 }
 
 TEST(bumps_are_counted_step_by_step)

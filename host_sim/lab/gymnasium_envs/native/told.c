@@ -125,13 +125,14 @@ static void step(struct told *told, const uint8_t deeds[], const struct config *
         .config = config, .deeds = deeds, .under_way = told->world->body_count,
         .end_tick = told->tick + told->step_ticks
     };
+    const bool has_time = goes_on(told, &doing);
 
     for (size_t i = 0; i < told->world->body_count; i++)
         begin_deed(told, i, &doing);
     while (goes_on(told, &doing))
         run_tick(told, &doing);
     for (size_t i = 0; i < told->world->body_count; i++) {
-        if (!doing.rests[i])
+        if (has_time && !doing.rests[i])
             eat(told, i, &doing);
         told->robots[i].collisions = (uint32_t)told->world->bodies[i].collisions - told->robots[i].collisions;
     }
