@@ -35,18 +35,18 @@ static enum result resume(struct robot *robot)
 
 static enum result set(struct robot *robot, const struct command *command)
 {
-    if (command->which >= PARAMETER_COUNT)
-        return RESULT_UNKNOWN_PARAMETER;
     if (!config_fits(command->which, command->value))
         return RESULT_OUT_OF_RANGE;
-    config_set(&robot->config, command->which, (uint8_t)command->value);
+    robot->config.value[command->which] = (uint8_t)command->value;
     return RESULT_DONE;
 }
 
-static enum result get(const struct robot *robot, const struct command *command, uint32_t *value)
+static enum result use_parameter(struct robot *robot, const struct command *command, uint32_t *value)
 {
     if (command->which >= PARAMETER_COUNT)
         return RESULT_UNKNOWN_PARAMETER;
+    if (command->opcode == OPCODE_SET)
+        return set(robot, command);
     *value = robot->config.value[command->which];
     return RESULT_DONE;
 }
@@ -80,16 +80,15 @@ enum result robot_execute(struct robot *robot, const struct command *command, ui
         return start(robot, command, value);
     case OPCODE_RESUME:
         return resume(robot);
-    case OPCODE_SET:
-        return set(robot, command);
     case OPCODE_WRITE:
         return write_memory(robot, command);
     case OPCODE_ERASE:
         return erase_memory(robot);
     case OPCODE_FREEZE:
         return freeze(robot, command);
+    case OPCODE_SET:
     case OPCODE_GET:
-        return get(robot, command, value);
+        return use_parameter(robot, command, value);
     case OPCODE_REPORT:
         return RESULT_DONE;
     default:

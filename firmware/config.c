@@ -20,8 +20,3 @@ bool config_fits(uint8_t parameter, uint32_t value)
 {
     return value >= ranges[parameter].min && value <= ranges[parameter].max;
 }
-
-void config_set(struct config *config, uint8_t parameter, uint8_t value)
-{
-    config->value[parameter] = value;
-}

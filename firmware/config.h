@@ -14,7 +14,4 @@ void config_reset(struct config *config);
 bool config_fits(uint8_t parameter, uint32_t value);
         /* Whether value is within the range of parameter 0..PARAMETER_COUNT-1. */
 
-void config_set(struct config *config, uint8_t parameter, uint8_t value);
-        /* Sets a parameter to a value within its range. */
-
 #endif

@@ -37,14 +37,12 @@ static void note_denial(struct robot *robot)
 }
 
 /* A step does not show how well the wheels turn. */
-static void judge(struct robot *robot, const struct senses *senses, bool denied)
+static void judge(struct robot *robot, bool denied)
 {
     if (denied)
         note_denial(robot);
-    else if (robot->denials > 0 && (!robot->turn_denied || motion_tells(&robot->motion)))
+    else if ((!robot->turn_denied || motion_tells(&robot->motion)) && robot->denials > 0)
         robot->denials--;
-    if (robot->denials > 0)
-        brain_doubt(&robot->brain, senses);
 }
 
 static bool has_ended(struct robot *robot, const struct senses *senses)
@@ -66,7 +64,9 @@ static bool go_on(struct robot *robot, struct senses *senses)
     if (!has_ended(robot, senses))
         return false;
     denied = motion_is_denied(&robot->motion, &robot->config);
-    judge(robot, senses, denied);
+    judge(robot, denied);
+    if (robot->denials > 0)
+        brain_doubt(&robot->brain, senses);
     perception_decide(&robot->perception, &robot->config, feel);
     senses->feel = perception_believed(&robot->perception, &robot->config, feel);
     caution_see(&robot->caution, senses->feel, (feel & ~senses->feel & FRONT) != 0);
@@ -129,12 +129,12 @@ void robot_step(struct robot *robot, const struct senses *senses, struct drive *
 /* Counts a tick of robot time. True: it completes a second. */
 static bool pass_time(struct robot *robot)
 {
-    robot->part_ms = (uint16_t)(robot->part_ms + robot->config.value[TICK_MS]);
-    if (robot->part_ms < SECOND_MS)
-        return false;
-    robot->part_ms = (uint16_t)(robot->part_ms - SECOND_MS);
-    robot->uptime_s++;
-    return true;
+    unsigned part_ms = robot->part_ms + (unsigned)robot->config.value[TICK_MS];
+    bool full = part_ms >= SECOND_MS;
+
+    robot->part_ms = (uint16_t)(full ? part_ms - SECOND_MS : part_ms);
+    robot->uptime_s = (uint16_t)(robot->uptime_s + full);
+    return full;
 }
 
 /* Fills in the report whether it is due or not: sending it takes many ticks. */

@@ -55,14 +55,3 @@ TEST(the_defaults_fit)
     for (uint8_t p = 0; p < PARAMETER_COUNT; p++)
         TEST_ASSERT_TRUE(config_fits(p, config.value[p]));
 }
-
-TEST(setting_a_parameter_leaves_the_others)
-{
-    for (unsigned i = 0; i < EXPECTED; i++) {
-        struct config before = config;
-
-        config_set(&config, expected[i].parameter, expected[i].max);
-        before.value[expected[i].parameter] = expected[i].max;
-        TEST_ASSERT_EQUAL_MEMORY(&before, &config, sizeof config);
-    }
-}

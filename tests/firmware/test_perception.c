@@ -39,7 +39,7 @@ TEST(by_default_all_is_believed_at_once)
 
 TEST(filtered_each_bit_is_what_two_of_three_ticks_say)
 {
-    config_set(&config, FILTER, 1);
+    config.value[FILTER] = 1;
     for (unsigned cases = 0; cases < 8; cases++) {
         const unsigned bit[] = {cases & 1u, cases >> 1 & 1u, cases >> 2};
         unsigned sum = bit[0] + bit[1] + bit[2];
@@ -54,7 +54,7 @@ TEST(filtered_each_bit_is_what_two_of_three_ticks_say)
 
 TEST(a_sensor_is_distrusted_after_the_limit_of_decisions_in_a_row)
 {
-    config_set(&config, DISTRUST, LIMIT);
+    config.value[DISTRUST] = LIMIT;
     decide(FRONT, LIMIT - 1);
     TEST_ASSERT_EQUAL_HEX8(FRONT, believed(FRONT));
     decide(FRONT, 1);
@@ -63,21 +63,21 @@ TEST(a_sensor_is_distrusted_after_the_limit_of_decisions_in_a_row)
 
 TEST(the_other_sensors_are_still_believed)
 {
-    config_set(&config, DISTRUST, LIMIT);
+    config.value[DISTRUST] = LIMIT;
     decide(FRONT, LIMIT);
     TEST_ASSERT_EQUAL_HEX8(ALL & ~FRONT, believed(ALL));
 }
 
 TEST(it_stays_distrusted_however_long_it_goes_on)
 {
-    config_set(&config, DISTRUST, 255);
+    config.value[DISTRUST] = 255;
     decide(FRONT, 1000);
     TEST_ASSERT_EQUAL_HEX8(0, believed(FRONT));
 }
 
 TEST(one_quiet_decision_restores_trust)
 {
-    config_set(&config, DISTRUST, LIMIT);
+    config.value[DISTRUST] = LIMIT;
     decide(FRONT, LIMIT);
     decide(0, 1);
     TEST_ASSERT_EQUAL_HEX8(FRONT, believed(FRONT));
@@ -95,7 +95,7 @@ static void start(uint8_t parameter, uint8_t value)
 
     robot_init(&robot, 0);
     TEST_ASSERT_EQUAL(RESULT_DONE, robot_execute(&robot, &command, &answer));
-    config_set(&robot.config, parameter, value);
+    robot.config.value[parameter] = value;
 }
 
 static uint16_t rolled(uint16_t odometer, int speed_mm_s)
@@ -186,27 +186,27 @@ TEST(a_start_trusts_again)
 TEST(while_no_sensor_is_distrusted_none_is_counted)
 {
     decide(ALL, 300);
-    config_set(&config, DISTRUST, 1);
+    config.value[DISTRUST] = 1;
     TEST_ASSERT_EQUAL_HEX8(ALL, believed(ALL));
 }
 
 TEST(a_limit_of_one_distrusts_after_the_first_decision)
 {
-    config_set(&config, DISTRUST, 1);
+    config.value[DISTRUST] = 1;
     decide(FRONT, 1);
     TEST_ASSERT_EQUAL_HEX8(0, believed(FRONT));
 }
 
 TEST(every_sensor_can_be_distrusted)
 {
-    config_set(&config, DISTRUST, LIMIT);
+    config.value[DISTRUST] = LIMIT;
     decide(ALL, LIMIT + 5);
     TEST_ASSERT_EQUAL_HEX8(0, believed(ALL));
 }
 
 TEST(after_a_quiet_decision_the_count_begins_at_nothing)
 {
-    config_set(&config, DISTRUST, LIMIT);
+    config.value[DISTRUST] = LIMIT;
     decide(FRONT, LIMIT);
     decide(0, 1);
     decide(FRONT, LIMIT - 1);
@@ -215,7 +215,7 @@ TEST(after_a_quiet_decision_the_count_begins_at_nothing)
 
 TEST(a_new_start_trusts_every_sensor)
 {
-    config_set(&config, DISTRUST, LIMIT);
+    config.value[DISTRUST] = LIMIT;
     decide(ALL, LIMIT);
     perception_start(&perception);
     TEST_ASSERT_EQUAL_HEX8(ALL, believed(ALL));

@@ -62,7 +62,7 @@ TEST(the_count_stays_at_255)
 
 TEST(the_greatest_limit_bores_once)
 {
-    config_set(&config, BOREDOM_LIMIT, 254);
+    config.value[BOREDOM_LIMIT] = 254;
     remembered_turns(254);
     TEST_ASSERT_EQUAL(REASON_BOREDOM, next(FRONT).reason);
     remembered_turns(MANY);

@@ -62,7 +62,7 @@ TEST(the_nearest_counts)
 
 TEST(it_adds_to_the_turn_that_is_set)
 {
-    config_set(&config, TURN_DEG, 180);
+    config.value[TURN_DEG] = 180;
     TEST_ASSERT_EQUAL_INT(200, turn_with(SIDE_RIGHT, 2, 0));
 }
 
@@ -90,7 +90,7 @@ TEST(a_behaviour_that_a_memory_has_chosen_wants_no_ranges)
 
 TEST(the_smallest_turn_is_to_its_side_too)
 {
-    config_set(&config, TURN_DEG, 1);
+    config.value[TURN_DEG] = 1;
     TEST_ASSERT_EQUAL_INT(21, turn_with(SIDE_RIGHT, 2, 0));
     TEST_ASSERT_EQUAL_INT(-21, turn_with(SIDE_LEFT, 2, 0));
 }

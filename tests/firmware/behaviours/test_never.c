@@ -87,6 +87,6 @@ TEST(a_limit_that_is_lowered_meanwhile_counts_at_once)
 {
     for (unsigned i = 0; i < 8; i++)
         next(ALL_THREE);
-    config_set(&config, BOREDOM_LIMIT, 5);
+    config.value[BOREDOM_LIMIT] = 5;
     TEST_ASSERT_EQUAL(REASON_BOREDOM, next(ALL_THREE).reason);
 }

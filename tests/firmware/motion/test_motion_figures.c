@@ -67,11 +67,11 @@ TEST(wheels_are_believed_up_to_13_eighths_of_the_fastest_and_2_counts)
 
 TEST(the_fastest_is_the_greater_of_both_speeds)
 {
-    config_set(&config, SPEED_MM_S, 250);
-    config_set(&config, TURN_SPEED_DEG_S, 30);
+    config.value[SPEED_MM_S] = 250;
+    config.value[TURN_SPEED_DEG_S] = 30;
     assert_farthest(83, 1);
-    config_set(&config, SPEED_MM_S, 20);
-    config_set(&config, TURN_SPEED_DEG_S, 180);
+    config.value[SPEED_MM_S] = 20;
+    config.value[TURN_SPEED_DEG_S] = 180;
     assert_farthest(83, 1);
 }
 

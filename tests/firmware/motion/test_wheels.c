@@ -18,7 +18,7 @@ TEST(the_fastest_is_the_greater_of_both_speeds)
 {
     TEST_ASSERT_EQUAL_UINT32(251, wheels_turning_mm_s(&config));
     TEST_ASSERT_EQUAL_UINT32(251, wheels_fastest_mm_s(&config));
-    config_set(&config, TURN_SPEED_DEG_S, 30);
+    config.value[TURN_SPEED_DEG_S] = 30;
     TEST_ASSERT_EQUAL_UINT32(200, wheels_fastest_mm_s(&config));
 }
 
