@@ -5,6 +5,7 @@ import re
 import select
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Protocol
 
 from host_sim.base.errors import LinkDownError
@@ -77,7 +78,8 @@ class SlcanLink:
         give_up = time.monotonic() + _SEND_S
         try:
             while text and self._await(select.POLLOUT, give_up - time.monotonic()):
-                text = text[os.write(self._fd, text) :]
+                with suppress(BlockingIOError):  # a terminal may promise room that it does not have
+                    text = text[os.write(self._fd, text) :]
         except OSError as error:
             self.explain()
             raise LinkDownError(f"cannot send to the robot: {error}") from error

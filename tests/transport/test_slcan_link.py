@@ -163,6 +163,22 @@ def test_a_line_that_woke_up_for_nothing_is_waited_for_again(ends, monkeypatch):
     assert link.receive(0.5) == FRAME
 
 
+def test_room_that_is_gone_when_it_is_written_to_is_waited_for_again(ends, monkeypatch):
+    link, far = ends
+    full, write = [BlockingIOError()], os.write
+
+    def write_or_fail(fd: int, text: bytes) -> int:
+        if full:
+            raise full.pop()
+        return write(fd, text)
+
+    monkeypatch.setattr(os, "write", write_or_fail)
+
+    link.send(FRAME)
+
+    assert far.recv(100) == encode(FRAME)
+
+
 def test_a_link_closes_its_stream(ends):
     link, far = ends
 
