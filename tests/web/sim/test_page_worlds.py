@@ -7,6 +7,7 @@ import pytest
 
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import ROOT
+from host_sim.protocol.words import KIT_SETTINGS
 from host_sim.report.octet_page import world_dimensions
 from host_sim.world.written_world import content_of, read_world_file
 from tests.web.sim.node import in_node
@@ -37,11 +38,11 @@ BAD = {
 }
 
 
-def opened(folder: Path, text: str) -> object:
+def opened(folder: Path, text: str, code: str = OPEN) -> object:
     files = [folder / "worlds.json", folder / "text"]
     for file, content in zip(files, (json.dumps(world_dimensions()), text), strict=True):
         file.write_text(content)
-    return in_node(folder, "sim/world_opening.js", OPEN, *files)
+    return in_node(folder, "sim/world_opening.js", code, *files)
 
 
 def test_a_world_file_is_that_of_the_command_line(tmp_path):
@@ -74,3 +75,13 @@ def test_an_unknown_key_is_told(tmp_path):
 @pytest.mark.parametrize("text", ["food", "food = [", "= 3", "food = [[1, 2] 3]", "food = 1\nfood = 2", "[arena]"])
 def test_what_is_no_toml_is_told_in_a_line(tmp_path, text):
     assert str(opened(tmp_path, text)).startswith(f"my.toml:{text.count(chr(10)) + 1}: this is not TOML: ")
+
+
+@pytest.mark.parametrize("body", ["ideal", "kit"])
+def test_the_robots_of_a_world_file_have_the_settings_that_suit_its_bodies(tmp_path, body):
+    world = {"format": 1, "seed": 3, "of": 2, "limit_ticks": 500, "robots": 2, "edits": [], "body": body}
+    code = OPEN.replace("my.toml", "run.world.json").replace("settings: {}", "settings: { turn_deg: 77 }")
+
+    robots = opened(tmp_path, json.dumps(world), code)["robots"]
+
+    assert [robot["settings"] for robot in robots] == [dict(KIT_SETTINGS) if body == "kit" else {}] * 2
