@@ -94,10 +94,16 @@ export class Laboratory extends PlayingPage {
   /** @param {ShownRun} lane */
   removeLane(lane) {
     if (this.lanes.length < 2) return;
-    lane.remove();
+    this.drop(lane);
     this.lanes = this.lanes.filter((other) => other !== lane);
     this.select(this.lanes[0]);
     this.onLanes();
+  }
+
+  /** @param {ShownRun} lane - Is closed. */
+  drop(lane) {
+    lane.remove();
+    this.simulator.queued.delete(lane);
   }
 
   /**
@@ -107,7 +113,7 @@ export class Laboratory extends PlayingPage {
   begin(experiment) {
     const old = this.lanes;
     this.lanes = [];
-    old.forEach((lane) => lane.remove());
+    old.forEach((lane) => this.drop(lane));
     restartNames();
     this.setPlaying(false);
     this.go(0);

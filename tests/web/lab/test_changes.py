@@ -190,6 +190,15 @@ def test_the_button_to_remove_something_is_for_what_is_selected_in_the_selected_
     assert page.is_disabled("#remove-bar")
 
 
+def test_a_run_that_is_closed_is_simulated_no_more(page):
+    waiting = page.evaluate(
+        "(() => { octet.whatIf(), octet.whatIf(), octet.begin(octet.lane.experiment);"
+        " return [...octet.simulator.queued.keys()].map((lane) => lane === octet.lane); })()"
+    )
+
+    assert waiting == [True]
+
+
 PICTURES = """() => [...document.querySelectorAll("#worlds canvas")].map((canvas) => canvas.toDataURL())"""
 DRAWN = "octet.desk.pictures.pictures.every(({ drawn }) => drawn)"
 
