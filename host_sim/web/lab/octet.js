@@ -5,7 +5,7 @@ import { SidePanel } from "./side_panel.js";
 import { byId, isForPage, setText, typedById } from "../core/elements.js";
 import { heard, nameIn, say } from "../core/language.js";
 import { LabEditor } from "./lab_editor.js";
-import { experimentOf } from "./shown_run.js";
+import { experimentOf, inWords } from "./shown_run.js";
 import { nextTick } from "./run_events.js";
 import { Laboratory } from "./laboratory.js";
 import { Course } from "../lessons/course.js";
@@ -98,7 +98,10 @@ class LabPage extends Laboratory {
     if (!data) return;
     /** @type {[number, string][]} */
     const starts = [[0, experiment.robots[robot].profile]];
-    for (const it of experiment.changes) if (it.do === "start" && it.robot === robot) starts.push([it.tick, it.profile]);
+    for (const change of experiment.changes) {
+      const told = inWords(change);
+      if (told.do === "start" && told.robot === robot) starts.push([change.tick, told.profile]);
+    }
     const about = { data, robot, tick: Math.min(this.tick, data.last), told: { starts, health: [] } };
     const [exchange, places] = await this.conversations.ask(who, sentence, about);
     this.talk.answer({ ...exchange, changes: experiment.changes.length }, places);

@@ -3,7 +3,7 @@
 
 import { heard, say } from "../core/language.js";
 import { setText } from "../core/elements.js";
-import { PARAMETERS } from "../generated.js";
+import { OPCODE, PARAMETERS, PROFILES } from "../generated.js";
 import { showTick } from "../draw/recorded_scene.js";
 import { Renderer } from "../draw/renderer.js";
 import { RunData } from "../core/run_data.js";
@@ -89,7 +89,7 @@ export class ShownRun {
   setupAt(tick, robot = this.robot) {
     const { profile, settings } = this.experiment.robots[robot];
     const now = { profile, settings: { ...settings } };
-    for (const change of this.experiment.changes.filter((it) => it.tick <= tick)) {
+    for (const change of this.experiment.changes.filter((it) => it.tick <= tick).map(inWords)) {
       if (change.do === "start" && change.robot === robot) Object.assign(now, { profile: change.profile, settings: { ...settings } });
       if (change.do === "set" && change.robot === robot) now.settings[change.parameter] = change.value;
     }
@@ -194,6 +194,18 @@ export class ShownRun {
   remove() {
     this.figure.remove();
   }
+}
+
+/**
+ * A command of a log as what a person does, if it starts or sets a robot.
+ * @param {Change} change
+ * @returns {Change}
+ */
+export function inWords(change) {
+  if (change.do !== "command") return change;
+  const { robot, opcode, which, value } = change;
+  if (opcode === OPCODE.START) return { do: "start", robot, profile: PROFILES[which] };
+  return opcode === OPCODE.SET ? { do: "set", robot, parameter: Object.keys(PARAMETERS)[which], value } : change;
 }
 
 /**

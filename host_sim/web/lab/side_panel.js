@@ -65,6 +65,8 @@ export class SidePanel {
     this.fault = typedById("fault", HTMLSelectElement);
     this.robotSeed = typedById("robot-seed", HTMLInputElement);
     this.frozen = 0;
+    /** What was last told of files, in the language of the page. */
+    this.fileNews = () => "";
     inEachLanguage(() => this.offer());
     this.bindTabs();
     this.bindRun();
@@ -76,6 +78,7 @@ export class SidePanel {
     offer(this.behaviour, PROFILES.map((name) => [name, heard(name)]));
     offer(this.fault, FAULTS.map((what) => [what, faultName(what)]));
     this.pictures.offer(this.worlds, this.pictures.chosen);
+    this.report(this.fileNews);
   }
 
   bindTabs() {
@@ -144,7 +147,13 @@ export class SidePanel {
    * @param {Promise<void>} done
    */
   tell(done) {
-    done.catch((error) => setText(byId("file-news"), heard(error instanceof Error ? error.message : `${error}`)));
+    done.catch((error) => this.report(() => heard(error instanceof Error ? error.message : `${error}`)));
+  }
+
+  /** @param {() => string} news */
+  report(news) {
+    this.fileNews = news;
+    setText(byId("file-news"), news());
   }
 
   /** @param {SubmitEvent} event */
@@ -155,7 +164,10 @@ export class SidePanel {
 
   /** The experiment that the form describes. */
   get wanted() {
-    const number = (/** @type {string} */ id) => Number(typedById(id, HTMLInputElement).value);
+    const number = (/** @type {string} */ id) => {
+      const field = typedById(id, HTMLInputElement);
+      return Number(field.checkValidity() ? field.value : field.defaultValue);
+    };
     const wanted = { seed: number("seed"), environments: number("environments"), robots: number("robot-count") };
     const body = this.body.value;
     return experimentOf({ ...wanted, profile: this.behaviour.value, world: this.worlds.get(this.pictures.chosen), body });
@@ -226,13 +238,13 @@ export class SidePanel {
     await simulator.memory({ ...lane.experiment, robots }, lane.robot, 0); // it throws if they are not a memory
     lane.setUp({ memory });
     this.lab.simulate(lane);
-    setText(byId("file-news"), say("memoryBegins", { file: file.name }));
+    this.report(() => say("memoryBegins", { file: file.name }));
   }
 
   /** @param {File} file */
   async openWorld(file) {
     this.begin(await this.lab.simulator.world({ name: file.name, text: await file.text() }, this.wanted));
-    setText(byId("file-news"), say("worldBegins", { file: file.name }));
+    this.report(() => say("worldBegins", { file: file.name }));
   }
 
   /**
@@ -240,11 +252,11 @@ export class SidePanel {
    * @param {File | undefined} world
    */
   async openLog(log, world) {
-    setText(byId("file-news"), say("reading", { file: log.name }));
+    this.report(() => say("reading", { file: log.name }));
     const opened = await this.lab.simulator.open(await log.text(), world ? await world.text() : "");
     if (!opened) return;
     this.begin(opened.experiment);
-    setText(byId("file-news"), heard(opened.news));
+    this.report(() => heard(opened.news));
   }
 
   show() {

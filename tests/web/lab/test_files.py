@@ -95,3 +95,42 @@ def test_a_world_file_begins_a_run_in_it(page, tmp_path):
     wait_for_text(page, "#file-news", "A new run in two_walls.toml.")
     assert saved(page, "#save-log") == (tmp_path / "run.log").read_bytes()
     assert page.evaluate("document.querySelector('#worlds input:checked').value") == "two_walls.toml"
+
+
+def test_an_opened_log_shows_the_behaviour_that_its_robot_has_at_that_time(page, tmp_path):
+    page.evaluate("octet.go(400)")
+    page.select_option("#behaviour", "never")
+    simulated(page)
+    (tmp_path / "run.log").write_bytes(saved(page, "#save-log"))
+    (tmp_path / "run.world.json").write_bytes(saved(page, "#save-world"))
+    page.click("#tab-files")
+
+    page.set_input_files("#open", [tmp_path / "run.log", tmp_path / "run.world.json"])
+
+    wait_for_text(page, "#file-news", "byte for byte")
+    simulated(page)
+    page.evaluate("octet.go(300)")
+    wait_for_text(page, "figcaption", "A: article, seed 1")
+    page.evaluate("octet.go(500)")
+    wait_for_text(page, "figcaption", "A: never, seed 1")
+
+
+def test_what_was_told_of_a_file_is_told_in_the_language_that_is_chosen_then(page, tmp_path):
+    (tmp_path / "robot.mem").write_bytes(bytes(8))
+    page.click("#tab-files")
+    page.set_input_files("#open", tmp_path / "robot.mem")
+    wait_for_text(page, "#file-news", "The robot starts with robot.mem.")
+
+    page.select_option("#language", "de")
+
+    assert page.inner_text("#file-news") == "Der Roboter beginnt mit robot.mem."
+
+
+def test_a_field_that_was_emptied_does_not_matter_to_a_world_file(page):
+    page.fill("#robot-count", "")
+    page.click("#tab-files")
+
+    page.set_input_files("#open", ROOT / "docs/worlds/two_walls.toml")
+
+    wait_for_text(page, "#file-news", "A new run in two_walls.toml.")
+    assert page.evaluate("octet.lane.experiment.robots.length") == 1
