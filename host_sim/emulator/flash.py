@@ -46,6 +46,8 @@ class FlashKind:
         lock: Bit LOCK of CR.
         failure: Flag of SR for an internal error.
         registers: Offsets of KEYR, SR and CR.
+        acr: Reset value of ACR.
+        data_cache: Bit DCEN of ACR; 0 if there is no such cache.
     """
 
     pages: Sequence[int]
@@ -56,6 +58,8 @@ class FlashKind:
     lock: int
     failure: int
     registers: tuple[int, int, int] = (0x04, 0x0C, 0x10)
+    acr: int = 0
+    data_cache: int = 0
 
 
 def _disregard() -> None:
@@ -94,7 +98,7 @@ class Flash(Peripheral):
         self.operations = self.erasures = self.code_end = self._keys_taken = 0
         self.on_wait_states: Callable[[], None] = _disregard
         self.on_unreadable: Callable[[], None] = _disregard
-        self._acr = Register("ACR", on_write=self._write_acr)
+        self._acr = Register("ACR", self.kind.acr, on_write=self._write_acr)
         self._cr = Register("CR", self.kind.lock, on_write=self._write_cr)
         self._sr = Register("SR", on_write=self._write_sr)
         keyr, sr, cr = self.kind.registers
@@ -157,6 +161,10 @@ class Flash(Peripheral):
     def _erase(self, page: int) -> None:
         if page >= len(self.kind.pages):
             raise BoardError(f"page {page} of the flash was to be erased, of {len(self.kind.pages)}")
+        if self._acr.value & self.kind.data_cache:
+            raise BoardError(
+                f"page {page} of the flash was to be erased with the data cache on, which keeps what it had"
+            )
         size, offset = self.kind.pages[page], sum(self.kind.pages[:page])
         self._protect(offset)
         self.erasures += 1

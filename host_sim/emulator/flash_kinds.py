@@ -51,6 +51,7 @@ class FlashF4(Flash):
         start=1 << 16,
         lock=1 << 31,
         failure=_F4_OPERR,
+        data_cache=1 << 10,
     )
 
     def refusal(self, offset: int, size: int, value: int) -> int:  # noqa: ARG002 - any place, any value
@@ -80,6 +81,8 @@ class FlashG4(Flash):
         lock=1 << 31,
         failure=_F4_OPERR,
         registers=(0x08, 0x10, 0x14),
+        acr=0x40600,
+        data_cache=1 << 10,
     )
     _WORD, _DOUBLE = 4, 8
 

@@ -44,7 +44,7 @@ class Port(KeptPeripheral):
 
     @abstractmethod
     def outputs(self) -> tuple[int, int]:
-        """Bit masks of the output pins, and of those driven by ODR alone."""
+        """Bit masks of the output pins, and of those that ODR alone drives, both high and low."""
 
     @abstractmethod
     def pulled_up(self) -> int:
@@ -110,7 +110,7 @@ class Port(KeptPeripheral):
 class GpioF1(Port):
     """A port of an STM32F1 (RM0008 9): four mode bits per pin; AFIO routes the alternate functions."""
 
-    _FLOATING, _ALTERNATE, _PULLED = 0x44444444, 2, 2
+    _FLOATING, _PUSH_PULL, _ALTERNATE, _PULLED = 0x44444444, 0, 2, 2
 
     def __init__(self, name: str) -> None:
         """Starts with all pins floating."""
@@ -127,7 +127,7 @@ class GpioF1(Port):
     def outputs(self) -> tuple[int, int]:
         """As in `Port`."""
         outputs = sum(bool(self.mode(pin) & 3) << pin for pin in _PINS)
-        return outputs, sum((self.mode(pin) >> 2 < self._ALTERNATE) << pin for pin in _PINS) & outputs
+        return outputs, sum((self.mode(pin) >> 2 == self._PUSH_PULL) << pin for pin in _PINS) & outputs
 
     def pulled_up(self) -> int:
         """As in `Port`; ODR selects the direction of a pull."""
@@ -157,7 +157,8 @@ class GpioF4(Port):
         """Creates the port in its reset state."""
         self._mode = Register("MODER", self.resets.get(name, self.other_resets))
         self._pull, self._functions = Register("PUPDR"), [Register("AFRL"), Register("AFRH")]
-        modes = {0x00: self._mode, 0x04: Register("OTYPER"), 0x08: Register("OSPEEDR"), 0x0C: self._pull}
+        self._open_drain = Register("OTYPER")
+        modes = {0x00: self._mode, 0x04: self._open_drain, 0x08: Register("OSPEEDR"), 0x0C: self._pull}
         modes |= {0x1C: Register("LCKR"), 0x20: self._functions[0], 0x24: self._functions[1]}
         super().__init__(name, modes, data=0x10)
 
@@ -167,7 +168,7 @@ class GpioF4(Port):
     def outputs(self) -> tuple[int, int]:
         """As in `Port`."""
         plain = self._with(self._mode, self._OUTPUT)
-        return plain | self._with(self._mode, self._ALTERNATE), plain
+        return plain | self._with(self._mode, self._ALTERNATE), plain & ~self._open_drain.value
 
     def pulled_up(self) -> int:
         """As in `Port`."""

@@ -187,6 +187,8 @@ class Rcc(Peripheral):
 
     def _write_cr(self, value: int) -> None:
         starts_pll = value & ~self._cr.value & 1 << self.bits[PLL][0]
+        if any(not value >> self.bits[source][0] & 1 for source in self._in_use()):
+            raise BoardError("RCC CR was written to stop what the core runs from")
         if starts_pll and not self._ready(self.pll_source()):
             raise BoardError("RCC CR was written to start the PLL from an oscillator that does not run")
         if starts_pll:
@@ -197,6 +199,10 @@ class Rcc(Peripheral):
                 self._ready_at.pop(source, None)
             elif source not in self._ready_at and source not in self._dead:
                 self._ready_at[source] = self._clock.now + self._startup[source]
+
+    def _in_use(self) -> set[str]:
+        source = self.sources[self.cfgr.value >> 2 & 3]
+        return {source, self.pll_source()} if source == PLL else {source}
 
     def _switch(self, value: int) -> None:
         """Writes CFGR: SWS follows SW if the selected clock runs."""

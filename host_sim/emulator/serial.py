@@ -11,9 +11,19 @@ from host_sim.transport.slcan_link import decode
 BAUD = 115_200
 _BYTE_SPAN = 10 * SECOND // BAUD
 _RATE_TOLERANCE = 0.02
-_ORE, _RXNE, _TC, _TXE, _RE, _INTERRUPTS = 1 << 3, 1 << 5, 1 << 6, 1 << 7, 1 << 2, 0x1F0
+_ORE, _RXNE, _TC, _TXE, _RE, _TE = 1 << 3, 1 << 5, 1 << 6, 1 << 7, 1 << 2, 1 << 3
 _LINE_END = ord("\r")
 _FIFO, _FIFO_ON = 8, 1 << 29
+
+
+def _always_0(name: str) -> Register:
+    """A register whose functions are not modelled."""
+
+    def write(value: int) -> None:
+        if value:
+            raise BoardError(f"USART {name} was written 0x{value:X}, which is not modelled")
+
+    return Register(name, on_write=write)
 
 
 class Usart(Peripheral):
@@ -23,8 +33,8 @@ class Usart(Peripheral):
         depth: Capacity of the receive buffer, and of the transmit buffer behind the shift register, bytes.
     """
 
-    on_bit, baud_at = 13, 0x08
-    """Bit UE of CR1, and the offset of BRR."""
+    on_bit, baud_at, others = 13, 0x08, 0
+    """Bit UE of CR1, the offset of BRR, and further bits of CR1 that are modelled."""
 
     def __init__(self, clock: Clock, bus_hz: Callable[[], int], heard: Callable[[int], None]) -> None:
         """At rest.
@@ -44,8 +54,8 @@ class Usart(Peripheral):
 
     def layout(self) -> dict[int, Register]:
         """The registers by offset."""
-        names = {0x08: "BRR", 0x10: "CR2", 0x14: "CR3", 0x18: "GTPR"}
-        return {offset: Register(name) for offset, name in names.items()} | {
+        return {offset: _always_0(name) for offset, name in ((0x10, "CR2"), (0x14, "CR3"), (0x18, "GTPR"))} | {
+            0x08: Register("BRR"),
             0x00: Register("SR", on_read=self._read_status, on_write=ignore),
             0x04: Register("DR", on_read=self._accept_and_clear, on_write=self._put),
             0x0C: self._cr1,
@@ -83,6 +93,7 @@ class Usart(Peripheral):
         """Receives a byte; it is lost if the receiver is off or the buffer is full."""
         if not self._cr1.value >> self.on_bit & 1 or not self._cr1.value & _RE:
             return
+        self._check_rate()
         self._overrun = self._overrun or len(self._received) == self.depth
         if len(self._received) < self.depth:
             self._received.append(byte)
@@ -103,35 +114,44 @@ class Usart(Peripheral):
     def _put(self, value: int) -> None:
         if len(self._leaving) > self.depth:
             raise BoardError("USART was written a byte to send while TXE is 0")
+        if not self._cr1.value >> self.on_bit & 1 or not self._cr1.value & _TE:
+            raise BoardError("USART was written a byte to send while its transmitter is off")
+        self._check_rate()
         if not self._leaving:
             self._left_at = self._clock.now + _BYTE_SPAN
         self._leaving.append(value & 0xFF)
         self._alarm.set(self._next())
 
     def _write_cr1(self, value: int) -> None:
-        if value & _INTERRUPTS:
-            raise BoardError("USART interrupts were enabled, which are not modelled")
-        rate = self._bus_hz() / max(self.registers[self.baud_at].value, 1)
-        if value >> self.on_bit & 1 and abs(rate - BAUD) > BAUD * _RATE_TOLERANCE:
-            raise BoardError(f"USART was set up for {rate:.0f} baud, on a line of {BAUD}")
+        if value & ~(1 << self.on_bit | _TE | _RE | self.others):
+            raise BoardError(
+                f"USART CR1 was written 0x{value:X}: interrupts and other bytes than 8N1 are not modelled"
+            )
+        if value >> self.on_bit & 1:
+            self._check_rate()
         self._cr1.value = value
+
+    def _check_rate(self) -> None:
+        rate = self._bus_hz() / max(self.registers[self.baud_at].value, 1)
+        if abs(rate - BAUD) > BAUD * _RATE_TOLERANCE:
+            raise BoardError(f"USART was set up for {rate:.0f} baud, on a line of {BAUD}")
 
 
 class UsartG4(Usart):
     """The serial port of the G4, with FIFOs and a flag clear register."""
 
-    on_bit, baud_at = 0, 0x0C
+    on_bit, baud_at, others = 0, 0x0C, _FIFO_ON
 
     def layout(self) -> dict[int, Register]:
         """As in `Usart`."""
-        names = {0x04: "CR2", 0x08: "CR3", 0x0C: "BRR", 0x10: "GTPR", 0x14: "RTOR", 0x18: "RQR"}
-        return {offset: Register(name) for offset, name in names.items()} | {
+        names = {0x04: "CR2", 0x08: "CR3", 0x10: "GTPR", 0x14: "RTOR", 0x18: "RQR", 0x2C: "PRESC"}
+        return {offset: _always_0(name) for offset, name in names.items()} | {
             0x00: self._cr1,
+            0x0C: Register("BRR"),
             0x1C: Register("ISR", on_read=self._read_status, on_write=ignore),
             0x20: Register("ICR", on_write=self._clear),
             0x24: Register("RDR", on_read=self._accept, on_write=ignore),
             0x28: Register("TDR", on_write=self._put),
-            0x2C: Register("PRESC", on_write=self._write_presc),
         }
 
     def _write_cr1(self, value: int) -> None:
@@ -142,11 +162,6 @@ class UsartG4(Usart):
 
     def _clear(self, value: int) -> None:
         self._overrun = self._overrun and not value & _ORE
-
-    @staticmethod
-    def _write_presc(value: int) -> None:
-        if value:
-            raise BoardError("USART PRESC was written, which is not modelled")
 
 
 class SlcanLine:

@@ -32,6 +32,7 @@ def g4(clock, **faults):
     for key in KEYS:
         write(flash, 0x08, key)
     write(flash, G4_CR, 1)
+    write(flash, 0x00, 0)  # no data cache
     return flash
 
 
@@ -109,6 +110,21 @@ def test_an_f4_refuses_writes_of_another_size_or_without_consent(clock, control,
 
     assert read(flash, SR) == flag
     assert flash.read(0x4000, 4) == 0xFFFFFFFF
+
+
+@pytest.mark.parametrize(("make", "cr", "erase"), [(f4, CR, 1 << 1 | 1 << 16), (g4, G4_CR, 1 << 1 | 1 << 16)])
+def test_what_a_data_cache_would_go_on_to_show_is_not_erased(clock, make, cr, erase):
+    flash = make(clock)
+    write(flash, 0x00, 1 << 10)
+
+    with pytest.raises(BoardError, match="data cache"):
+        write(flash, cr, erase)
+    write(flash, 0x00, 0)
+    write(flash, cr, erase)
+
+
+def test_a_data_cache_of_a_g4_is_on_after_a_reset(clock):
+    assert read(FlashG4(clock, FlashFaults()), 0x00) == 0x40600
 
 
 def test_a_locked_flash_takes_no_orders(clock):

@@ -36,6 +36,16 @@ def test_an_output_reads_back_and_an_alternate_one_is_not_the_images():
     assert read(port, IDR) == 3
 
 
+def test_an_open_drain_drives_nothing_high():
+    f1, g4 = GpioF1("GPIOA"), GpioG4("GPIOC")
+    write(f1, CRL, 0x44444462)
+    write(f1, BSRR, 3)
+    write(g4, 0x00, 0xFFFFFFF5)
+    write(g4, 0x04, 2)
+    write(g4, 0x18, 3)
+    assert [port.drives(pin) for port in (f1, g4) for pin in (0, 1)] == [True, False, True, False]
+
+
 @pytest.fixture
 def wiring():
     ports = [GpioF1(f"GPIO{letter}") for letter in "ABC"]

@@ -154,6 +154,20 @@ def test_a_pll_is_not_set_up_while_it_is_on(clock):
     assert read(f1, 0x04) == 4 << 8
 
 
+@pytest.mark.parametrize("stopped", [16, 24])
+def test_what_the_core_runs_from_is_not_switched_off(clock, stopped):
+    rcc = rcc_of(STM32F103, clock)
+    start(rcc, clock, 16)
+    write(rcc, 0x04, 4 << 8 | 1 << 16 | 7 << 18)
+    start(rcc, clock, 24)
+    write(rcc, 0x04, 4 << 8 | 1 << 16 | 7 << 18 | 2)
+
+    with pytest.raises(BoardError, match="stop what the core runs from"):
+        write(rcc, 0x00, read(rcc, 0x00) & ~(1 << stopped))
+    write(rcc, 0x04, 4 << 8 | 1 << 16 | 7 << 18)
+    write(rcc, 0x00, 1)
+
+
 def test_causes_of_resets_are_noted_until_cleared(clock):
     rcc = rcc_of(STM32F405, clock)
     rcc.restart("watchdog")

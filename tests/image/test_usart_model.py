@@ -127,6 +127,31 @@ def test_another_speed_than_the_lines_is_an_error():
         write(usart, 0x0C, 1 << 5)
 
 
+def test_a_byte_needs_a_transmitter_to_be_sent():
+    port = Port()
+    for setup in (3 << 2, 1 << 13 | 1 << 2):
+        write(port.usart, 0x0C, setup)
+        with pytest.raises(BoardError, match="transmitter"):
+            write(port.usart, 0x04, ord("x"))
+
+
+def test_a_clock_that_changes_later_spoils_the_speed():
+    hz = [8_000_000]
+    usart = Usart(Clock(1), lambda: hz[0], lambda _byte: None)
+    write(usart, 0x08, 69)
+    write(usart, 0x0C, 1 << 13 | 3 << 2)
+    hz[0] = 72_000_000
+
+    with pytest.raises(BoardError, match="1043478 baud"):
+        write(usart, 0x04, ord("x"))
+
+
+@pytest.mark.parametrize(("offset", "value"), [(0x0C, 1 << 12), (0x0C, 1 << 10), (0x10, 2 << 12), (0x14, 1 << 3)])
+def test_another_form_of_a_byte_than_the_lines_is_an_error(offset, value):
+    with pytest.raises(BoardError, match="not modelled"):
+        write(Port().usart, offset, value | (1 << 13 | 3 << 2) * (offset == 0x0C))
+
+
 def test_a_line_that_is_no_frame_is_dropped():
     heard = []
     line = SlcanLine(heard.append)
