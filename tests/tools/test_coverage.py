@@ -9,6 +9,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
+from tests.tools.project import script_named  # noqa: E402 - found by the line above
 from tools.verify.coverage.measure import CLANG, COPY, FLAGS, NOT_MEASURED, Gap, MeasureError, measure  # noqa: E402 - found by the line above
 from tools.verify.exceptions import compare, read  # noqa: E402
 
@@ -110,6 +111,23 @@ def test_a_decision_that_cannot_be_measured_is_told(tmp_path):
     ).stderr
 
     assert NOT_MEASURED in said
+
+
+def test_a_build_that_broke_off_warns_again(tmp_path, monkeypatch):
+    script = script_named("coverage")
+    monkeypatch.setattr(script, "BUILD", tmp_path / "coverage")
+
+    def output_of(*words: object) -> str:
+        script.BUILD.mkdir(exist_ok=True)
+        if "--build" in words:
+            raise MeasureError("another file does not compile")
+        return ""
+
+    monkeypatch.setattr(script.command, "output_of", output_of)
+    with pytest.raises(MeasureError, match="another file"):
+        script.build()
+
+    assert not script.BUILD.exists()
 
 
 @pytest.mark.parametrize(
