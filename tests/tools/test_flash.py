@@ -82,6 +82,24 @@ def test_a_link_that_does_not_exist_is_refused() -> None:
         build(BOARDS["nucleo_g431rb"], "bxcan", 1, 500_000)
 
 
+@pytest.mark.parametrize(("configured_s", "stays"), [(1, False), (3, True)])
+def test_a_toolchain_that_changed_is_configured_anew(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, configured_s: int, stays: bool
+) -> None:
+    folder = tmp_path / "build/flash/blue_pill"
+    for path, at_s in ((tmp_path / "tools/cmake/arm.cmake", 2), (folder / "CMakeCache.txt", configured_s)):
+        path.parent.mkdir(parents=True)
+        path.touch()
+        os.utime(path, (at_s, at_s))
+    (tmp_path / "cmake").write_text("#!/bin/sh\n")
+    (tmp_path / "cmake").chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+
+    build(BOARDS["blue_pill"], "bxcan", 1, 500_000, tmp_path)
+
+    assert (folder / "CMakeCache.txt").exists() == stays
+
+
 def test_an_image_says_what_it_is(tmp_path: Path) -> None:
     image = identify(image_file(tmp_path, "blue_pill", "stm32f103"), BOARDS["blue_pill"])
     assert (image.chip, image.version, image.dbc) == ("stm32f103", "1.0-3-gabc", "7827")

@@ -1,6 +1,7 @@
 """Boards, and the images that are built for them."""
 
 import re
+import shutil
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
@@ -88,6 +89,10 @@ def build(board: Board, link: str, node: int, bitrate: int, root: Path = ROOT) -
     if link not in board.links:
         raise ChoiceError(f"no link {link} on {board.name}; there are {', '.join(board.links)}")
     folder = root / "build" / "flash" / board.name
+    cache = folder / "CMakeCache.txt"
+    newest_s = max((path.stat().st_mtime for path in (root / "tools/cmake").glob("*.cmake")), default=0.0)
+    if cache.exists() and cache.stat().st_mtime < newest_s:
+        shutil.rmtree(folder)  # CMake takes nothing new from a toolchain into a folder that it has configured
     settings = [f"-DOCTET_NODE={node}", f"-DOCTET_CAN_BITRATE={bitrate}"]
     for command in (["--preset", board.name, "-B", str(folder), *settings], ["--build", str(folder)]):
         done = subprocess.run(["cmake", *command], cwd=root, capture_output=True, text=True, check=False)
