@@ -3,6 +3,7 @@
 from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 
+from host_sim.emulator.clock import SECOND, Clock
 from host_sim.emulator.registers import BoardError, Peripheral, Register
 
 _ADON, _CONT, _CALIBRATE, _FORGET, _DMA, _SCAN = 1, 1 << 1, 1 << 2, 1 << 3, 1 << 8, 1 << 8
@@ -10,6 +11,7 @@ _CALIBRATIONS, _LOOKS = _CALIBRATE | _FORGET, 2
 _BEGIN, _SOFTWARE = 1 << 22, 7 << 17 | 1 << 20
 _SAMPLE_MAX, _PLACES_MAX = 4095, 6
 _G4_ON, _G4_START, _G4_REGULATOR, _G4_ASLEEP, _G4_CALIBRATE = 1, 1 << 2, 1 << 28, 1 << 29, 1 << 31
+_G4_REGULATED = 20 * SECOND // 10**6
 _G4_CFGR, _G4_DIVISORS = 1 << 13 | 3, (0, 1, 2, 4)
 _G4_ISR, _G4_SQR1, _G4_CCR, _ADC1_REQUEST = 0x00, 0x30, 0x308, 5
 _CHANNEL_ON, _CIRCULAR, _MINC, _HALVES = 1, 1 << 5, 1 << 7, 1 << 8 | 1 << 10
@@ -153,11 +155,11 @@ class ConverterF1(Converter):
 
 
 class ConverterG4(Converter):
-    """ADC1 of an STM32G4. All operations complete at once."""
+    """ADC1 of an STM32G4. All operations complete at once, but for the start of its regulator."""
 
     data, hz_max = 0x40, 60_000_000
 
-    def __init__(self, base: int, hz: Callable[[], int], dma: Dma, multiplexer: Multiplexer) -> None:
+    def __init__(self, base: int, hz: Callable[[], int], dma: Dma, multiplexer: Multiplexer, clock: Clock) -> None:
         """As in `Converter`.
 
         Args:
@@ -165,8 +167,9 @@ class ConverterG4(Converter):
             hz: Returns the frequency of its bus, Hz.
             dma: Stores its samples.
             multiplexer: Selects the DMA request.
+            clock: The board's clock.
         """
-        self._multiplexer = multiplexer
+        self._multiplexer, self._clock, self._regulated_at = multiplexer, clock, 0
         self._cr = Register("CR", _G4_ASLEEP, on_write=self._write_cr)
         names = {0x0C: "CFGR", 0x10: "CFGR2", 0x14: "SMPR1", 0x18: "SMPR2", 0x30: "SQR1", 0x34: "SQR2"}
         registers = {offset: Register(name) for offset, name in {**names, _G4_CCR: "CCR", self.data: "DR"}.items()}
@@ -189,8 +192,11 @@ class ConverterG4(Converter):
     def _write_cr(self, value: int) -> None:
         before = self._cr.value
         on = (value | before) & _G4_ON
-        if (on or value & _G4_CALIBRATE) and not before & _G4_REGULATOR:
-            raise BoardError("ADC1 was switched on or calibrated before its regulator")
+        if value & ~before & _G4_REGULATOR:
+            self._regulated_at = self._clock.now + _G4_REGULATED
+        regulated = before & _G4_REGULATOR and self._clock.now >= self._regulated_at
+        if (on or value & _G4_CALIBRATE) and not regulated:
+            raise BoardError("ADC1 was switched on or calibrated before its regulator had been on for 20 us")
         if value & _G4_CALIBRATE and before & _G4_ON:
             raise BoardError("ADC1 was calibrated while it was on")
         if value & _G4_ON:

@@ -172,10 +172,6 @@ class Core:
         self._uc.mem_unmap(base, size)
         self._uc.ctl_flush_tb()
 
-    def clear_ram(self, base: int, size: int) -> None:
-        """Clears a RAM, as after a loss of power."""
-        self._uc.mem_write(base, bytes(size))
-
     def write(self, address: int, data: bytes) -> None:
         """Writes to memory from outside the core."""
         self._uc.mem_write(address, data)

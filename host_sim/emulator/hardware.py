@@ -1,5 +1,6 @@
 """The hardware of a board: one chip with its memories and peripherals, a CAN bus and a serial line."""
 
+import random
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -177,14 +178,13 @@ class Hardware:
             self.core.stop()
 
     def restart(self, cause: str) -> None:
-        """Resets the chip; a loss of power clears the RAM too.
+        """Resets the chip; a loss of power scrambles the RAM too.
 
         Args:
             cause: `power`, `software` or `watchdog`.
         """
         if cause == "power":
-            for base, size in self.chip.ram:
-                self.core.clear_ram(base, size)
+            self._scramble_ram()
         for _, peripheral in self._peripherals:
             peripheral.reset()
         self.rcc.restart(cause)
@@ -225,13 +225,14 @@ class Hardware:
         made: list[tuple[int, Peripheral]] = [(_TIM1_BASE, motors), (_DMA_BASE, dma)]
         made += [(_COUNTERS[name], timer) for name, timer in timers.items()]
         gates = [parts.motors, parts.dma, *((parts.counters[0], parts.counters[1] + n) for n in range(len(timers)))]
-        before_dma = []
+        special: list[Multiplexer | Clock] = []
         if parts.multiplexed is not None:
             gate, base = parts.multiplexed
-            before_dma = [Multiplexer()]
-            made.append((base, before_dma[0]))
+            multiplexer = Multiplexer()
+            special = [multiplexer, self.clock]
+            made.append((base, multiplexer))
             gates.append(gate)
-        converter = parts.converter(parts.adc_base, rcc.adc_hz, dma, *before_dma)
+        converter = parts.converter(parts.adc_base, rcc.adc_hz, dma, *special)
         made.append((parts.adc_base, converter))
         for gate, (_, peripheral) in zip([*gates, parts.adc], made, strict=True):
             rcc.add_gate(*gate, peripheral)
@@ -251,6 +252,12 @@ class Hardware:
             self.core.add_registers(Window(base, size, space.read, space.write, space.model))
         for base, size in self.chip.ram:
             self.core.add_ram(base, size)
+        self._scramble_ram()
+
+    def _scramble_ram(self) -> None:
+        """Fills the RAM with noise, as a loss of power does; the same each time."""
+        for base, size in self.chip.ram:
+            self.core.write(base, random.Random(base).randbytes(size))
 
     def _hear(self, frame: CanFrame) -> None:
         if self.on_bus:

@@ -234,9 +234,9 @@ ON, START, REGULATOR, CALIBRATE = 1, 4, 1 << 28, 1 << 31
 
 
 @pytest.fixture
-def converter_g4():
+def converter_g4(clock):
     dma, before = Dma(), Multiplexer()
-    made = ConverterG4(0x50000000, lambda: 80_000_000, dma, before)
+    made = ConverterG4(0x50000000, lambda: 80_000_000, dma, before, clock)
     for offset, value in ((0x08, 0x5A1), (0x0C, 6), (0x10, 0x50000040), (0x14, 0x20000100)):
         write(dma, offset, value)
     write(before, 0, 5)
@@ -251,6 +251,7 @@ def converter_g4():
 def switched_on(made):
     for value in (0, CALIBRATE, ON, ON | START):
         write(made, 0x08, REGULATOR | value)
+        made._clock.skip(20 * SECOND // 10**6)
         assert read(made, 0x08) & CALIBRATE == 0
     assert read(made, 0x00) == ON
     return made
@@ -269,6 +270,7 @@ def test_a_g4_converts_a_round_over_two_registers_in_its_order(converter_g4):
     ("words", "why"),
     [
         ([ON], "before its regulator"),
+        ([0, REGULATOR, REGULATOR | CALIBRATE], "before its regulator"),
         ([REGULATOR, REGULATOR | ON, REGULATOR | CALIBRATE], "calibrated while it was on"),
     ],
 )
@@ -276,6 +278,7 @@ def test_what_a_g4s_converter_cannot_do_is_refused(converter_g4, words, why):
     made, _ = converter_g4
     for value in words[:-1]:
         write(made, 0x08, value)
+        made._clock.skip((19 if words[0] == 0 else 20) * SECOND // 10**6)
     with pytest.raises(BoardError, match=why):
         write(made, 0x08, words[-1])
 
@@ -285,6 +288,7 @@ def test_a_g4s_converter_needs_a_clock_that_it_can_follow(converter_g4, divisor,
     made, _ = converter_g4
     write(made, 0x308, divisor << 16)
     write(made, 0x08, REGULATOR)
+    made._clock.skip(20 * SECOND // 10**6)
     with pytest.raises(BoardError, match=f"at {hz} Hz, where 60000000 is allowed"):
         write(made, 0x08, REGULATOR | ON)
 

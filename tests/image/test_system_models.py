@@ -1,13 +1,17 @@
 """The models of timers, pins, the core and its system control, against the reference manuals."""
 
+from functools import partial
+
 import pytest
 
 from host_sim.backends.robot_process import PROGRAM
 from host_sim.base.errors import OctetError
 from host_sim.emulator.board import load_segments
 from host_sim.emulator.c_models import c_models
+from host_sim.emulator.chips import STM32F103
 from host_sim.emulator.clock import SECOND
 from host_sim.emulator.core import PAGE, Core
+from host_sim.emulator.hardware import Faults, Hardware
 from host_sim.emulator.ports import GpioF1, GpioF4, GpioG4
 from host_sim.emulator.registers import BoardError
 from host_sim.emulator.system import SystemControl, SysTick, Watchdog
@@ -114,6 +118,20 @@ def test_a_core_that_faults_in_its_fault_handler_locks_up(clock):
 
     with pytest.raises(BoardError, match="locked up: a fault at 0x00000000"):
         core.run()
+
+
+def test_a_ram_holds_noise_after_a_loss_of_power():
+    board = Hardware(STM32F103, Faults(), lambda _frame: None, lambda _cause: None)
+    board.flash_image([(0x08000000, bytes(8))])
+    read_ram = partial(board.core._uc.mem_read, *STM32F103.ram[0])
+    noise = read_ram()
+    board.core.write(STM32F103.ram[0][0], bytes(PAGE))
+    board.restart("software")
+    kept = read_ram()
+    board.restart("power")
+
+    assert kept[:PAGE] == bytes(PAGE) != noise[:PAGE]
+    assert read_ram() == noise
 
 
 def test_the_causes_of_faults_are_cleared_by_writing_ones():
