@@ -169,14 +169,21 @@ static bool is_told(struct hal *hal, struct command *command)
     return true;
 }
 
+static void live(const struct hal *hal)
+{
+    port_alive(guard_forbids(&hal->guard) || (hal->upkeep.calibration.refused != 0 && !hal->running));
+}
+
 /* Commands to a robot at rest are taken before its next tick, so that no tick comes in between. */
 static enum input_kind take_order(struct hal *hal, struct input *in)
 {
     enum input_kind kind = telemetry_receive(in);
 
     hal->asked = kind == INPUT_COMMAND;
-    if (hal->asked && hal->told_mm_s[0] == 0 && hal->told_mm_s[1] == 0)
+    if (hal->asked && hal->told_mm_s[0] == 0 && hal->told_mm_s[1] == 0) {
         hal->beat = BEAT_DARK;
+        live(hal);
+    }
     if (hal->asked) {
         upkeep_serve(&hal->upkeep, &in->command, hal->running);
         upkeep_use(&hal->upkeep, &hal->proximity, hal->wheels);
@@ -191,8 +198,8 @@ int hal_receive(struct hal *hal, struct input *in)
 
         if (kind != INPUT_SILENCE)
             return (int)kind;
-        port_alive(guard_forbids(&hal->guard) || (hal->upkeep.calibration.refused != 0 && !hal->running));
     } while (!pass_beat(hal));
+    live(hal);
     if (is_told(hal, &in->command))
         return INPUT_COMMAND;
     fill_senses(hal, &in->senses);
