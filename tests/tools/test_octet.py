@@ -188,13 +188,14 @@ def test_the_words_of_the_command_line_are_those_that_are_generated() -> None:
 
 
 def test_a_package_that_is_gone_from_the_venv_is_one_line() -> None:
-    without = "import runpy, sys; sys.modules['PIL'] = None; runpy.run_module('host_sim', run_name='__main__')"
+    without = "import runpy, sys; sys.modules['can'] = None; runpy.run_module('host_sim', run_name='__main__')"
+    words = ("run", "--bus", "socketcan:nowhere")
     done = subprocess.run(
-        [sys.executable, "-c", without, "run"], capture_output=True, text=True, check=False, cwd=ROOT
+        [sys.executable, "-c", without, *words], capture_output=True, text=True, check=False, cwd=ROOT
     )
 
     assert done.returncode == 1
-    assert done.stderr == "octet: PIL is missing from .venv: remove that folder and run the command again\n"
+    assert done.stderr == "octet: can is missing from .venv: remove that folder and run the command again\n"
 
 
 PYTHON = b"#!/usr/bin/env python3\n"
