@@ -10,7 +10,7 @@ from host_sim.backends.programmed_robot import check_program
 from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import DoubtfulError, OctetError, UsageError
 from host_sim.cli.interruption import stop_soon
-from host_sim.cli.outputs import PAGE, PICTURE, SUMMARY, Outputs, tell
+from host_sim.cli.outputs import FAULTS, PAGE, PICTURE, REFUSED, SUMMARY, Outputs, tell
 from host_sim.cli.run_options import LOGS, RunOptions
 from host_sim.cli.run_through import each, open_listener, run_through
 from host_sim.client.commands import stop
@@ -27,12 +27,6 @@ from host_sim.sim.make import Memory, make
 from host_sim.sim.simulation import Simulation
 from host_sim.world.body_kinds import body_kind
 from host_sim.world.worlds import world_of
-
-FAULTS = "faults.txt"
-"""File in the run's folder: the faults that were injected."""
-
-REFUSED = "refused.log"
-"""File in the run's folder: the frames that were refused, each with its reason."""
 
 _NOTHING = (0,) * CELL_COUNT
 
@@ -155,15 +149,12 @@ def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
 
 
 def _write_refused(path: Path, clients: Sequence[RobotClient]) -> None:
-    """Writes the refused frames in order of time, or removes the file of an earlier run if there are none."""
+    """Writes the refused frames, if there are any, in order of time."""
     lines = sorted(line for client in clients for line in client.refused.lines)
     more = sum(client.refused.unlisted for client in clients)
     left_out = [f"# and {more} more, not recorded"] if more else []
     if lines:
         write_bytes(path, "".join(f"{line}\n" for line in [*lines, *left_out]).encode())
-    else:
-        with suppress(OSError):  # a missing or read-only folder is reported elsewhere
-            path.unlink(missing_ok=True)
 
 
 def _print_robot(options: RunOptions, client: RobotClient) -> None:

@@ -5,7 +5,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from host_sim.base.atomic_file import write_bytes
-from host_sim.cli.outputs import SUMMARY, tell
+from host_sim.base.counted import counted
+from host_sim.cli.outputs import FLEET_PAGE, FLEET_PICTURE, SUMMARY, keep_earlier, tell
 from host_sim.cli.progress_line import ProgressLine
 from host_sim.cli.run_options import FLEET_TABLE, RunOptions
 from host_sim.recording.fleet_summary import summarize_fleet, table
@@ -18,9 +19,6 @@ from host_sim.sim.fleet_film import FleetFilm
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.params import SimParams
 from host_sim.world.worlds import world_of
-
-PICTURE, PAGE = "fleet.png", "fleet.html"
-"""The files of a fleet in its output folder, beside its table."""
 
 _WHERE = {"one": "all in one world", "own": "each in its own world", "hall": "all in one hall"}
 
@@ -39,18 +37,19 @@ def conduct_fleet(options: RunOptions) -> Summary:
     run = run_fleet(config, _progress_shown(line, config, results), film)
     with run_folder(options.out):
         if options.talks:
-            what = f"{config.robots} robots, {_WHERE[config.worlds]}, profile {config.profile}"
+            what = f"{counted(config.robots, 'robot')}, {_WHERE[config.worlds]}, profile {config.profile}"
             print(f"fleet     {what}, seeds from {config.seed}")
         began = time.monotonic()
         for result in run:
             results.append(result)  # noqa: PERF402 - the progress reads it meanwhile
         line.clear()
         summary = summarize_fleet(config, results, SimParams.tick_s, time.monotonic() - began)
+        keep_earlier(options)
         write_bytes(options.out / FLEET_TABLE, table(results).encode())
-        _draw(options.out / PICTURE, config, results)
-        write_fleet_page(options.out / PAGE, config, film, _params(config))
+        _draw(options.out / FLEET_PICTURE, config, results)
+        write_fleet_page(options.out / FLEET_PAGE, config, film, _params(config))
         summary.write(options.out / SUMMARY)
-    tell(options, summary, [options.out / name for name in (PAGE, PICTURE, FLEET_TABLE, SUMMARY)])
+    tell(options, summary, [options.out / name for name in (FLEET_PAGE, FLEET_PICTURE, FLEET_TABLE, SUMMARY)])
     return summary
 
 

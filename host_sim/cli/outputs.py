@@ -16,7 +16,7 @@ from host_sim.base.extra_library import missing
 from host_sim.base.paths import PAGE_WASM, as_called
 from host_sim.base.regular_file import read_bytes
 from host_sim.base.system import signals_held
-from host_sim.cli.run_options import LOGS, RunOptions
+from host_sim.cli.run_options import FLEET_TABLE, LOGS, RunOptions
 from host_sim.client.frame_log import FrameLog
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, summarize
@@ -28,6 +28,17 @@ from host_sim.view.news import news_of
 
 SUMMARY, PICTURE, PAGE = "summary.json", "arena.png", "replay.html"
 """The files in a run's output folder, beside the log and its world file."""
+
+FAULTS = "faults.txt"
+"""File in the run's folder: the faults that were injected."""
+
+REFUSED = "refused.log"
+"""File in the run's folder: the frames that were refused, each with its reason."""
+
+FLEET_PICTURE, FLEET_PAGE = "fleet.png", "fleet.html"
+"""The files of a fleet in its output folder, beside its table and summary."""
+
+_ALL = (SUMMARY, PICTURE, PAGE, FAULTS, REFUSED, FLEET_PICTURE, FLEET_PAGE, FLEET_TABLE, *LOGS)
 
 _SUMMARY_MAX = 10_000_000
 
@@ -83,18 +94,10 @@ class Outputs:
         Raises:
             OctetError: The log could not be written.
         """
-        out, log = self.options.out, self.options.log
         self.log.flush()
-        earlier = [*(out / name for name in (SUMMARY, PICTURE, PAGE, *LOGS)), world_path(log)]
-        if any(map(Path.exists, earlier)):
-            replaced, kept = f"replaced  the run in {out}{_seed_of(out / SUMMARY)}", _beside(out)
-            for path in earlier:
-                _keep(path)
-            if self.options.talks:
-                there = any((kept / path.name).exists() for path in earlier)
-                print(replaced + f", which is in {kept.name} now" * there)
+        keep_earlier(self.options)
         digest = self.log.close()
-        write_world(self.simulation.record, world_path(log))
+        write_world(self.simulation.record, world_path(self.options.log))
         return digest
 
     def _draw(self) -> None:
@@ -123,6 +126,23 @@ class Outputs:
         clients = self.simulation.clients
         commands = sorted((it for client in clients for it in client.dialogue.commands), key=itemgetter(0))
         return laboratory(self.options.log, trajectory, self.simulation.record, commands)
+
+
+def keep_earlier(options: RunOptions) -> None:
+    """Moves the files of an earlier run to the folder `OUT.1`, and says so.
+
+    Raises:
+        OctetError: One cannot be moved.
+    """
+    out = options.out
+    earlier = [*(out / name for name in _ALL), world_path(options.log)]
+    if any(map(Path.exists, earlier)):
+        replaced, kept = f"replaced  the run in {out}{_seed_of(out / SUMMARY)}", _beside(out)
+        for path in earlier:
+            _keep(path)
+        if options.talks:
+            there = any((kept / path.name).exists() for path in earlier)
+            print(replaced + f", which is in {kept.name} now" * there)
 
 
 def tell(options: RunOptions, summary: Summary, files: Sequence[Path]) -> None:

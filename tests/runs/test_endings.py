@@ -154,6 +154,16 @@ def test_the_run_before_is_kept_beside(tmp_path):
     assert_whole(kept, 4)
 
 
+def test_whatever_the_next_run_is_the_run_before_is_kept_whole(tmp_path):
+    out, kept = tmp_path / "out", tmp_path / "out.1"
+    for words in (("--fault", "forge/from"), ("--robots", "40"), ()):
+        before = {path.name: path.read_bytes() for path in out.glob("*")}
+        octet("run", *SHORT, *words, "--out", out)
+        assert {path.name: path.read_bytes() for path in kept.glob("*")} == before
+
+    assert_whole(out, 1)
+
+
 @pytest.mark.parametrize(
     "words", [("run", "--bus", "foo:1", "--robot", "external"), ("watch", "--bus", "none", "--terminal")]
 )
