@@ -17,7 +17,7 @@ from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
-from host_sim.base.errors import OctetError
+from host_sim.base.errors import OctetError, UsageError
 from host_sim.base.paths import ROOT, as_called
 from host_sim.base.system import ENDING_SIGNALS
 from host_sim.cli.parsing import Parser
@@ -97,7 +97,10 @@ def _run(action: Callable[[], int]) -> int:
             _drop_output()
             return 1
         except OSError as error:
-            if not _is_full(error):
+            if error.filename is not None:  # one of the command line: others are caught where they are used
+                print(f"octet: cannot use {error.filename}: {error.strerror}", file=sys.stderr)
+                return UsageError.exit_code
+            if error.errno not in _FULL:
                 raise
             _drop_output()
             print(f"octet: cannot write to standard output: {error.strerror}", file=sys.stderr)
@@ -129,7 +132,7 @@ def parser_of(given: Sequence[str]) -> Parser:
 def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     given = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
     if given == ["--version"]:
-        print(_version())
+        print(_version(), flush=True)
         raise SystemExit(0)
     parsed, unknown = parser_of(given).parse_known_args(given)
     if unknown:
@@ -186,11 +189,6 @@ def _open_closed() -> None:
     sys.stdin = sys.stdin or open(0, closefd=False)  # noqa: SIM115 - as long as the process lasts
     sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
     sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
-
-
-def _is_full(error: OSError) -> bool:
-    """Whether standard output is full. An error in a file that a command writes names the file."""
-    return error.filename is None and error.errno in _FULL
 
 
 def _drop_output() -> None:

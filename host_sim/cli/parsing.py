@@ -58,6 +58,10 @@ class Parser(argparse.ArgumentParser):
         """As in `argparse.ArgumentParser`, with the project's commands as they are called here."""
         return as_called(super().format_help())
 
+    def print_help(self, file: Any = None) -> None:
+        """As in `argparse.ArgumentParser`, but raises an OSError if the output is full."""
+        print(self.format_help(), end="", file=file, flush=True)
+
     def error(self, message: str) -> NoReturn:
         """As in `argparse.ArgumentParser`, but raises instead of exiting.
 

@@ -97,6 +97,14 @@ WRONG = {
     "dbc 99": "--nodes --node is required",
     "dask manager": "choose from",
     "check-robot": "--robot-command CMD, or --bus INTERFACE:CHANNEL",
+    **dict.fromkeys(
+        (
+            *("replay {long}", "replay {log} --html {long}", "convert {log} {long}", "picture {log} --png {long}"),
+            *("talk --script {long}", "page {long}", "run --body {long}", "run --change {long}", "compare {long}"),
+            *("reproduce --docs {long}", "reproduce --studies {long}"),
+        ),
+        "File name too long",
+    ),
 }
 
 
@@ -115,7 +123,7 @@ def test_a_wrong_line_is_answered_with_what_to_do_and_writes_nothing(log, tmp_pa
     (tmp_path / "loop").symlink_to("loop")
     out = ["--out", tmp_path] if words.startswith(("run ", "watch ")) and "--out" not in words else []
 
-    done = octet(*words.format(out=tmp_path, log=log).split(), *out)
+    done = octet(*words.format(out=tmp_path, log=log, long="x" * 300).split(), *out)
 
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("octet: ")
