@@ -61,12 +61,15 @@ def read_program(path: Path) -> bytes:
     """The text of a program.
 
     Raises:
-        UsageError: The file cannot be read.
+        UsageError: The file cannot be read, or is not text.
     """
     try:
-        return read_bytes(path, _SIZE_MAX)
+        text = read_bytes(path, _SIZE_MAX)
     except OSError as error:
         raise UsageError(f"cannot read {path}: {error.strerror}") from None
+    if b"\0" in text:
+        raise UsageError(f"{path} is not a program: it is not text")
+    return text
 
 
 def check_program(program: str) -> None:

@@ -11,6 +11,9 @@ from host_sim.base.system import NO_WAIT
 
 Word = TypeVar("Word")
 
+_WORD_MAX = 200
+"""No longer word has a meaning; errors quote it."""
+
 
 def open_bytes(path: Path, limit: int) -> BinaryIO:
     """Opens a regular file for reading.
@@ -77,7 +80,7 @@ def read_words(path: Path, limit: int, parse: Callable[[str], Word]) -> list[Wor
     for number, line in enumerate(lines, 1):
         if word := line.partition("#")[0].strip():
             try:
-                words.append(parse(word))
+                words.append(parse(word[:_WORD_MAX]))
             except UsageError as error:
                 raise UsageError(f"{path}:{number}: {error}") from None
     return words

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from host_sim.base.errors import UsageError
+from host_sim.base.near_word import meant
 from host_sim.base.regular_file import read_words
 
 Direction = Literal["to", "from"]
@@ -17,7 +18,7 @@ FAULT_NAMES = ("drop", "duplicate", "reorder", "delay", "corrupt", "truncate", "
 """The names of the faults of frames."""
 
 _RULE = re.compile(
-    r"(?P<name>[a-z]+)"
+    r"(?P<name>[a-z]{1,20})"
     r"(?::(?P<chance>\d{1,3}(?:\.\d{1,3})?)%)?"
     r"(?::(?P<size>[A-Za-z0-9-]{1,20}))?"
     r"(?:@(?P<first>\d{1,9})(?P<until>-(?P<last>\d{1,9})?)?)?"
@@ -60,13 +61,15 @@ class Rule:
         """Reads a rule.
 
         Raises:
-            UsageError: The text is malformed.
+            UsageError: The text is malformed, or there is no such fault.
         """
         match = _RULE.fullmatch(text)
         if match is None:
             raise UsageError(f"{text!r} is not a fault: write NAME[:CHANCE%][:SIZE][@FIRST[-LAST]][/to|/from]")
         first = int(match["first"] or 1)
         last = int(match["last"] or _ENDLESS) if match["until"] or not match["first"] else first
+        if match["name"] not in FAULT_NAMES:
+            raise UsageError(f"there is no fault {match['name']!r}: {meant(match['name'], FAULT_NAMES)}")
         rule = Rule(match["name"], float(match["chance"] or _CERTAIN), match["size"] or "", first, last)
         if rule.chance > _CERTAIN or not 1 <= first <= last:
             raise UsageError(f"{text!r} is not a fault: its chance is over 100 %, or its frames run backwards")

@@ -3,6 +3,7 @@
 import codecs
 import gzip
 import io
+import logging
 import struct
 import zlib
 from collections.abc import Callable, Iterator
@@ -138,6 +139,16 @@ def _asc(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
             yield _from(message)
     except (ValueError, IndexError, OverflowError) as error:
         raise UsageError(f"{path}, line {text.number}: not a frame in ASC format: {error}") from None
+
+
+class _Damage(logging.Handler):
+    """Turns what python-can says of a damaged file into an error."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        raise ValueError(record.getMessage())
+
+
+logging.getLogger(can.io.blf.__name__).addHandler(_Damage())
 
 
 def _blf(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:

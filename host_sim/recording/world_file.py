@@ -106,7 +106,11 @@ def _program(text: Any) -> bytes | None:
 
 def _kind(body: Any) -> BodyKind | None:
     """Properties of the bodies; the laboratory page identifies the kit by name."""
-    return body_kind(body) if body in (IDEAL, KIT) else kind_from(body)
+    if body in (IDEAL, KIT):
+        return body_kind(body)
+    if not isinstance(body, dict):
+        raise ValueError(f"body must be {IDEAL}, {KIT} or an object")
+    return kind_from(body)
 
 
 def _refused(entry: dict[str, Any]) -> Refused:

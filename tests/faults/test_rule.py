@@ -90,6 +90,14 @@ def test_a_file_of_rules_that_cannot_be_read_is_told(tmp_path):
         read_rules(f"@{tmp_path / 'binary'}")
 
 
+@pytest.mark.parametrize("word", ["dorp", "d" * 100_000, "!" * 100_000])
+def test_what_is_no_fault_in_a_file_is_told_with_its_line_and_briefly(tmp_path, word):
+    (tmp_path / "faults.txt").write_text(f"drop\n{word}\n")
+
+    with pytest.raises(UsageError, match=r"^\S+faults\.txt:2: .{10,400}$"):
+        read_rules(f"@{tmp_path / 'faults.txt'}")
+
+
 @pytest.mark.parametrize("text", ["hang:300@150", "reset@150"])
 def test_an_event_is_written_as_it_was_read(text):
     assert str(Event.parse(text)) == text

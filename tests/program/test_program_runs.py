@@ -97,6 +97,8 @@ def test_a_file_that_cannot_be_a_program_is_refused(tmp_path):
         run(RunConfig(program=str(tmp_path / "no.bas")))
     with pytest.raises(UsageError, match=r"own\.bas"):
         run(RunConfig(program=written(tmp_path, "x = 1\n" * 3000)))
+    with pytest.raises(UsageError, match=r"own\.bas is not a program: it is not text"):
+        run(RunConfig(program=written(tmp_path, "x = 1\0")))
 
 
 @pytest.mark.parametrize(

@@ -186,6 +186,19 @@ def test_a_damaged_file_is_one_line(tmp_path, content):
         read(tmp_path / "a.log", content)
 
 
+def test_damage_within_a_blf_file_is_one_line(tmp_path, capfd):
+    path = tmp_path / "a.blf"
+    with can.BLFWriter(path, compression_level=0) as writer:
+        writer.on_message_received(MESSAGES[0])
+    whole = path.read_bytes()
+    at = whole.rindex(b"LOBJ") + len("LOBJ12")
+    path.write_bytes(whole[:at] + b"\x09" + whole[at + 1 :])
+
+    with pytest.raises(UsageError, match="damaged BLF file, or one cut short: Unknown object header version"):
+        list(read_log(path))
+    assert capfd.readouterr().err == ""
+
+
 def test_what_is_not_text_is_said_to_be_none(tmp_path):
     with pytest.raises(UsageError, match="not text"):
         read(tmp_path / "a.log", bytes(range(256)))

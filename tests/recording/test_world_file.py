@@ -136,6 +136,8 @@ GOOD = {"format": 1, "seed": 1, "of": 5, "limit_ticks": 9, "environments": [], "
         {"world": []},
         {"world": {"name": "my.toml"}},
         {"world": {"name": "my.toml", "food": [[1e308, 5]]}},
+        {"body": None},
+        {"body": {"base": ["kit"]}},
         {"environments": {}},
         {"environments": [1]},
         {"environments": [{"seed": 1, "number": 0, "first_tick": 0}]},

@@ -77,6 +77,7 @@ def test_a_kit_and_what_is_based_on_it_bring_their_settings_unless_a_run_says_ot
         ("lag_ms = 'much'", "lag_ms is a number, or [number, tolerance]"),
         ("lag = 3", "there is no 'lag'"),
         ("base = 'other'", "base is ideal or kit, not 'other'"),
+        ("base = ['kit']", "base is ideal or kit, not ['kit']"),
     ],
 )
 def test_a_value_that_no_body_can_have_is_named_with_its_line(tmp_path, line, why):
