@@ -3,7 +3,6 @@
 import codecs
 import gzip
 import io
-import logging
 import struct
 import zlib
 from collections.abc import Callable, Iterator
@@ -11,7 +10,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from itertools import dropwhile
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO, TextIO, cast
+from typing import TYPE_CHECKING, BinaryIO, NoReturn, TextIO, cast
 
 from host_sim.base.errors import UsageError
 from host_sim.base.regular_file import open_bytes
@@ -28,6 +27,8 @@ from host_sim.recording.log_text import (
 )
 
 if TYPE_CHECKING:
+    from logging import LogRecord
+
     from can import Message
 
 _SIZE_MAX = 64_000_000_000
@@ -141,19 +142,15 @@ def _asc(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
         raise UsageError(f"{path}, line {text.number}: not a frame in ASC format: {error}") from None
 
 
-class _Damage(logging.Handler):
+def _refuse(warning: "LogRecord") -> NoReturn:
     """Turns what python-can says of a damaged file into an error."""
-
-    def emit(self, record: logging.LogRecord) -> None:
-        raise ValueError(record.getMessage())
-
-
-logging.getLogger(can.io.blf.__name__).addHandler(_Damage())
+    raise ValueError(warning.getMessage())
 
 
 def _blf(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
-    from can.io.blf import BLFParseError, BLFReader  # noqa: PLC0415 - as above
+    from can.io.blf import LOG, BLFParseError, BLFReader  # noqa: PLC0415 - as above
 
+    LOG.addFilter(_refuse)
     try:
         for message in BLFReader(file):
             yield _from(message)

@@ -94,7 +94,7 @@ def kind_from(content: Mapping[str, Any]) -> BodyKind:
         ValueError: It is none.
     """
     rows, base = _rows(), content.get("base", IDEAL)
-    if base not in (IDEAL, KIT):  # noqa: PLR6201 - it may be a list
+    if base not in (IDEAL, KIT):  # not a set: it may be a list
         raise _TraitError("base", f"base is {IDEAL} or {KIT}, not {base!r}")
     traits = {name: (row.kit, row.tolerance) if base == KIT else (row.ideal, 0.0) for name, row in rows.items()}
     for name, value in content.items():

@@ -35,7 +35,9 @@ def test_a_command_that_prints_needs_no_standard_output(arguments):
     assert octet_with(">&-", *arguments).stderr == ""
 
 
-@pytest.mark.parametrize("arguments", [("load",), ("dbc", "--node", "1"), ("--version",), ("--help",), ("run", "--help")])
+@pytest.mark.parametrize(
+    "arguments", [("load",), ("dbc", "--node", "1"), ("--version",), ("--help",), ("run", "--help")]
+)
 @pytest.mark.parametrize("unbuffered", ["1", ""])
 def test_a_full_output_is_an_error_in_one_line(arguments, unbuffered):
     done = octet_with(">/dev/full", *arguments, PYTHONUNBUFFERED=unbuffered)
