@@ -41,7 +41,7 @@ static void judge(struct robot *robot, bool denied)
 {
     if (denied)
         note_denial(robot);
-    else if ((!robot->turn_denied || motion_tells(&robot->motion)) && robot->denials > 0)
+    if (!denied && (!robot->turn_denied || motion_tells(&robot->motion)) && robot->denials > 0)
         robot->denials--;
 }
 

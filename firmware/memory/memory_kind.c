@@ -45,7 +45,10 @@ static enum side side_of_most(const struct memory *memory, uint8_t pattern)
     for (unsigned i = 0; i < BESIDE_COUNT; i++) {
         enum side side = feel_memory_recall(memory, reading(pattern, i));
 
-        right += (side == SIDE_RIGHT) - (side == SIDE_LEFT);
+        if (side == SIDE_RIGHT)
+            right++;
+        if (side == SIDE_LEFT)
+            right--;
     }
     if (right == 0)
         return SIDE_NOTHING;

@@ -49,11 +49,11 @@ def bundle(*names: str) -> str:
     """Modules and all that they import, as one script; `</script` is escaped so that it cannot end the element."""
     places = {module: i for i, module in enumerate(modules_of(*names))}
     modules = "".join(_as_function(module, places) for module in places)
-    return f"const modules = [];\n{modules}".replace("</script", "<\\/script")
+    return f"const $ = [];\n{modules}".replace("</script", "<\\/script")
 
 
 def modules_of(*names: str) -> list[str]:
-    """Modules and all that they import, each after its own imports: in a bundle, `modules[i]` is the i-th."""
+    """Modules and all that they import, each after its own imports: in a bundle, `$[i]` is the i-th."""
     seen: set[str] = set()
     return [module for name in names for module in _in_order(name, seen)]
 
@@ -62,9 +62,9 @@ def _as_function(name: str, places: Mapping[str, int]) -> str:
     """A module as a function that is called once and returns its exports, which are stored at its index."""
     text = _read(name)
     exported = ", ".join(match[2] for match in _EXPORT.finditer(text))
-    body = _IMPORT.sub(lambda match: f"const {match[1]} = modules[{places[_place(name, match[2])]}];", text)
+    body = _IMPORT.sub(lambda match: f"const {match[1]} = $[{places[_place(name, match[2])]}];", text)
     body = _EXPORT.sub(r"\1", body)
-    return f"modules[{places[name]}] = (() => {{\n{body}\nreturn {{ {exported} }};\n}})();\n"
+    return f"$[{places[name]}] = (() => {{\n{body}\nreturn {{ {exported} }};\n}})();\n"
 
 
 def _in_order(name: str, seen: set[str]) -> Iterator[str]:

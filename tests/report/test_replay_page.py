@@ -117,8 +117,8 @@ def test_modules_come_once_each_after_what_they_need(tmp_path, monkeypatch):
 
     assert "<style>\np { margin: 0 }\n</style>" in text
     assert page_bundle.modules_of("a.js") == ["c.js", "b.js", "a.js"]
-    assert re.findall(r"modules\[(.+)\] = ", text) == ["0", "1", "2"]
-    assert "const { C, d } = modules[0];" in text
+    assert re.findall(r"\$\[(.+)\] = ", text) == ["0", "1", "2"]
+    assert "const { C, d } = $[0];" in text
     assert "return { C, d };" in text
     assert text.count("</script>") == 1
     assert not re.search(r"^(import|export) ", text, re.MULTILINE)
@@ -137,9 +137,9 @@ def test_a_module_in_a_folder_finds_what_it_imports_from_there(tmp_path, monkeyp
     text = page_bundle.bundle("a.js")
 
     assert page_bundle.modules_of("a.js") == ["d.js", "parts/c.js", "parts/b.js", "a.js"]
-    assert re.findall(r"^modules\[(.+)\] = ", text, re.MULTILINE) == ["0", "1", "2", "3"]
-    assert text.count("const { d } = modules[0];") == 2
-    assert "const { c } = modules[1];" in text
+    assert re.findall(r"^\$\[(.+)\] = ", text, re.MULTILINE) == ["0", "1", "2", "3"]
+    assert text.count("const { d } = $[0];") == 2
+    assert "const { c } = $[1];" in text
 
 
 @given(st.lists(st.lists(st.integers(-(2**29), 2**29), min_size=3, max_size=3), min_size=1, max_size=5))

@@ -22,8 +22,8 @@ def in_node(folder: Path, module: str, code: str, *files: Path) -> Any:
     """
     script = folder / f"{Path(module).name}.bundle"
     names = {name: i for i, name in enumerate(modules_of(*module.split()))}
-    named = ", ".join(f'"{name}": modules[{i}]' for name, i in names.items())
-    script.write_text(f"{bundle(*module.split())}Object.assign(modules, {{ {named} }});\n")
+    named = ", ".join(f'"{name}": $[{i}]' for name, i in names.items())
+    script.write_text(f"{bundle(*module.split())}const modules = Object.assign($, {{ {named} }});\n")
     done = subprocess.run(
         ["node", RUN_IN_NODE, script, PAGE_WASM, code, *files], capture_output=True, text=True, check=False
     )
