@@ -7,7 +7,6 @@ from typing import NamedTuple, Protocol
 
 from host_sim.base.errors import UsageError
 from host_sim.base.frame import Frame
-from host_sim.base.near_word import meant
 from host_sim.transport.clock import VirtualClock
 
 _IDS = 0x800
@@ -187,10 +186,8 @@ def make_fault(name: str, size: str, forgers: Forgers) -> Fault:
         forgers: Creates forgers.
 
     Raises:
-        UsageError: There is no such fault, or the size is invalid.
+        UsageError: The size is invalid.
     """
-    if name not in FAULTS:
-        raise UsageError(f"there is no fault {name!r}: {meant(name, FAULTS)}")
     return FAULTS[name](size, forgers)
 
 
