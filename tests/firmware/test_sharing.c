@@ -216,3 +216,13 @@ TEST(nothing_is_taken_in_the_second_in_which_it_is_switched_off)
     pass_second();
     assert_cell(0);
 }
+
+TEST(nothing_is_taken_in_the_second_in_which_it_is_switched_on)
+{
+    respond(INPUT_COMMAND, (struct input){.command = {.opcode = OPCODE_SET, .which = SHARE}});
+    pass_second();
+    hear_front(SIDE_LEFT);
+    respond(INPUT_COMMAND, (struct input){.command = {.opcode = OPCODE_SET, .which = SHARE, .value = 1}});
+    pass_second();
+    assert_cell(0);
+}
