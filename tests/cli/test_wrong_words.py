@@ -101,10 +101,11 @@ WRONG = {
         (
             *("replay {long}", "replay {log} --html {long}", "convert {log} {long}", "picture {log} --png {long}"),
             *("talk --script {long}", "page {long}", "run --body {long}", "run --change {long}", "compare {long}"),
-            *("reproduce --docs {long}", "reproduce --studies {long}"),
+            "reproduce --docs {long}",
         ),
         "File name too long",
     ),
+    "reproduce --studies {long}": "x" * 300,  # what is wrong with it depends on the version of Python
 }
 
 
