@@ -218,7 +218,8 @@ def test_what_every_object_has_is_no_program_of_a_link(open_page, file):
 
 
 def test_a_link_that_is_pasted_into_the_address_of_the_open_page_is_followed(page, file):
-    page.goto(f"{file.as_uri()}#v=1&seed=7&end")
+    with page.expect_event("load"):
+        page.goto(f"{file.as_uri()}#v=1&seed=7&end")
 
     wait_for(page, "window.octet?.lane.experiment.seed === 7")
 
