@@ -27,7 +27,6 @@ static void begin_next_action(struct robot *robot, struct senses *senses)
 /* Nothing can be learned with wheels that do not obey, and driving on blindly is not safe. */
 static void note_denial(struct robot *robot)
 {
-    robot->turn_denied = motion_tells(&robot->motion);
     if (robot->denials < DENIALS_MAX) {
         robot->denials++;
         return;
@@ -39,10 +38,14 @@ static void note_denial(struct robot *robot)
 /* A step does not show how well the wheels turn. */
 static void judge(struct robot *robot, bool denied)
 {
-    if (denied)
+    bool tells = motion_tells(&robot->motion);
+
+    if (denied) {
+        robot->turn_denied = tells;
         note_denial(robot);
-    if (!denied && (!robot->turn_denied || motion_tells(&robot->motion)) && robot->denials > 0)
+    } else if (robot->denials > 0 && (tells || !robot->turn_denied)) {
         robot->denials--;
+    }
 }
 
 static bool has_ended(struct robot *robot, const struct senses *senses)
