@@ -174,6 +174,15 @@ static void live(const struct hal *hal)
     port_alive(guard_forbids(&hal->guard) || (hal->upkeep.calibration.refused != 0 && !hal->running));
 }
 
+/* Called before what may erase a page: that stalls the machine for up to 40 ms, during which no motor may be pushed. */
+static void let_go(struct hal *hal)
+{
+    for (unsigned side = 0; side < PINS_SIDES; side++) {
+        hal->guard.duty[side] = 0;
+        pins_push(side, 0);
+    }
+}
+
 /* Commands to a robot at rest are taken before its next tick, so that no tick comes in between. */
 static enum input_kind take_order(struct hal *hal, struct input *in)
 {
@@ -185,6 +194,8 @@ static enum input_kind take_order(struct hal *hal, struct input *in)
         live(hal);
     }
     if (hal->asked) {
+        if (!hal->running && hal->upkeep.calibration.measures == MEASURE_NOTHING)
+            let_go(hal);
         upkeep_serve(&hal->upkeep, &in->command, hal->running);
         upkeep_use(&hal->upkeep, &hal->proximity, hal->wheels);
     }
@@ -204,15 +215,6 @@ int hal_receive(struct hal *hal, struct input *in)
         return INPUT_COMMAND;
     fill_senses(hal, &in->senses);
     return INPUT_SENSES;
-}
-
-/* An erase stalls the machine for up to 40 ms: until then no motor is pushed. */
-static void let_go(struct hal *hal)
-{
-    for (unsigned side = 0; side < PINS_SIDES; side++) {
-        hal->guard.duty[side] = 0;
-        pins_push(side, 0);
-    }
 }
 
 static int store(struct hal *hal, enum port_effort effort)

@@ -40,6 +40,24 @@ TEST(no_motor_is_pushed_while_what_was_measured_is_stored)
     TEST_ASSERT_FALSE(port.pushed);
 }
 
+TEST(no_motor_is_pushed_while_what_was_set_is_stored)
+{
+    pins.counts[0] = 40;   /* somebody pushes it, and its wheel resists for a beat */
+    told.from_beat = pins.beats + 1;
+    (void)told_by_the_body(OPCODE_SET, BODY_LAG_MS, 61);
+    TEST_ASSERT_EQUAL_UINT(3, port.more);
+    TEST_ASSERT_FALSE(port.pushed);
+}
+
+TEST(a_command_does_not_let_go_of_a_robot_that_drives)
+{
+    drive(200, 200);
+    (void)sense();
+    (void)told_by_the_body(OPCODE_GET, BODY_LAG_MS, 0);
+    TEST_ASSERT_GREATER_THAN_INT32(0, pins.duty[0]);
+    rest_with(false);
+}
+
 TEST(a_sensor_is_triggered_by_the_light_that_was_measured_and_that_is_stored)
 {
     measure_light(1600);
@@ -66,6 +84,7 @@ TEST(motors_are_pushed_as_they_are_measured_and_a_bump_ends_it)
 {
     (void)told_by_the_body(OPCODE_SET, BODY_MEASURE, 2);
     stay(2);
+    (void)told_by_the_body(OPCODE_GET, BODY_MEASURE, 0);
     TEST_ASSERT_EQUAL_INT32(16384, pins.duty[0]);
     TEST_ASSERT_EQUAL_INT32(16384, pins.duty[1]);
     pins.bumped = true;
