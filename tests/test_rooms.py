@@ -1,7 +1,7 @@
 """A folder is small enough to find a file in it by guessing, and a file large enough to be one.
 
 No folder has more than `FILES_MAX` files. A module under `LINES_MIN` lines that only one other file
-imports is part of that one.
+imports is part of that one. No line of the product's C is longer than ruff allows Python.
 """
 
 import os
@@ -15,7 +15,7 @@ import pytest
 
 from tests.runs.support import ROOT
 
-FILES_MAX, LINES_MIN = 30, 40
+FILES_MAX, LINES_MIN, LINE_MAX = 30, 40, 118
 STAND_ALONE = {
     "host_sim/web/sim/due_changes.js": "the schedule of changes, apart from what they do",
     "host_sim/web/sim/world_news.js": "the sentences of changes, apart from the rows of a run",
@@ -95,3 +95,21 @@ def test_a_small_module_with_one_importer_is_found(texts, where):
 
     assert planted in too_small(one)
     assert planted not in too_small({**one, another: one[where]})
+
+
+def too_long(text: str) -> list[str]:
+    """The lines of a file that are longer than `LINE_MAX`."""
+    return [line for line in text.splitlines() if len(line) > LINE_MAX]
+
+
+def test_no_line_of_c_is_too_long(files):
+    sources = [file for file in files if file.endswith((".c", ".h")) and not file.startswith("tests/")]
+
+    assert len(sources) > 100
+    assert {file: lines for file in sources if (lines := too_long((ROOT / file).read_text()))} == {}
+
+
+def test_a_line_that_is_too_long_is_found():
+    fine = f"/* {'x' * (LINE_MAX - 6)} */"
+
+    assert too_long(f"{fine}\n{fine} ") == [f"{fine} "]

@@ -40,7 +40,7 @@ void memory_put(struct memory *memory, enum memory_kind kind, uint8_t pattern, e
 /* The more frequent turn among the readings with that pattern; none if there is a tie. */
 static enum side side_of_most(const struct memory *memory, uint8_t pattern)
 {
-    int right = 0;   /* less those to the left */
+    int right = 0;   /* readings that turn right, less those that turn left */
 
     for (unsigned i = 0; i < BESIDE_COUNT; i++) {
         enum side side = feel_memory_recall(memory, reading(pattern, i));

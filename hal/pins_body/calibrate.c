@@ -11,7 +11,8 @@ enum {
     TURN_MM_S = 150,
     TURNS = 4,
     TURN_BEATS = 8000,               /* 40 s: the maximum duration of all turns */
-    COUNTS_1000 = (int)(1608495439LL * TURNS / WHEEL_COUNT_256),   /* 2 pi: for 1000 mm of track, in TURNS */
+    /* Counts, left wheel less right one, of TURNS turns on a track of 1000 mm: 2 pi times 1000 mm each. */
+    COUNTS_1000 = (int)(1608495439LL * TURNS / WHEEL_COUNT_256),
     /* Units of the feed-forward (push per count of a stair) and of the dead band (push). */
     FORWARD_1000 = (int)(1000LL * WHEEL_NOMINAL_MV * WHEEL_COUNT_256 / (PUSH * STAIR_BEATS * WHEEL_PERIOD_MS * 256)),
     DEAD_10 = (int)(10LL * WHEEL_NOMINAL_MV * TRAIT_DEAD_OF / TRAIT_DEAD_BY / PUSH)
@@ -66,7 +67,8 @@ static int32_t stair(const struct calibration *calibration, unsigned side, unsig
     return (int16_t)(uint16_t)(calibration->marks[side][mark + 1] - calibration->marks[side][mark]);
 }
 
-/* Returns the motor's lag after the step, ms; negative if it did not follow. A slope in range overflows nothing. */
+/* Returns the motor's lag after the step, ms; negative if it did not follow. Once the slope is in range, no sum can
+ * overflow. */
 static int32_t take_motor(struct calibration *calibration, unsigned side, int32_t battery_mv, struct traits *traits)
 {
     int32_t low = stair(calibration, side, 0), high = stair(calibration, side, 2), more = high - low;
@@ -76,7 +78,7 @@ static int32_t take_motor(struct calibration *calibration, unsigned side, int32_
     if (calibration->refused != 0)
         return 0;
     if (low > more || low < -more)
-        low = more;   /* no motor does: its dead band is out of range, too */
+        low = more;   /* no motor counts like that: its dead band comes out of range, without an overflow */
     take(calibration, traits, BODY_DEAD_LEFT + side,
          rounded((push - rounded(step / 16 * low, more) * 16) * 10, DEAD_10));
     return rounded((high - stair(calibration, side, 1)) * STAIR_BEATS * WHEEL_PERIOD_MS, more);

@@ -174,7 +174,7 @@ static void live(const struct hal *hal)
     port_alive(guard_forbids(&hal->guard) || (hal->upkeep.calibration.refused != 0 && !hal->running));
 }
 
-/* Called before what may erase a page: that stalls the machine for up to 40 ms, during which no motor may be pushed. */
+/* For what may erase a page: that stalls the machine for up to 40 ms, during which no motor may be pushed. */
 static void let_go(struct hal *hal)
 {
     for (unsigned side = 0; side < PINS_SIDES; side++) {

@@ -26,8 +26,8 @@ void upkeep_store(struct upkeep *upkeep);
         /* Stores new measurements, if any. Call only with the wheels at rest. */
 
 void upkeep_serve(struct upkeep *upkeep, const struct command *command, bool running);
-        /* Handles a command from outside: executes it if for the body; while the robot runs, it sets nothing, and while
-           it measures, only another measurement. */
+        /* Handles a command from outside, if it is for the body. While the robot runs, nothing can be set; while it
+           measures, only another measurement. */
 
 void upkeep_answer(const struct upkeep *upkeep, struct output *out);
         /* If the output answers such a command, replaces the robot's answer with the body's. */

@@ -58,7 +58,7 @@ struct clocks clock_start(void)
     if (chip->on_after_reset && !(*chip->cr & chip->on_after_reset))
         return CLOCK_SOURCES[1].clocks;
     systick_start(CLOCK_SLOW.core_hz);
-    *chip->acr = chip->caches | (*chip->acr & chip->waits_mask);   /* whatever starts: a reset may leave a data cache on */
+    *chip->acr = chip->caches | (*chip->acr & chip->waits_mask);   /* a reset may leave a data cache on */
     source = &CLOCK_SOURCES[start_crystal() ? 1 : 0];
     if (start_pll(source->pll) && switch_to_pll(source->pll))
         return source->clocks;

@@ -16,8 +16,8 @@ enum { MORE_PAGE = FLASH_PAGES + 58 };
 
 enum { BLINK_SLOWLY = 9, BLINK_FAST = 7 };   /* bit of the milliseconds: about 1 Hz, 4 Hz */
 
-static struct flash_store store;                                /* of the memory, */
-static struct flash_store more[PORT_MORE];                      /* and of the body, before it in a chip of 64 pages */
+static struct flash_store store;                                /* of the memory */
+static struct flash_store more[PORT_MORE];                      /* of the body, in the four pages before that */
 static uint32_t entropy __attribute__((section(".noinit")));    /* random after power-up; kept by a reset */
 
 int port_open(struct port *port, int argc, char *const argv[])

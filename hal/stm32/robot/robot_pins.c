@@ -12,9 +12,10 @@ enum {
     PWM_HZ = 20000, PWM_PERIODS = 100,             /* per beat of 5 ms */
     CEN = 1u << 0, UIE = 1u << 0, UIF = 1u << 0, UG = 1u << 0, ARPE = 1u << 7,
     TIM1_UP = 25,                                  /* number of its interrupt */
-    PWM_2 = 0x6000, PWM_3 = 0x0060,                /* in ccmr: mode 1, not preloaded: as fast as the direction */
+    PWM_2 = 0x6000, PWM_3 = 0x0060,                /* in ccmr: mode 1; not preloaded: a duty takes effect at once */
     CC2N_ON = 1u << 6, CC3N_ON = 1u << 10,         /* in ccer */
-    BREAK_LOW = 1u << 12, OUTPUTS_ON = 1u << 15, IDLE_LOW = 1u << 10, BREAK_SEEN = 1u << 7,   /* in bdtr; last: sr */
+    BREAK_LOW = 1u << 12, OUTPUTS_ON = 1u << 15, IDLE_LOW = 1u << 10,   /* in bdtr */
+    BREAK_SEEN = 1u << 7,                          /* in sr */
     ENCODER = 3, FROM_INPUTS = 0x0101 | 0x3030,    /* both edges of both inputs, filtered over 8 clock cycles */
     EXTERNAL_BY_INPUT_1 = 7u | 5u << 4, FROM_INPUT_1 = 0x0031,
     TOP = 0xFFFF,
