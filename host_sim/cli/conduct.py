@@ -7,10 +7,9 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from host_sim.backends.programmed_robot import check_program
-from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import DoubtfulError, OctetError, UsageError
 from host_sim.cli.interruption import stop_soon
-from host_sim.cli.outputs import FAULTS, PAGE, PICTURE, REFUSED, SUMMARY, Outputs, tell
+from host_sim.cli.outputs import FILES, PAGE, PICTURE, SUMMARY, Outputs, tell
 from host_sim.cli.run_options import LOGS, RunOptions
 from host_sim.cli.run_through import each, open_listener, run_through
 from host_sim.client.commands import stop
@@ -51,9 +50,6 @@ def conduct(options: RunOptions) -> Summary:
             simulation = stack.enter_context(
                 make(options, log, memories, lambda client: _print_robot(options, client))
             )
-            if options.faults:
-                stack.callback(_write_faults, options.out / FAULTS, simulation.clients)
-            stack.callback(_write_refused, options.out / REFUSED, simulation.clients)
             recorder = RunRecorder.of(simulation, options.boredom_limit)
             _save_memories(stack, simulation, options, loaded)
             outputs = Outputs(options, simulation, recorder, log)
@@ -99,8 +95,7 @@ def _memories(options: RunOptions) -> Iterator[list[Memory | None]]:
 
 def _check_no_output(memory: Path, options: RunOptions) -> None:
     """Refuses a memory file that the run would overwrite."""
-    names = (SUMMARY, PICTURE, PAGE, FAULTS, REFUSED, *LOGS)
-    outputs = [options.out / name for name in names] + [world_path(options.log)]
+    outputs = [options.out / name for name in FILES] + [world_path(options.log)]
     # Not Path.resolve: that fails for a link to itself.
     if os.path.realpath(memory) in map(os.path.realpath, outputs):
         raise UsageError(f"the run would overwrite {memory}: choose another file with --memory")
@@ -133,28 +128,6 @@ def _check_trust(summary: Summary) -> None:
         first, *more = incidents
         others = f" (and {len(more)} more in {SUMMARY})" if more else ""
         raise DoubtfulError(f"result unreliable: {first}{others}")
-
-
-def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
-    """Writes the injected faults, as rules for single frames."""
-    from host_sim.faults.faulty_link import FaultyLink
-
-    links = [client.connection.link for client in clients]
-    schedules = [link.schedule for link in links if isinstance(link, FaultyLink)]
-    if schedules:
-        rules = [str(rule) for schedule in schedules for rule in schedule.struck]
-        more = sum(schedule.count for schedule in schedules) - len(rules)
-        left_out = [f"# and {more} more, not recorded"] if more else []
-        write_bytes(path, "".join(f"{rule}\n" for rule in [*rules, *left_out]).encode())
-
-
-def _write_refused(path: Path, clients: Sequence[RobotClient]) -> None:
-    """Writes the refused frames, if there are any, in order of time."""
-    lines = sorted(line for client in clients for line in client.refused.lines)
-    more = sum(client.refused.unlisted for client in clients)
-    left_out = [f"# and {more} more, not recorded"] if more else []
-    if lines:
-        write_bytes(path, "".join(f"{line}\n" for line in [*lines, *left_out]).encode())
 
 
 def _print_robot(options: RunOptions, client: RobotClient) -> None:

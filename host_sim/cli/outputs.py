@@ -11,6 +11,7 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
+from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import OctetError
 from host_sim.base.extra_library import missing
 from host_sim.base.paths import PAGE_WASM, as_called
@@ -18,6 +19,7 @@ from host_sim.base.regular_file import read_bytes
 from host_sim.base.system import signals_held
 from host_sim.cli.run_options import FLEET_TABLE, LOGS, RunOptions
 from host_sim.client.frame_log import FrameLog
+from host_sim.client.robot_client import RobotClient
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, summarize
 from host_sim.recording.trajectory import Trajectory
@@ -38,7 +40,8 @@ REFUSED = "refused.log"
 FLEET_PICTURE, FLEET_PAGE = "fleet.png", "fleet.html"
 """The files of a fleet in its output folder, beside its table and summary."""
 
-_ALL = (SUMMARY, PICTURE, PAGE, FAULTS, REFUSED, FLEET_PICTURE, FLEET_PAGE, FLEET_TABLE, *LOGS)
+FILES = (SUMMARY, PICTURE, PAGE, FAULTS, REFUSED, FLEET_PICTURE, FLEET_PAGE, FLEET_TABLE, *LOGS)
+"""All of them, apart from the world file beside the log."""
 
 _SUMMARY_MAX = 10_000_000
 
@@ -80,6 +83,7 @@ class Outputs:
             self.episodes.append(self.simulation.leave())
         with signals_held():
             digest = self._replace_log()
+            self._write_frames()
             summary = summarize(self.options, self.simulation, self.episodes, digest, wall_s)
             summary.write(self.options.out / SUMMARY)
             self._draw()
@@ -99,6 +103,12 @@ class Outputs:
         digest = self.log.close()
         write_world(self.simulation.record, world_path(self.options.log))
         return digest
+
+    def _write_frames(self) -> None:
+        """Writes the faults that were injected, and the frames that were refused."""
+        if self.options.faults:
+            _write_faults(self.options.out / FAULTS, self.simulation.clients)
+        _write_refused(self.options.out / REFUSED, self.simulation.clients)
 
     def _draw(self) -> None:
         # Loaded late, so that runs start sooner.
@@ -128,6 +138,28 @@ class Outputs:
         return laboratory(self.options.log, trajectory, self.simulation.record, commands)
 
 
+def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
+    """Writes the injected faults, as rules for single frames."""
+    from host_sim.faults.faulty_link import FaultyLink
+
+    links = [client.connection.link for client in clients]
+    schedules = [link.schedule for link in links if isinstance(link, FaultyLink)]
+    if schedules:
+        rules = [str(rule) for schedule in schedules for rule in schedule.struck]
+        more = sum(schedule.count for schedule in schedules) - len(rules)
+        left_out = [f"# and {more} more, not recorded"] if more else []
+        write_bytes(path, "".join(f"{rule}\n" for rule in [*rules, *left_out]).encode())
+
+
+def _write_refused(path: Path, clients: Sequence[RobotClient]) -> None:
+    """Writes the refused frames, if there are any, in order of time."""
+    lines = sorted(line for client in clients for line in client.refused.lines)
+    more = sum(client.refused.unlisted for client in clients)
+    left_out = [f"# and {more} more, not recorded"] if more else []
+    if lines:
+        write_bytes(path, "".join(f"{line}\n" for line in [*lines, *left_out]).encode())
+
+
 def keep_earlier(options: RunOptions) -> None:
     """Moves the files of an earlier run to the folder `OUT.1`, and says so.
 
@@ -135,7 +167,7 @@ def keep_earlier(options: RunOptions) -> None:
         OctetError: One cannot be moved.
     """
     out = options.out
-    earlier = [*(out / name for name in _ALL), world_path(options.log)]
+    earlier = [*(out / name for name in FILES), world_path(options.log)]
     if any(map(Path.exists, earlier)):
         replaced, kept = f"replaced  the run in {out}{_seed_of(out / SUMMARY)}", _beside(out)
         for path in earlier:

@@ -63,7 +63,7 @@ def test_a_world_is_not_drawn_over_its_own_file(tmp_path):
     assert octet("world", world).returncode == 0
 
 
-@pytest.mark.parametrize("name", ["run.log", "summary.json", "run.world.json"])
+@pytest.mark.parametrize("name", ["run.log", "summary.json", "run.world.json", "fleet.png"])
 def test_a_memory_is_not_kept_in_a_file_of_the_run(tmp_path, name):
     done = octet("run", "--bus", "none", "--limit-s", "2", "--out", tmp_path, "--memory", tmp_path / name)
 
