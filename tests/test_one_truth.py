@@ -25,15 +25,15 @@ NOT_SCANNED = (
     "tools/robot_words/",  # what the numbers are written with
 )
 
-SPANS = ("cell_count", "node_max", "tick_span", "tick_mask", "action_span", "odometer_span", "range_none")
-
 
 def either(words: Iterable[str]) -> str:
     """A pattern for any of the words, in capitals."""
     return "|".join(sorted((word.upper() for word in words), key=len, reverse=True))
 
 
-PLAIN = either((*ROBOT.enums["reason"], *ROBOT.enums["side"], *(p.name for p in ROBOT.parameters), *SPANS))
+PLAIN = either(
+    (*ROBOT.enums["reason"], *ROBOT.enums["side"], *(p.name for p in ROBOT.parameters), *ROBOT.numbers, "tick_mask")
+)
 # The words of commands and behaviours mean much else besides.
 PREFIXED = "|".join(
     f"{name.upper()}_(?:{either(words)})" for name, words in {**ROBOT.enums, "profile": ROBOT.profiles}.items()
@@ -44,7 +44,7 @@ TELLING = "|".join(word for name in ("reason", "result") for word in ROBOT.enums
 CAMEL = "|".join(re.sub(r"_(\w)", lambda match: match[1].upper(), word) for word in TELLING.split("|"))
 COPIES = {
     "a constant with a number": re.compile(
-        rf"\b_?{CONSTANT}\b\]?\s*(?::[^=\n]*)?[=:]\s*(?!\{{0\}})\{{?-?\d",  # but an array may begin as zeros
+        rf"\b_?{CONSTANT}\b\]?(?::[^=\n]*=|\s*=|:)\s*(?!\{{0\}})\{{?-?\d",  # but an array may begin as zeros
         re.ASCII,
     ),
     "several constants with numbers": re.compile(
@@ -99,6 +99,7 @@ CANARIES = {
     "a parameter in Python": "TURN_DEG = 10",
     "how many cells there are": "CELL_COUNT = 8",
     "how ticks wrap": "_TICK_MASK = 4095",
+    "an identifier": "UPDATE_REQUEST_ID = 0x6E0",
     "an enum": "enum side { A, B };",
     "a pattern's name": 'x = "front and front-right"',
     "sensors' names": 'x = ("front-right", "front")',
@@ -117,6 +118,7 @@ FINE = {
     "a setting": 'settings = {"boredom_limit": 5}',
     "a sentence": "nothing in the way; 1 left",
     "a use of an enum": "enum side side = SIDE_LEFT;",
+    "a choice": "last = many ? NODE_MAX : 0;",
 }
 
 
@@ -137,11 +139,8 @@ TWINS = {
     "host_sim/lab/gymnasium_envs/told_worlds.py": "tests/lab/gymnasium_envs/test_arena_vector_env.py",
     "host_sim/sim/native/fleet.c": "tests/lab/study/test_trial.py",
     "host_sim/sim/native/log_lines.h": "tests/sim/test_native_equality.py",
-    "host_sim/update/isotp_connection.py": "tests/image/test_update.py",
     "host_sim/web/lab/files.js": "tests/web/sim/test_page_opening.py",
     "host_sim/web/native/page_open.c": "tests/web/sim/test_page_runs.py",
-    "host_sim/web/sim/native_program.js": "tests/web/sim/test_page_runs.py",
-    "host_sim/web/sim/native_run.js": "tests/web/sim/test_page_runs.py",
     "host_sim/web/talk/eliza.js": "tests/web/talk/test_same_answers.py",
     "host_sim/web/talk/facts.js": "tests/web/talk/test_same_answers.py",
     "host_sim/web/types.js": "tests/web/sim/test_page_runs.py",

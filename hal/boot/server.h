@@ -6,8 +6,6 @@
 #include "hal/boot/uds.h"
 
 enum {
-    UPDATE_REQUEST_ID = 0x6E0,    /* plus the node: 0x6E1..0x6FF. Lowest priority: robots that drive come first */
-    UPDATE_ANSWER_ID = 0x060,     /* plus the node: 0x061..0x07F. Short and rare, so high priority */
     SERVER_IDLE_MS = 5000,        /* without a request: then it starts the image, if any */
     SERVER_LAST_MS = 20           /* for the last answer to leave */
 };

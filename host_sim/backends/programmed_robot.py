@@ -10,12 +10,12 @@ from host_sim.backends.relay import Relay
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import BUILD
 from host_sim.base.regular_file import read_bytes
+from host_sim.protocol.generated import PROGRAM_TEXT_MAX
 
 _FOLDER = BUILD / "host" / "host_sim" / "program" / "native"
 LIBRARY, PROCESS = _FOLDER / "liboctet_programmed.so", _FOLDER / "octet-program"
 """Programmable robots, as a library and as an executable."""
 
-_SIZE_MAX = 16_383
 _TOLD_MAX = 1024
 
 
@@ -64,7 +64,7 @@ def read_program(path: Path) -> bytes:
         UsageError: The file cannot be read, or is not text.
     """
     try:
-        text = read_bytes(path, _SIZE_MAX)
+        text = read_bytes(path, PROGRAM_TEXT_MAX - 1)
     except OSError as error:
         raise UsageError(f"cannot read {path}: {error.strerror}") from None
     if b"\0" in text:

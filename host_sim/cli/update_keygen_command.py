@@ -173,13 +173,14 @@ def _update_all(
     from rich.progress import Progress
 
     from host_sim.base.errors import OctetError
+    from host_sim.protocol.generated import UPDATE_ANSWER_ID
     from host_sim.transport.buses import open_bus_link
     from host_sim.transport.line_stats import LineStats
     from host_sim.update.hub import Hub
-    from host_sim.update.isotp_connection import ANSWER_ID
 
     stats = LineStats()
-    link = open_bus_link(arguments.bus, [ANSWER_ID + node for node in arguments.node], stats, arguments.bitrate)
+    answer_ids = [UPDATE_ANSWER_ID + node for node in arguments.node]
+    link = open_bus_link(arguments.bus, answer_ids, stats, arguments.bitrate)
     hub = Hub(link)
     try:
         with Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as progress:

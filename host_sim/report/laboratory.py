@@ -15,15 +15,13 @@ from typing import Any
 
 from host_sim.base.regular_file import read_bytes
 from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.generated import PAGE_ROBOTS_MAX
 from host_sim.recording.log_reader import LogReader
 from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import world_path
 from host_sim.report.octet_page import octet_page
 from host_sim.report.page_bundle import packed
 from host_sim.sim.world_record import WorldRecord
-
-ROBOTS_MAX = 4
-"""Maximum number of robots in the laboratory: PAGE_ROBOTS_MAX in host_sim/web/native/page.h."""
 
 _WORLD_MAX = 16_000_000
 
@@ -49,8 +47,8 @@ def laboratory(
         return {"why": "What if? runs the firmware's own brain, and the brain of this run was a program."}
     if record.world.crates is not None:
         return {"why": "What if? cannot repeat this run: pymunk moved its crates."}
-    if nodes != list(range(1, len(nodes) + 1)) or len(nodes) > ROBOTS_MAX:
-        return {"why": f"What if? supports only robots of nodes 1 to {ROBOTS_MAX}."}
+    if nodes != list(range(1, len(nodes) + 1)) or len(nodes) > PAGE_ROBOTS_MAX:
+        return {"why": f"What if? supports only robots of nodes 1 to {PAGE_ROBOTS_MAX}."}
     if trajectory.first_tick:
         return {"why": "What if? is for shorter runs: this page has only the last part of a longer one."}
     robot_of = {Protocol(robot + 1).id_of("COMMAND"): robot for robot in range(len(nodes))}

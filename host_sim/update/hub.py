@@ -6,8 +6,8 @@ from queue import Empty, SimpleQueue
 
 from host_sim.base.errors import LinkDownError
 from host_sim.base.frame import Frame
+from host_sim.protocol.generated import UPDATE_ANSWER_ID
 from host_sim.transport.link import Link
-from host_sim.update.isotp_connection import ANSWER_ID
 
 _SLICE_S = 0.0005
 
@@ -57,7 +57,7 @@ class Hub:
 
     def share(self, node: int) -> Share:
         """The link for the update of that node."""
-        return self._shares.setdefault(ANSWER_ID + node, Share(self._outbox))
+        return self._shares.setdefault(UPDATE_ANSWER_ID + node, Share(self._outbox))
 
     def run(self, jobs: Mapping[int, Callable[[], None]]) -> dict[int, BaseException | None]:
         """Runs the jobs concurrently.

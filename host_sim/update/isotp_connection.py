@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from host_sim.base.errors import OctetError
 from host_sim.base.frame import Frame
+from host_sim.protocol.generated import UPDATE_ANSWER_ID, UPDATE_REQUEST_ID
 from host_sim.transport.link import Link
 
 try:
@@ -14,9 +15,6 @@ try:
     from udsoncan.exceptions import TimeoutException
 except ImportError as error:
     raise OctetError("udsoncan or can-isotp is not installed: run tools/setup images") from error
-
-REQUEST_ID, ANSWER_ID = 0x6E0, 0x060
-"""Identifiers, to which the node number is added, as in hal/boot/server.h."""
 
 _SLICE_S = 0.002
 _OTHERS_S = 0.05
@@ -47,7 +45,7 @@ class IsoTpConnection(BaseConnection):
         logging.getLogger(isotp.TransportLayerLogic.LOGGER_NAME).setLevel(logging.CRITICAL)
         self._link = link
         self.now: Callable[[], float] = getattr(link, "now", time.monotonic)
-        self._request_id, self._answer_id = REQUEST_ID + node, ANSWER_ID + node
+        self._request_id, self._answer_id = UPDATE_REQUEST_ID + node, UPDATE_ANSWER_ID + node
         address = isotp.Address(isotp.AddressingMode.Normal_11bits, txid=self._request_id, rxid=self._answer_id)
         self._layer = isotp.TransportLayerLogic(self._receive, self._send, address, lambda _error: None, _PARAMS)
 

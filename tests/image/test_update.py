@@ -9,8 +9,9 @@ from udsoncan.exceptions import TimeoutException
 
 from host_sim.client.connection import Connection
 from host_sim.protocol.codec import Protocol
+from host_sim.protocol.generated import UPDATE_REQUEST_ID
 from host_sim.update.image import built_images
-from host_sim.update.isotp_connection import REQUEST_ID, IsoTpConnection
+from host_sim.update.isotp_connection import IsoTpConnection
 from host_sim.update.updater import UpdateError, Updater
 from tests.image.support import Talk, run_robot
 from tests.image.update_figures import TimedLink, figures_of
@@ -29,7 +30,7 @@ def learn(board):
 
 def proof_in(frames):
     """The frames of the request that carries the proof: a first frame, and those that go on from it."""
-    sent = [frame for _, frame in frames if frame.id > REQUEST_ID]
+    sent = [frame for _, frame in frames if frame.id > UPDATE_REQUEST_ID]
     begin = next(i for i, frame in enumerate(sent) if frame.data[2:4] == b"\x27\x02")
     return [sent[begin], *(frame for frame in sent[begin + 1 :][:9])]
 

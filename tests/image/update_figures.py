@@ -15,7 +15,7 @@ from host_sim.base.frame import Frame
 from host_sim.base.paths import image_path
 from host_sim.emulator.board import EmulatedBoard
 from host_sim.protocol.frame_bits import frame_bits
-from host_sim.update.isotp_connection import REQUEST_ID
+from host_sim.protocol.generated import UPDATE_REQUEST_ID
 from host_sim.update.updater import Updater
 from tests.image.update_rig import KEY, NEW, RIGS, Rig
 
@@ -86,7 +86,7 @@ class TimedLink:
         """How long each answer that begins so took after the last frame that was sent."""
         asked_s, spans = 0.0, []
         for at, frame in self.frames:
-            if frame.id > REQUEST_ID:
+            if frame.id > UPDATE_REQUEST_ID:
                 asked_s = at
             elif frame.data.startswith(answer):
                 spans.append(at - asked_s)

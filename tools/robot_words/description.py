@@ -61,16 +61,10 @@ class Description:
         columns: The numbers of a row that views show, with their indexes.
         sentences: What the robot says, by reason or other name.
         kit_settings: Parameters that a robot with a body of the kit is set to, unless a run says otherwise.
-        plant: Radius and growth of a plant, mm.
         body_sentences: Texts about faults of a body, by the name of the fault.
-        cell_count: Number of bytes of a memory.
-        node_max: Highest node number.
-        range_none: Value of a distance if nothing is within reach.
-        answer_wants_ranges: The bit of an answer by which a robot asks for distances.
-        tick_span: Number of tick numbers, after which they wrap.
-        action_span: The same for actions.
-        odometer_span: The same for odometer counts.
-        odometer_counts_per_mm: Resolution of the odometers.
+        numbers: Numbers by name: those of robot.toml; `cell_count`, the number of bytes of a memory; `tick_span`,
+            `action_span` and `odometer_span`, the number of values after which these wrap; and
+            `odometer_counts_per_mm`.
         layout_hash: Hash of the messages' layout.
         same_layout: Other hashes that stood for the same layout.
     """
@@ -91,15 +85,7 @@ class Description:
     columns: Mapping[str, int]
     sentences: Mapping[str, str]
     kit_settings: Mapping[str, int]
-    plant: Mapping[str, int]
     body_sentences: Mapping[str, str]
-    cell_count: int
-    node_max: int
-    range_none: int
-    answer_wants_ranges: int
-    tick_span: int
-    action_span: int
-    odometer_span: int
-    odometer_counts_per_mm: int
+    numbers: Mapping[str, int]
     layout_hash: int
     same_layout: Sequence[int]

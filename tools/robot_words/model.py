@@ -52,6 +52,7 @@ def _load(dbc: Path) -> Database:
 def _describe(database: Database, words: Mapping[str, Any]) -> Description:
     for message in database.messages:
         _check_message(message)
+    _check_nodes(words["numbers"]["node_max"], database)
     signal = partial(_signal, database)
     enums = {
         "reason": _choices(signal("DRIVE.reason")),
@@ -86,16 +87,15 @@ def _describe(database: Database, words: Mapping[str, Any]) -> Description:
         columns=_columns(words["columns"], [*(it.signal for it in (*senses, *drive)), *words["recorded"]]),
         sentences=_sentences(words["sentences"], enums["reason"]),
         kit_settings=words["kit_settings"],
-        plant=words["plant"],
         body_sentences=words["body_sentences"],
-        cell_count=_cell_count(words["patterns"], database.get_message_by_name("MEMORY")),
-        node_max=_node_max(words["node_max"], database),
-        range_none=words["range_none"],
-        answer_wants_ranges=words["answer_wants_ranges"],
-        tick_span=1 << signal("SENSES.tick").length,
-        action_span=1 << signal("DRIVE.action").length,
-        odometer_span=1 << signal("SENSES.odometer_left").length,
-        odometer_counts_per_mm=_counts_per_mm(signal("SENSES.odometer_left"), signal("SENSES.odometer_right")),
+        numbers={
+            **words["numbers"],
+            "cell_count": _cell_count(words["patterns"], database.get_message_by_name("MEMORY")),
+            "tick_span": 1 << signal("SENSES.tick").length,
+            "action_span": 1 << signal("DRIVE.action").length,
+            "odometer_span": 1 << signal("SENSES.odometer_left").length,
+            "odometer_counts_per_mm": _counts_per_mm(signal("SENSES.odometer_left"), signal("SENSES.odometer_right")),
+        },
         layout_hash=hashed,
         same_layout=[int(text, 16) for text in words.get("same_layout", {}).get(f"{hashed:04X}", [])],
     )
@@ -233,11 +233,10 @@ def _cell_count(patterns: Mapping[str, str], memory: Message) -> int:
     return len(cells)
 
 
-def _node_max(node_max: int, database: Database) -> int:
+def _check_nodes(node_max: int, database: Database) -> None:
     ids = sorted(message.frame_id for message in database.messages)
     if any(later - earlier < node_max for earlier, later in itertools.pairwise(ids)):
         raise DescriptionError(f"{node_max} nodes do not fit between the identifiers")
-    return node_max
 
 
 def _counts_per_mm(*odometers: Signal) -> int:

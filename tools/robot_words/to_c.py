@@ -31,16 +31,9 @@ def c_name(*words: str) -> str:
 
 def _numbers(robot: Description) -> str:
     numbers = {
-        "CELL_COUNT": robot.cell_count,
-        "NODE_MAX": robot.node_max,
-        "RANGE_NONE": robot.range_none,
-        "ANSWER_WANTS_RANGES": robot.answer_wants_ranges,
+        **{c_name(name): number for name, number in robot.numbers.items()},
         "FAULT_COUNT": len(robot.enums["fault"]),
         "FEEL_COUNT": len(robot.feel),
-        "TICK_SPAN": robot.tick_span,
-        "ACTION_SPAN": robot.action_span,
-        "ODOMETER_SPAN": robot.odometer_span,
-        "ODOMETER_COUNTS_PER_MM": robot.odometer_counts_per_mm,
         "LAYOUT_HASH": f"0x{robot.layout_hash:04X}",
         **{c_name("feel", name): 1 << bit for bit, name in enumerate(robot.feel)},
     }

@@ -7,6 +7,12 @@ from tools.robot_words.to_c import c_name
 
 _HEAD = "/* Made by tools/generate from octet.dbc and robot.toml. */\n"
 
+# The page is small, so it has only those that it uses.
+_NUMBERS = (
+    *("cell_count", "node_max", "range_none", "answer_wants_ranges", "plant_radius_mm", "plant_growth_mm"),
+    *("page_robots_max", "program_text_max"),
+)
+
 
 def module(robot: Description) -> str:
     """The text of generated.js: one declaration a line."""
@@ -15,7 +21,6 @@ def module(robot: Description) -> str:
         exports[name.upper()] = {c_name(word): number for word, number in robot.enums[name].items()}
     exports["SIDES"] = list(robot.enums["side"])
     exports["PATTERNS"] = list(robot.patterns)
-    exports["CELL_COUNT"] = robot.cell_count
     exports["FEEL"] = {c_name(name): 1 << bit for bit, name in enumerate(robot.feel)}
     exports["EDITS"] = {name: list(names) for name, names in robot.edits.items()}
     exports["PROFILES"] = list(robot.profiles)
@@ -24,10 +29,7 @@ def module(robot: Description) -> str:
         for p in robot.parameters
     }
     exports["KIT_SETTINGS"] = dict(robot.kit_settings)
-    exports["PLANT"] = dict(robot.plant)
-    exports["NODE_MAX"] = robot.node_max
-    exports["RANGE_NONE"] = robot.range_none
-    exports["ANSWER_WANTS_RANGES"] = robot.answer_wants_ranges
+    exports |= {c_name(name): robot.numbers[name] for name in _NUMBERS}
     exports["FRAMES"] = {message.name: message.frame_id for message in robot.messages}
     exports["ROW"] = list(robot.row)
     exports["COLUMNS"] = dict(robot.columns)

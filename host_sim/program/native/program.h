@@ -10,8 +10,8 @@
 
 #include "firmware/brain.h"
 
+/* robot.toml has PROGRAM_TEXT_MAX, the bytes of a program, with a 0 after it. */
 enum {
-    PROGRAM_TEXT_MAX = 16384,    /* bytes of a program, with a 0 after it */
     PROGRAM_CODE_MAX = 4096,     /* instructions */
     PROGRAM_NUMBERS_MAX = 256,   /* different numeric literals */
     PROGRAM_NAMES_MAX = 192,     /* variables, arrays, labels and subs */

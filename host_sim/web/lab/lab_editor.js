@@ -6,7 +6,7 @@ import { bindArenaKeys } from "../edit/arena_keys.js";
 import { DragController } from "../edit/drag_controller.js";
 import { byId, typedById } from "../core/elements.js";
 import { isInside, plantOf, wirePlace } from "../edit/placement.js";
-import { EDITS, PLANT } from "../generated.js";
+import { EDITS, PLANT_GROWTH_MM, PLANT_RADIUS_MM } from "../generated.js";
 
 /**
  * @typedef {import("./shown_run.js").ShownRun} ShownRun
@@ -89,7 +89,7 @@ export class LabEditor extends ArenaEditor {
   addPlant() {
     const { measures } = this.scene;
     const { x, y, heading } = this.robot;
-    const far = measures.body + measures.reach + PLANT_GAP_MM + PLANT.radius_mm;
+    const far = measures.body + measures.reach + PLANT_GAP_MM + PLANT_RADIUS_MM;
     const places = BEARINGS.map((bearing) => {
       const angle = heading / 1000 + bearing;
       return { x: x + far * Math.cos(angle), y: y + far * Math.sin(angle) };
@@ -97,14 +97,14 @@ export class LabEditor extends ArenaEditor {
     const at = places.find((place) => isInside(place, measures)) ?? places[0];
     this.plantPending = true;
     this.idsBefore = this.ids;
-    this.lab.change({ do: "plant", at: wirePlace(at, measures), radius: PLANT.radius_mm });
+    this.lab.change({ do: "plant", at: wirePlace(at, measures), radius: PLANT_RADIUS_MM });
   }
 
   /** The selected plant grows to all sides. */
   grow() {
     const { item, environment } = this.scene;
     const plant = item?.kind === "plant" && plantOf(environment, item.id);
-    if (plant) this.lab.change({ do: "grow_plant", id: item.id, radius: Math.round(plant.radius) + PLANT.growth_mm });
+    if (plant) this.lab.change({ do: "grow_plant", id: item.id, radius: Math.round(plant.radius) + PLANT_GROWTH_MM });
   }
 }
 

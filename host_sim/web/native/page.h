@@ -18,7 +18,6 @@
 #include "host_sim/world/native/draw/written.h"
 
 enum {
-    PAGE_ROBOTS_MAX = 4,
     PAGE_TICKS_MAX = 256,   /* of a block */
     PAGE_WAITING_MAX = 64,  /* frames of a robot that have not been taken yet */
     PAGE_BYTES = 8,
@@ -213,16 +212,17 @@ bool page_program(uint32_t robot, uint32_t len);
         /* Replaces a robot that was never started by one with that program for a brain and an empty memory. False if
            out of memory. */
 
-enum { PAGE_PROGRAM_STATE, PAGE_PROGRAM_LINE, PAGE_PROGRAM_EXPECTED, PAGE_PROGRAM_STEPS, PAGE_PROGRAM_NAMES,
-       PAGE_PROGRAM_NUMBERS };
+enum { PAGE_PROGRAM_ENDED, PAGE_PROGRAM_LINE, PAGE_PROGRAM_EXPECTED, PAGE_PROGRAM_CELLS, PAGE_PROGRAM_SHOWN,
+       PAGE_PROGRAM_STEPS, PAGE_PROGRAM_VARIABLES, PAGE_PROGRAM_NUMBERS };
 
 const double *page_program_state(uint32_t robot);
-        /* Of a robot's program: its state, an enum program_state; the line of its mistake and what was expected; the
-           number of the steps of its last decision and of its names; then line, cell and value of each step, and
-           kind, first cell, size, place in the text and length of each name. */
+        /* Of a robot's program: 1 if it has ended, else 0; the line of its mistake and what was expected, 0 if it has
+           none; the numbers of its cells, of the texts that it shows, of the steps of its last decision, and of its
+           variables and arrays; then line, cell and value of each step, and first cell, size, and place and length in
+           the text of each variable and array. */
 
 const double *page_program_cells(uint32_t robot);
-        /* Its variables before the last decision: PROGRAM_CELLS_MAX. */
+        /* Its cells before the last decision. */
 
 const char *page_program_word(uint32_t robot);
         /* The word of its mistake. */
@@ -231,7 +231,7 @@ const char *page_program_expected(uint32_t expected);
         /* As program_expected. */
 
 const char *page_program_shown(uint32_t robot, uint32_t place);
-        /* The text that it shows at place 0..PROGRAM_SHOWN_MAX-1. */
+        /* A text that it shows, from place 0 on. */
 
 /* page_layouts.c: the initial layouts of environments. */
 

@@ -1,6 +1,6 @@
 #include "host_sim/web/native/page_frames.h"
 
-enum { STEP = 3, NAME = 5 };   /* numbers per step and per name */
+enum { STEP = 3, VARIABLE = 4 };   /* numbers per step, and per variable or array */
 
 char *page_program_text(void)
 {
@@ -36,28 +36,46 @@ static double *put_steps(double *at, const struct program *program)
     return at;
 }
 
-static void put_names(double *at, const struct program *program)
+/* Returns their number. */
+static unsigned put_variables(double *at, const struct program *program)
 {
-    for (unsigned i = 0; i < program->name_count; i++, at += NAME) {
-        at[0] = program->names[i].kind;
-        at[1] = program->names[i].place;
-        at[2] = program->names[i].size;
-        at[3] = program->names[i].at;
-        at[4] = program->names[i].len;
+    unsigned count = 0;
+
+    for (unsigned i = 0; i < program->name_count; i++) {
+        const struct program_name *name = &program->names[i];
+
+        if (name->kind != NAME_VARIABLE && name->kind != NAME_ARRAY)
+            continue;
+        at[VARIABLE * count] = name->place;
+        at[VARIABLE * count + 1] = name->size;
+        at[VARIABLE * count + 2] = name->at;
+        at[VARIABLE * count + 3] = name->len;
+        count++;
     }
+    return count;
+}
+
+static unsigned shown_by(const struct program *program)
+{
+    unsigned count = 0;
+
+    while (count < PROGRAM_SHOWN_MAX && program->shown[count].text[0] != '\0')
+        count++;
+    return count;
 }
 
 const double *page_program_state(uint32_t robot)
 {
-    static double numbers[PAGE_PROGRAM_NUMBERS + STEP * PROGRAM_TRACE_MAX + NAME * PROGRAM_NAMES_MAX];
+    static double numbers[PAGE_PROGRAM_NUMBERS + STEP * PROGRAM_TRACE_MAX + VARIABLE * PROGRAM_NAMES_MAX];
     const struct program *program = program_of(robot);
 
-    numbers[PAGE_PROGRAM_STATE] = program->state;
+    numbers[PAGE_PROGRAM_ENDED] = program->state == PROGRAM_ENDED;
     numbers[PAGE_PROGRAM_LINE] = program->mistake.line;
     numbers[PAGE_PROGRAM_EXPECTED] = program->mistake.expected;
+    numbers[PAGE_PROGRAM_CELLS] = program->cell_count;
+    numbers[PAGE_PROGRAM_SHOWN] = shown_by(program);
     numbers[PAGE_PROGRAM_STEPS] = program->trace_count;
-    numbers[PAGE_PROGRAM_NAMES] = program->name_count;
-    put_names(put_steps(numbers + PAGE_PROGRAM_NUMBERS, program), program);
+    numbers[PAGE_PROGRAM_VARIABLES] = put_variables(put_steps(numbers + PAGE_PROGRAM_NUMBERS, program), program);
     return numbers;
 }
 

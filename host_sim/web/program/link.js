@@ -2,7 +2,7 @@
 /* A link to an experiment: all that reproduces it follows the # of the page's address. */
 
 import { filled } from "../core/phrases.js";
-import { CELL_COUNT, PROFILES } from "../generated.js";
+import { CELL_COUNT, PROFILES, PROGRAM_TEXT_MAX } from "../generated.js";
 
 /**
  * What a link has.
@@ -20,7 +20,6 @@ const VERSION = "1";
 const END = "end";
 const SEED_MAX = 999_999_999;
 const ENVIRONMENTS_MAX = 20;
-const PROGRAM_MAX = 16_383;
 
 /** @type {{[K in keyof Linked]: (text: string, known: Known) => Linked[K] | undefined}} */
 const READERS = {
@@ -32,7 +31,7 @@ const READERS = {
   language: (text, { languages }) => oneOf(text, languages),
   program: (text, { programs }) => {
     if (text.startsWith("@")) return new Map(Object.entries(programs)).get(text.slice(1));
-    return text.length <= PROGRAM_MAX ? text : undefined;
+    return text.length < PROGRAM_TEXT_MAX ? text : undefined;
   },
 };
 

@@ -2,10 +2,10 @@
 /* Recovers the experiment of a recorded log from its commands and its world file. */
 
 import { Arena, EditError, IDEAL, KIT } from "./arena.js";
-import { CELL_COUNT, EDITS, FRAMES, OPCODE, PARAMETERS, PROFILES } from "../generated.js";
+import { CELL_COUNT, EDITS, FRAMES, OPCODE, PAGE_ROBOTS_MAX, PARAMETERS, PROFILES } from "../generated.js";
 import { bytesOf, framesOf, replayLog } from "./log_replay.js";
 import { checkedWorld } from "./native_layouts.js";
-import { NativeRun, ROBOTS_MAX } from "./native_run.js";
+import { NativeRun } from "./native_run.js";
 import { Simulation } from "./simulation.js";
 
 /**
@@ -175,7 +175,7 @@ function isField(value) {
  * @returns {Experiment}
  */
 function experimentIn(module, frames, world) {
-  const native = new NativeRun(module, ROBOTS_MAX);
+  const native = new NativeRun(module, PAGE_ROBOTS_MAX);
   /** @type {RobotSetup[]} */
   const robots = [];
   /** @type {(Change & {tick: number})[]} */

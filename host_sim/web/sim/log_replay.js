@@ -1,8 +1,8 @@
 // @ts-check
 /* Feeds a recorded log to the firmware and compares its answers with the recorded ones. */
 
-import { FRAMES, NODE_MAX } from "../generated.js";
-import { NativeRun, ROBOTS_MAX } from "./native_run.js";
+import { FRAMES, NODE_MAX, PAGE_ROBOTS_MAX } from "../generated.js";
+import { NativeRun } from "./native_run.js";
 
 /**
  * The first frame that differs: its line in the log, counted from 1, and what the firmware says instead.
@@ -22,9 +22,9 @@ const TO_ROBOT = [FRAMES.COMMAND, FRAMES.SENSES, FRAMES.RANGES];
  * @returns {Comparison}
  */
 export function replayLog(module, text) {
-  const run = new NativeRun(module, ROBOTS_MAX);
+  const run = new NativeRun(module, PAGE_ROBOTS_MAX);
   /** @type {string[][]} */
-  const answers = Array.from({ length: ROBOTS_MAX }, () => []);
+  const answers = Array.from({ length: PAGE_ROBOTS_MAX }, () => []);
   let frames = 0;
   for (const { line, robot, base, words, data } of framesOf(text)) {
     frames += 1;
@@ -60,7 +60,7 @@ function frameOf(line, number) {
   const base = Object.values(FRAMES).find((first) => numeric >= first && numeric < first + NODE_MAX);
   if (base === undefined) return undefined;
   const robot = numeric - base;
-  if (robot >= ROBOTS_MAX) throw new Error(`line ${number} is from node ${robot + 1}: a page supports up to ${ROBOTS_MAX}`);
+  if (robot >= PAGE_ROBOTS_MAX) throw new Error(`line ${number} is from node ${robot + 1}: a page supports up to ${PAGE_ROBOTS_MAX}`);
   return { robot, base, words: `${id}#${hex}`, data: bytesOf(hex) };
 }
 

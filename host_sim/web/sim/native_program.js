@@ -1,6 +1,8 @@
 // @ts-check
 /* Programs for robots in page.wasm, and their state: see native/page_program.c. */
 
+import { PROGRAM_TEXT_MAX } from "../generated.js";
+
 /**
  * @typedef {import("./native_run.js").NativeRun} NativeRun
  *
@@ -17,18 +19,10 @@
  * @typedef {{ended: boolean, mistake: Mistake | null, steps: Step[], variables: Variable[], before: number[], shown: string[]}} ProgramState
  */
 
-/** As in native/program.h, with the 0 at the end. */
-const TEXT_MAX = 16384;
-const CELLS_MAX = 1024;
-const SHOWN_MAX = 16;
-const ENDED = 1;
-const MISTAKEN = 2;
-const KIND_ARRAY = 1;
-
-/** Numbers of page_program_state: the first ones, and those of a step and of a name. */
-const FIRST = 5;
+/** Numbers of page_program_state: the first ones, and those of a step and of a variable. */
+const FIRST = 7;
 const STEP = 3;
-const NAME = 5;
+const VARIABLE = 4;
 
 /**
  * Makes a program a robot's brain, before the robot is started.
@@ -38,7 +32,7 @@ const NAME = 5;
  */
 export function loadProgram(native, robot, text) {
   const bytes = new TextEncoder().encode(text);
-  if (bytes.length >= TEXT_MAX) throw new Error(`a program has up to ${TEXT_MAX - 1} bytes, not ${bytes.length}`);
+  if (bytes.length >= PROGRAM_TEXT_MAX) throw new Error(`a program has up to ${PROGRAM_TEXT_MAX - 1} bytes, not ${bytes.length}`);
   native.bytesAt(native.c.page_program_text(), bytes.length).set(bytes);
   if (!native.c.page_program(robot, bytes.length)) throw new Error("not enough memory for another program");
 }
@@ -52,19 +46,19 @@ export function loadProgram(native, robot, text) {
 export function programState(native, robot, text) {
   const { c } = native;
   const at = c.page_program_state(robot);
-  const [state, line, expected, steps, names] = native.doublesAt(at, FIRST);
-  const numbers = [...native.doublesAt(at, FIRST + STEP * steps + NAME * names)];
+  const [ended, line, expected, cells, shown, steps, variables] = native.doublesAt(at, FIRST);
+  const numbers = [...native.doublesAt(at, FIRST + STEP * steps + VARIABLE * variables)];
   const bytes = new TextEncoder().encode(text);
   const mistake = { line, word: textAt(native, c.page_program_word(robot)), expected, words: textAt(native, c.page_program_expected(expected)) };
   return {
-    ended: state === ENDED,
-    mistake: state === MISTAKEN ? mistake : null,
+    ended: ended !== 0,
+    mistake: expected ? mistake : null,
     steps: rowsOf(numbers, FIRST, steps, STEP).map(([row, cell, value]) => ({ line: row, cell, value })),
-    variables: rowsOf(numbers, FIRST + STEP * steps, names, NAME).filter(([kind]) => kind <= KIND_ARRAY).map(
-      ([, cell, size, first, length]) => ({ name: new TextDecoder().decode(bytes.subarray(first, first + length)), cell, size }),
+    variables: rowsOf(numbers, FIRST + STEP * steps, variables, VARIABLE).map(
+      ([cell, size, first, length]) => ({ name: new TextDecoder().decode(bytes.subarray(first, first + length)), cell, size }),
     ),
-    before: [...native.doublesAt(c.page_program_cells(robot), CELLS_MAX)],
-    shown: Array.from({ length: SHOWN_MAX }, (_, place) => textAt(native, c.page_program_shown(robot, place))).filter(Boolean),
+    before: [...native.doublesAt(c.page_program_cells(robot), cells)],
+    shown: Array.from({ length: shown }, (_, place) => textAt(native, c.page_program_shown(robot, place))),
   };
 }
 

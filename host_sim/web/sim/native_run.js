@@ -1,5 +1,5 @@
 // @ts-check
-/* The C code behind a run: page.wasm, as native/page.h describes it. An instance is a run. */
+/* The C code behind a run: page.wasm, whose interface is native/page.h. An instance is a run. */
 
 import { CELL_COUNT, ROW } from "../generated.js";
 
@@ -17,16 +17,14 @@ const LENGTH_AT = 4;
 const DATA_AT = 5;
 /** Longer texts do not fit into page_text, if each character has three bytes. */
 const TEXT_MAX = 80;
-/** As in native/page.h. */
-export const ROBOTS_MAX = 4;
-/** Numbers of a pose: LOOP_POSE. */
+/** Numbers of a pose: x, y and heading. */
 export const AXES = 3;
 
 /** A run's robots, with an empty memory each. */
 export class NativeRun {
   /**
    * @param {WebAssembly.Module} module - page.wasm, compiled.
-   * @param {number} robots - Number of robots, 1..ROBOTS_MAX.
+   * @param {number} robots - Number of robots, 1..PAGE_ROBOTS_MAX.
    */
   constructor(module, robots) {
     this.c = /** @type {Exports} */ (/** @type {unknown} */ (new WebAssembly.Instance(module).exports));

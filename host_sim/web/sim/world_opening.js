@@ -1,10 +1,10 @@
 // @ts-check
 /* Makes an experiment from a world file: a person's own world, or that of a run with its changes. */
 
+import { PAGE_ROBOTS_MAX } from "../generated.js";
 import { settingsOf } from "./arena.js";
 import { worldIn } from "./log_opening.js";
 import { WrittenError, checkedWorld } from "./native_layouts.js";
-import { ROBOTS_MAX } from "./native_run.js";
 import { LineError, parseToml } from "./toml.js";
 
 /**
@@ -21,7 +21,7 @@ import { LineError, parseToml } from "./toml.js";
 export function openWorld({ module, worlds }, { name, text }, base) {
   if (name.endsWith(".toml")) return { ...base, world: writtenWorld(module, worlds.random, { name, text }) };
   const { seed, of, limit_ticks, robots = 1, edits, world, body } = worldIn(module, worlds, text);
-  if (!(robots >= 1 && robots <= ROBOTS_MAX)) throw new Error(`${name} is for ${robots} robots; this page has room for ${ROBOTS_MAX}`);
+  if (!(robots >= 1 && robots <= PAGE_ROBOTS_MAX)) throw new Error(`${name} is for ${robots} robots; this page has room for ${PAGE_ROBOTS_MAX}`);
   const setups = Array.from({ length: robots }, () => ({ ...base.robots[0], settings: settingsOf(body) }));
   return { ...base, seed, environments: of, limit_ticks, robots: setups, changes: edits, world: world ?? base.world, body };
 }

@@ -102,7 +102,7 @@ static const double *load(const char *text)
 
 TEST(a_program_is_the_robot_s_brain)
 {
-    const double *state = load("rForward 5");
+    const double *state = load("xyString 1, 2, \"on\"\nrForward 5");
     struct input in = {.senses = {.tick = 1}};
     struct output out;
 
@@ -110,32 +110,35 @@ TEST(a_program_is_the_robot_s_brain)
     page_state()->robots[0].octet->respond(&page_state()->robots[0].octet->robot, INPUT_SENSES, &in, &out);
     state = page_program_state(0);
     TEST_ASSERT_EQUAL(REASON_WANDER, out.drive.reason);
-    TEST_ASSERT_EQUAL_DOUBLE(PROGRAM_RUNS, state[PAGE_PROGRAM_STATE]);
-    TEST_ASSERT_EQUAL_DOUBLE(1, state[PAGE_PROGRAM_STEPS]);
+    TEST_ASSERT_EQUAL_DOUBLE(0, state[PAGE_PROGRAM_ENDED]);
+    TEST_ASSERT_EQUAL_DOUBLE(EXPECTED_NOTHING, state[PAGE_PROGRAM_EXPECTED]);
+    TEST_ASSERT_EQUAL_DOUBLE(2, state[PAGE_PROGRAM_STEPS]);
     TEST_ASSERT_EQUAL_DOUBLE(1, state[PAGE_PROGRAM_NUMBERS]);
+    TEST_ASSERT_EQUAL_DOUBLE(1, state[PAGE_PROGRAM_SHOWN]);
+    TEST_ASSERT_EQUAL_STRING("on", page_program_shown(0, 0));
 }
 
 TEST(its_mistake_is_told)
 {
     const double *state = load("x = 1\nrTrun 5");
 
-    TEST_ASSERT_EQUAL_DOUBLE(PROGRAM_MISTAKEN, state[PAGE_PROGRAM_STATE]);
+    TEST_ASSERT_EQUAL_DOUBLE(0, state[PAGE_PROGRAM_ENDED]);
     TEST_ASSERT_EQUAL_DOUBLE(2, state[PAGE_PROGRAM_LINE]);
     TEST_ASSERT_EQUAL_STRING("rTrun", page_program_word(0));
     TEST_ASSERT_EQUAL_STRING("a command, a label, or a variable with = after it",
                              page_program_expected((uint32_t)state[PAGE_PROGRAM_EXPECTED]));
-    TEST_ASSERT_EQUAL_STRING("", page_program_shown(0, 0));
+    TEST_ASSERT_EQUAL_DOUBLE(0, state[PAGE_PROGRAM_SHOWN]);
 }
 
-TEST(its_names_have_their_places)
+TEST(its_variables_have_their_places)
 {
-    const double *state = load("ab = 5\ndim c[3]"), *names = state + PAGE_PROGRAM_NUMBERS;
+    const double *state = load("ab = 5\nlabel:\ndim c[3]"), *variables = state + PAGE_PROGRAM_NUMBERS;
 
-    TEST_ASSERT_EQUAL_DOUBLE(2, state[PAGE_PROGRAM_NAMES]);
-    TEST_ASSERT_EQUAL_DOUBLE(NAME_VARIABLE, names[0]);
-    TEST_ASSERT_EQUAL_DOUBLE(2, names[4]);
-    TEST_ASSERT_EQUAL_DOUBLE(NAME_ARRAY, names[5]);
-    TEST_ASSERT_EQUAL_DOUBLE(3, names[7]);
+    TEST_ASSERT_EQUAL_DOUBLE(2, state[PAGE_PROGRAM_VARIABLES]);
+    TEST_ASSERT_EQUAL_DOUBLE(2, variables[3]);
+    TEST_ASSERT_EQUAL_DOUBLE(3, variables[5]);
+    TEST_ASSERT_EQUAL_DOUBLE(18, variables[6]);
+    TEST_ASSERT_EQUAL_DOUBLE(4, state[PAGE_PROGRAM_CELLS]);
     TEST_ASSERT_EQUAL_DOUBLE(0, page_program_cells(0)[0]);
 }
 
