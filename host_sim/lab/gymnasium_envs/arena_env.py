@@ -75,9 +75,9 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
             gymnasium.error.Error: The limit is out of its range.
             gymnasium.error.DependencyNotInstalled: The C code cannot be used.
         """
-        self.observation_space, self.action_space = rules.senses_space(), rules.deed_space()
         self._params, self._rewards = SimParams(), rewards or rules.Rewards()
         self._worlds = rules.told_worlds(1, 1, rules.Limits(limit_s, step_ticks), self._params, body)
+        self.observation_space, self.action_space = rules.senses_space(), rules.deed_space()
         self._limit_ticks = round(limit_s / self._params.tick_s)
         self._runs = False
 

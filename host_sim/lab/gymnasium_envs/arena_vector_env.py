@@ -50,11 +50,11 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
         if num_envs < 1:
             raise error.Error(f"num_envs is {num_envs}: give 1 or more")
         self.num_envs = num_envs
+        self._params, self._rewards = SimParams(), rewards or rules.Rewards()
+        self._worlds = rules.told_worlds(num_envs, 1, rules.Limits(limit_s, step_ticks), self._params, body)
         self.single_observation_space, self.single_action_space = rules.senses_space(), rules.deed_space()
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
-        self._params, self._rewards = SimParams(), rewards or rules.Rewards()
-        self._worlds = rules.told_worlds(num_envs, 1, rules.Limits(limit_s, step_ticks), self._params, body)
         self._limit_ticks = round(limit_s / self._params.tick_s)
         self._draws: list[np.random.Generator] = []
         self._ended = np.zeros(num_envs, np.bool_)

@@ -10,7 +10,7 @@ from gymnasium import error, spaces
 from numpy.typing import NDArray
 
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.lab.gymnasium_envs.told_worlds import Deed, TickLimits, ToldWorlds
+from host_sim.lab.gymnasium_envs.told_worlds import TickLimits, ToldWorlds, deed_count
 from host_sim.protocol.generated import FEEL, NODE_MAX
 from host_sim.world.body_kinds import body_kind
 from host_sim.world.layouts import Layout, NoRoomError, generate
@@ -61,8 +61,8 @@ def senses_space() -> spaces.Box:
 
 
 def deed_space() -> spaces.Discrete:
-    """The space of a robot's actions, each a `Deed`."""
-    return spaces.Discrete(len(Deed))
+    """The space of a robot's actions; see the table in docs/gymnasium.md."""
+    return spaces.Discrete(deed_count())
 
 
 def told_worlds(worlds: int, robots: int, limits: Limits, params: SimParams, body: str) -> ToldWorlds:
@@ -168,8 +168,8 @@ def checked_deeds(actions: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
         error.InvalidAction: They are not integers from 0 to 5 in this shape.
     """
     given = _as_array(actions)
-    if given.shape != shape or given.dtype.kind not in "iu" or not np.all((given >= 0) & (given < len(Deed))):
-        needed = f"whole numbers 0..{len(Deed) - 1} of shape {shape}"
+    if given.shape != shape or given.dtype.kind not in "iu" or not np.all((given >= 0) & (given < deed_count())):
+        needed = f"whole numbers 0..{deed_count() - 1} of shape {shape}"
         raise error.InvalidAction(f"{actions!r} is not an action: give {needed}")
     return given.astype(np.uint8)
 

@@ -1,6 +1,5 @@
 """Worlds whose robots carry out given actions (`native/told.h`), several worlds per call."""
 
-from enum import IntEnum
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -17,12 +16,6 @@ from host_sim.world.world_library import WORLD_HEADERS
 
 LIBRARY = BUILD / "host" / "host_sim" / "lab" / "gymnasium_envs" / "native" / "liboctet_told.so"
 HEADERS = (*WORLD_HEADERS, PACKAGE / "lab" / "gymnasium_envs" / "native" / "told.h")
-
-
-class Deed(IntEnum):
-    """An action of a robot; as in `native/told.h`."""
-
-    FORWARD, TURN_LEFT, TURN_RIGHT, TRY_LEFT, TRY_RIGHT, TURN_ABOUT = range(6)
 
 
 class TickLimits(NamedTuple):
@@ -104,10 +97,15 @@ class ToldWorlds:
         """Carries out each robot's deed.
 
         Args:
-            deeds: Shape (worlds, robots), contiguous: a `Deed` for each robot.
+            deeds: Shape (worlds, robots), contiguous: an `enum told_deed` for each robot.
         """
         told = self._ffi.from_buffer("uint8_t[]", deeds)
         self._library.told_step(self._all, len(self._arenas), told)
+
+
+def deed_count() -> int:
+    """Number of a robot's actions, each an `enum told_deed`; raises NoNativeError if the library cannot be used."""
+    return int(loaded()[1].TOLD_DEEDS)
 
 
 @cache
