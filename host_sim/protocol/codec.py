@@ -1,5 +1,6 @@
 """Encodes and decodes frames as `hal/protocol/octet.dbc` describes them."""
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from host_sim.base.frame import Frame
@@ -11,20 +12,22 @@ from host_sim.protocol.generated import (
     RANGE_NONE,
     SAME_LAYOUT,
     Drive,
+    Message,
     Ranges,
     Reason,
     Senses,
     Signal,
 )
-from host_sim.protocol.signal_layout import MessageLayout, places
 
 __all__ = [
     "COUNTERS",
     "DBC",
     "MEMORY_IDS",
     "NODE_MAX",
+    "UNSAID",
     "DecodedFrame",
     "Frame",
+    "MessageLayout",
     "Protocol",
     "counter_of",
     "crc8",
@@ -36,13 +39,78 @@ COUNTERS = 15
 """Alive counters go from 0 to one less, and round again."""
 MEMORY_IDS = range(MESSAGES["MEMORY"].id, MESSAGES["MEMORY"].id + NODE_MAX)
 """The identifiers by which robots hear what others have learned."""
+UNSAID = ("crc", "counter")
+"""The signals that protect a message: they are not part of what it says."""
 
 _LENGTH = 8
 _COUNTER_START = 8
 _COUNTER_MASK = 15
-_LAYOUTS = {name: MessageLayout(message) for name, message in MESSAGES.items()}
-_SENSES, _DRIVE = (places(MESSAGES[name]) for name in ("SENSES", "DRIVE"))
 _REASONS = len(Reason)
+
+
+class _Field(NamedTuple):
+    """A signal's position; `sign` is its sign bit, 0 for an unsigned signal."""
+
+    name: str
+    start: int
+    mask: int
+    sign: int
+
+
+def _field(signal: Signal) -> _Field:
+    sign = 1 << (signal.length - 1) if signal.signed else 0
+    return _Field(signal.name, signal.start, (1 << signal.length) - 1, sign)
+
+
+class MessageLayout:
+    """Packs and unpacks one message, all signals that are in a frame together."""
+
+    def __init__(self, message: Message) -> None:
+        """Determines the signals present for each value of the message's selector, if it has one."""
+        self._message = message
+        self._common = tuple(_field(signal) for signal in message.signals if not signal.multiplexer)
+        self._selector = next((_field(signal) for signal in message.signals if signal.selector), None)
+        numbers = {number for signal in message.signals for number in signal.multiplexer}
+        self._branches = {
+            number: tuple(_field(s) for s in message.signals if not s.multiplexer or number in s.multiplexer)
+            for number in numbers
+        }
+
+    def pack(self, signals: Mapping[str, int]) -> bytes:
+        """The data of a frame.
+
+        Args:
+            signals: Raw numbers, by the names of all signals that are there.
+
+        Raises:
+            KeyError: One is missing.
+            ValueError: One has no room for its number.
+        """
+        word = 0
+        selected = 0 if self._selector is None else signals[self._selector.name]
+        for name, start, mask, sign in self._branches.get(selected, self._common):
+            number = signals[name]
+            if not -sign <= number <= mask - sign:
+                raise ValueError(f"{self._message.name}.{name} has no room for {number}")
+            word |= (number & mask) << start
+        return word.to_bytes(self._message.length, "little")
+
+    def unpack(self, data: bytes) -> dict[str, int]:
+        """The raw numbers in the data of a frame, which has the message's length."""
+        word = int.from_bytes(data, "little")
+        selected = 0 if self._selector is None else word >> self._selector.start & self._selector.mask
+        fields = self._branches.get(selected, self._common)
+        # Taking the sign bit off and adding it again below zero is what makes a number signed.
+        return {name: ((word >> start & mask) ^ sign) - sign for name, start, mask, sign in fields}
+
+
+def _places(message: Message) -> list[tuple[int, int, int]]:
+    """Start, mask and sign bit of what `Senses` and `Drive` have of their messages, in the same order."""
+    return [_field(signal)[1:] for signal in message.signals if signal.name not in UNSAID]
+
+
+_LAYOUTS = {name: MessageLayout(message) for name, message in MESSAGES.items()}
+_SENSES, _DRIVE = (_places(MESSAGES[name]) for name in ("SENSES", "DRIVE"))
 
 
 class DecodedFrame(NamedTuple):
@@ -127,7 +195,8 @@ class Protocol:
             KeyError: A signal is missing.
             ValueError: A signal has no room for its number.
         """
-        return _protected(self.id_of(name), _LAYOUTS[name].pack({**signals, "crc": 0}))
+        frame_id, data = self.id_of(name), _LAYOUTS[name].pack({**signals, "crc": 0})
+        return Frame(frame_id, bytes((crc8(frame_id, data),)) + data[1:])
 
     def encode_senses(self, senses: Senses, counter: int) -> Frame:
         """The frame that tells the robot its senses.
@@ -156,25 +225,23 @@ class Protocol:
 
     def decode(self, frame: Frame) -> DecodedFrame | None:
         """Decodes a frame; None if it is of another node, of a wrong length, or damaged."""
-        message = self._by_id.get(frame.id)
-        if message is None or len(frame.data) != message.length:
+        message, data = self._by_id.get(frame.id), frame.data
+        if message is None or len(data) != message.length:
             return None
-        if not _is_protected(frame):
+        if data[0] != crc8(frame.id, data) or data[1] & _COUNTER_MASK >= COUNTERS:
             return None
-        return DecodedFrame(message.name, _LAYOUTS[message.name].unpack(frame.data))
+        return DecodedFrame(message.name, _LAYOUTS[message.name].unpack(data))
 
     def decode_drive(self, frame: Frame) -> Drive | None:
         """The drive in a frame; None if it is not a whole DRIVE of this node, or for no reason that there is."""
         data = frame.data
         if frame.id != self._drive_id or len(data) != _LENGTH:
             return None
-        # As `_is_protected`, without a call.
         if data[0] != crc8(frame.id, data) or data[1] & _COUNTER_MASK >= COUNTERS:
             return None
         word, values = int.from_bytes(data, "little"), []
         for start, mask, sign in _DRIVE:
-            # Taking the sign bit off and adding it again below zero is what makes a number signed.
-            values.append(((word >> start & mask) ^ sign) - sign)
+            values.append(((word >> start & mask) ^ sign) - sign)  # as in `MessageLayout.unpack`
         drive = Drive._make(values)
         return drive if drive.reason < _REASONS else None
 
@@ -203,12 +270,3 @@ def node_of(frame_id: int) -> int:
 def counter_of(frame: Frame) -> int:
     """The alive counter in a frame with at least two bytes; a whole one has 0..14."""
     return frame.data[1] & _COUNTER_MASK
-
-
-def _is_protected(frame: Frame) -> bool:
-    return counter_of(frame) < COUNTERS and frame.data[0] == crc8(frame.id, frame.data)
-
-
-def _protected(frame_id: int, data: bytes) -> Frame:
-    """A frame with its CRC in byte 0."""
-    return Frame(frame_id, bytes((crc8(frame_id, data),)) + data[1:])

@@ -1,9 +1,13 @@
 """Joins the two frames that report the learned memory."""
 
+from collections.abc import Callable
+from operator import itemgetter
+
 from host_sim.protocol.codec import DecodedFrame
 from host_sim.protocol.generated import CELL_COUNT
 
 _HALVES = 2
+_CELLS: Callable[[dict[str, int]], tuple[int, ...]] = itemgetter(*(f"cell_{cell}" for cell in range(CELL_COUNT)))
 
 
 class MemoryReport:
@@ -27,5 +31,4 @@ class MemoryReport:
         if other is None or other.signals["counter"] != counter:
             return None
         self._halves = {}
-        both = other.signals | decoded.signals
-        return tuple(both[f"cell_{cell}"] for cell in range(CELL_COUNT))
+        return _CELLS(other.signals | decoded.signals)

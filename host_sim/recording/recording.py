@@ -5,10 +5,9 @@ from dataclasses import dataclass, replace
 
 from host_sim.base.errors import UsageError
 from host_sim.client.pacing import applied
-from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
+from host_sim.protocol.codec import UNSAID, DecodedFrame, Frame, Protocol
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS, Drive, Opcode, Senses
 from host_sim.protocol.memory_report import MemoryReport
-from host_sim.protocol.signal_layout import UNSAID
 from host_sim.recording.log_reader import LogReader, check_protocol, first_memory, frames_of
 from host_sim.recording.tick import Tick
 

@@ -10,9 +10,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from host_sim.base.errors import UsageError
-from host_sim.protocol.codec import COUNTERS, NODE_MAX, Frame, Protocol, crc8
+from host_sim.protocol.codec import COUNTERS, NODE_MAX, Frame, MessageLayout, Protocol, crc8
 from host_sim.protocol.generated import CELL_COUNT, LAYOUT_HASH, TICK_SPAN, Message, Opcode, Reason, Signal
-from host_sim.protocol.signal_layout import MessageLayout
 from host_sim.recording.log_files import frames_in
 from host_sim.recording.log_reader import FOREIGN, WIRE_1_LAYOUTS, LogReader
 from host_sim.recording.log_text import Recorded

@@ -5,9 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from host_sim.protocol.codec import DBC, Frame, Protocol, crc8, node_of
+from host_sim.protocol.codec import DBC, Frame, MessageLayout, Protocol, crc8, node_of
 from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, RANGE_NONE, Drive, Opcode, Ranges, Reason, Senses
-from host_sim.protocol.signal_layout import MessageLayout
 
 PROTOCOL = Protocol()
 NOTHING_SENSED = Senses(tick=0, feel=0, bump=False, look=False, beacon_mm=0, odometer_left=0, odometer_right=0)

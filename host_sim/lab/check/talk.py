@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple, NoReturn
 
 from host_sim.base.frame import Frame
-from host_sim.protocol.codec import COUNTERS, Protocol
+from host_sim.protocol.codec import COUNTERS, MessageLayout, Protocol
 from host_sim.protocol.generated import (
     MESSAGES,
     ODOMETER_COUNTS_PER_MM,
@@ -15,7 +15,6 @@ from host_sim.protocol.generated import (
     Reason,
     Senses,
 )
-from host_sim.protocol.signal_layout import MessageLayout
 from host_sim.transport.clock import Clock
 from host_sim.transport.link import Link
 
