@@ -2,7 +2,7 @@
 
 from collections import deque
 
-from host_sim.client.freshness import Arrival
+from host_sim.client.robot_reports import Arrival
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, counter_of
 
 _KNOWN = COUNTERS - 1

@@ -5,8 +5,7 @@ from dataclasses import dataclass, field
 
 from host_sim.base.errors import SessionLostError
 from host_sim.client.asked_commands import AskedCommands, Rivals
-from host_sim.client.freshness import Arrival
-from host_sim.client.robot_reports import REPORTS, RobotReports
+from host_sim.client.robot_reports import REPORTS, Arrival, RobotReports
 from host_sim.client.session import FrameCounts, Session
 from host_sim.client.told import Told
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, Protocol, counter_of
@@ -247,16 +246,22 @@ class Inbox:
         return decoded
 
     def _take_report(self, frame: Frame, decoded: DecodedFrame) -> None:
+        """Handles a report.
+
+        A whole report that cuts another one short repeats the other's last page of FAULTS, including its counter:
+        after the answer, that page counts as requested.
+        """
         if decoded.signals.get("silent"):
             self.counts.duplicate += 1
             self.silent = True
             self.check(decoded)
             return
-        arrival = self._arrival(frame, decoded)
-        if arrival in (Arrival.AGAIN, Arrival.LATE):
+        arrival = self.reports.judge(frame, decoded, self.counts.missing)
+        is_asked_for = self.reporting and self.asked.answered and self.reports.is_awaited(decoded)
+        if arrival == Arrival.LATE or (arrival == Arrival.AGAIN and not is_asked_for):
             self.counts.duplicate += 1
             return
-        if arrival != Arrival.NEW and self.session is not None:
+        if arrival in (Arrival.OTHER, Arrival.ELSEWHERE) and self.session is not None:
             self._refuse(frame, "does not go on from the one before")
             self.lose(f"counts its {decoded.name} anew", _FORGED if arrival == Arrival.OTHER else "")
         if not self.reports.take(decoded):
@@ -264,16 +269,6 @@ class Inbox:
             return
         self._accept(frame)
         self.check(decoded)
-
-    def _arrival(self, frame: Frame, decoded: DecodedFrame) -> Arrival:
-        """Compares a report with those before it.
-
-        A whole report that cuts another one short repeats the other's last page of FAULTS, including its counter:
-        after the answer, that page counts as requested.
-        """
-        arrival = self.reports.judge(frame, decoded, self.counts.missing)
-        is_asked_for = self.reporting and self.asked.answered and self.reports.is_awaited(decoded)
-        return Arrival.NEW if arrival == Arrival.AGAIN and is_asked_for else arrival
 
     def _refuse(self, frame: Frame, why: str) -> None:
         self.counts.refused += 1

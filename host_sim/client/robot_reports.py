@@ -1,8 +1,9 @@
-"""A robot's latest reports: memory, state, identity and faults."""
+"""A robot's latest reports: memory, state, identity and faults; their alive counters tell new ones from old ones."""
 
+from collections import defaultdict
 from collections.abc import Collection
+from enum import Enum, auto
 
-from host_sim.client.freshness import GAP_MIN, Arrival, Freshness
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, counter_of
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.protocol.memory_report import MemoryReport
@@ -15,8 +16,68 @@ FIRST_HALF, LAST_HALF = "MEMORY 0", "MEMORY 1"
 """The kinds of reports that carry a memory."""
 
 _WHOLE = frozenset({"HEARTBEAT", "BOOT", "MEMORY", "FAULTS 0", "FAULTS 1", "HEALTH"})
-_PARTS = ("half", "page")
 _NOT_FAULTS = ("crc", "counter", "page")
+_AHEAD_MAX = COUNTERS // 2
+_GAP_MIN = _AHEAD_MAX + 1
+"""After this many lost messages, a new one looks like a late one."""
+
+
+class Arrival(Enum):
+    """Classification of a message, compared with the last one of its kind."""
+
+    NEW = auto()
+    """The next message, or one of the few after it."""
+    AGAIN = auto()
+    """The last message again, byte for byte."""
+    LATE = auto()
+    """An earlier message."""
+    OTHER = auto()
+    """The last message's counter with other content: from a restarted or another sender."""
+    ELSEWHERE = auto()
+    """The second of two consecutive messages that do not follow the last one: late, or from another sender."""
+
+
+class Freshness:
+    """Follows the alive counter of one kind of message.
+
+    Attributes:
+        last: The last message; None before the first.
+    """
+
+    def __init__(self) -> None:
+        """Accepts any message as new."""
+        self.last: Frame | None = None
+        self._late: Frame | None = None
+        self._missing = 0
+
+    def judge(self, frame: Frame, missing: int = 0) -> Arrival:
+        """Compares a message with those before it.
+
+        Args:
+            frame: The message.
+            missing: Number of frames so far that are known to be lost. Where they explain a jump of the counter,
+                the message is new.
+        """
+        if frame == self.last:
+            return Arrival.AGAIN
+        ahead = 1 if self.last is None else _ahead(self.last, frame)
+        gap = missing - self._missing >= _GAP_MIN
+        arrival = Arrival.NEW if ahead else Arrival.OTHER
+        if ahead > _AHEAD_MAX:
+            late, self._late = self._late, frame
+            if late is None or not 1 <= _ahead(late, frame) <= (_AHEAD_MAX if gap else 1):
+                return Arrival.LATE
+            arrival = Arrival.ELSEWHERE
+        self.go_on(frame, missing)
+        return Arrival.NEW if gap else arrival
+
+    def go_on(self, frame: Frame, missing: int) -> None:
+        """Accepts a message as the next one."""
+        self.last, self._late, self._missing = frame, None, missing
+
+
+def _ahead(before: Frame, after: Frame) -> int:
+    return (counter_of(after) - counter_of(before)) % COUNTERS
 
 
 class RobotReports:
@@ -48,8 +109,7 @@ class RobotReports:
 
     def forget(self) -> None:
         """Restarts the alive counters; the reports are kept."""
-        self._fresh: dict[str, Freshness] = {}
-        self._missing: dict[str, int] = {}
+        self._fresh: defaultdict[str, Freshness] = defaultdict(Freshness)
         self._joined = MemoryReport()
         self._memory_counter: int | None = None
         self.await_all()
@@ -83,15 +143,9 @@ class RobotReports:
         Args:
             frame: The report.
             decoded: The decoded report.
-            missing: Number of frames so far that are known to be lost. Where they explain a jump of the counter,
-                the report is new.
+            missing: As in `Freshness.judge`.
         """
-        kind = _kind(decoded)
-        gap = missing - self._missing.get(kind, missing) >= GAP_MIN
-        arrival = self._fresh.setdefault(kind, Freshness()).judge(frame, gap=gap)
-        if arrival not in (Arrival.AGAIN, Arrival.LATE):
-            self._missing[kind] = missing
-        return Arrival.NEW if gap and arrival in (Arrival.OTHER, Arrival.ELSEWHERE) else arrival
+        return self._fresh[_kind(decoded)].judge(frame, missing)
 
     def last_of(self, names: Collection[str]) -> list[tuple[str, Frame]]:
         """Each received kind of report with one of these names, and the last report of that kind."""
@@ -110,10 +164,9 @@ class RobotReports:
         Args:
             kind: The kind, as in `last_of`.
             frame: The report.
-            missing: As in `judge`.
+            missing: As in `Freshness.judge`.
         """
-        self._fresh[kind].go_on(frame)
-        self._missing[kind] = missing
+        self._fresh[kind].go_on(frame, missing)
         if kind == LAST_HALF:
             self.gap = self.gap or 0
             self._memory_counter = counter_of(frame)
@@ -156,5 +209,5 @@ class RobotReports:
 
 def _kind(decoded: DecodedFrame) -> str:
     """The message's name, with the part number if it has several parts."""
-    parts = [f" {decoded.signals[part]}" for part in _PARTS if part in decoded.signals]
-    return decoded.name + "".join(parts)
+    part = decoded.signals.get("half", decoded.signals.get("page"))
+    return decoded.name if part is None else f"{decoded.name} {part}"
