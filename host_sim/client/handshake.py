@@ -1,9 +1,9 @@
 """The handshake: the robot stops, identifies itself, and is rejected if it uses another protocol."""
 
 from host_sim.base.errors import RivalError, RobotError
+from host_sim.client.asked_commands import Told
 from host_sim.client.report_checks import holds
 from host_sim.client.robot_client import RobotClient
-from host_sim.client.told import Told
 from host_sim.protocol.codec import Frame
 
 _LISTEN_S = 0.1

@@ -4,10 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from host_sim.base.errors import SessionLostError
-from host_sim.client.asked_commands import AskedCommands, Rivals
+from host_sim.client.asked_commands import AskedCommands, Rivals, Told
 from host_sim.client.robot_reports import REPORTS, Arrival, RobotReports
 from host_sim.client.session import FrameCounts, Session
-from host_sim.client.told import Told
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, Protocol, counter_of
 from host_sim.protocol.generated import REST, TICK_SPAN, Drive, Reason, Result
 
@@ -97,21 +96,12 @@ class Inbox:
         self.sent_tick, self.sent_counter = drive.tick, self.ticks % COUNTERS
         self.drive, self._drive_tick, self._drive_frame, self.last = drive, self.ticks, frame, frame
 
-    def take(self, frame: Frame) -> None:
-        """Processes a frame of any kind.
+    def take(self, frame: Frame) -> Drive | None:
+        """Processes a frame of any kind. Returns the drive in it if it answers senses not answered yet.
 
         Raises:
             SessionLostError: The robot may no longer be the one that was started, or no longer be alone.
             FirmwareError: The robot was built from another layout of the messages.
-        """
-        self.take_drive(frame)
-
-    def take_drive(self, frame: Frame) -> Drive | None:
-        """Returns the drive in a frame if it answers senses not answered yet; processes other frames.
-
-        Raises:
-            SessionLostError: As in `take`.
-            FirmwareError: As in `take`.
         """
         drive = self.protocol.decode_drive(frame)
         if drive is None:

@@ -170,7 +170,7 @@ class RobotClient:
             RobotError: The robot has ended.
         """
         frame = self.connection.link.receive(self.round_trip.timeout_s)
-        drive = None if frame is None else self.inbox.take_drive(frame)
+        drive = None if frame is None else self.inbox.take(frame)
         if drive is None:
             return self._await_late_drive(was_silent=frame is None)
         if self._timed:
@@ -184,7 +184,7 @@ class RobotClient:
             SessionLostError: The robot may no longer be the one that was started, or no longer be alone.
             RobotError: The robot has ended.
         """
-        return self.waiting.receive(self.inbox.take_drive, timeout_s)
+        return self.waiting.receive(self.inbox.take, timeout_s)
 
     def settle(self) -> None:
         """At the end of an environment: confirms the reported memory if frames may have been lost.
@@ -250,7 +250,7 @@ class RobotClient:
         if was_silent:
             self.connection.status()
             self.repeat_senses()
-        drive = self.waiting.receive_or_repeat(self.repeat_senses, self.inbox.take_drive, self.connection.deadline_s)
+        drive = self.waiting.receive_or_repeat(self.repeat_senses, self.inbox.take, self.connection.deadline_s)
         if drive is None:
             raise SessionLostError("it does not answer", silent=True)
         if self._timed:

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from host_sim.client.told import Told
+from host_sim.client.asked_commands import Told
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol, counter_of, node_of
 from host_sim.protocol.generated import Reason, Result
 from host_sim.recording.log_reader import LogReader, check_protocol

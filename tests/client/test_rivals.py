@@ -124,7 +124,7 @@ def test_a_robot_that_says_that_it_hears_nothing_rests_where_it_has_a_clock_of_i
     client = learned(MeddledLink(), 10 * lockstep, lockstep=lockstep)
     signals = {"counter": 0, "tick": 9, "left": 0, "right": 0, "repeat_count": 0, "eat": 0, "action": 0}
 
-    drive = client.inbox.take_drive(PROTOCOL.encode("DRIVE", {**signals, "reason": Reason.SILENCE}))
+    drive = client.inbox.take(PROTOCOL.encode("DRIVE", {**signals, "reason": Reason.SILENCE}))
     client.inbox.take(heartbeat(silent=1))
 
     assert (drive is None) == lockstep
