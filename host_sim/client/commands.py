@@ -1,6 +1,6 @@
 """Commands to a robot: start, stop, and changes of its memory."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 from host_sim.base.errors import RobotError
@@ -35,7 +35,7 @@ def start(client: RobotClient, session: Session, memory: Sequence[int] | None = 
         client.dialogue.command("set", parameter=client.protocol.choices("COMMAND", "parameter")[name], value=value)
     if memory is not None:
         cells = translated(tuple(memory), client.memory_kind)
-        _write(client, dict(enumerate(cells)))
+        _write(client, cells, range(CELL_COUNT))
         if client.memory != cells:
             raise RobotError(f"node {client.node} does not hold the memory that was just written to it: start again")
     client.inbox.session = replace(session, frozen=False, halted=False, missing=client.frames.missing)
@@ -71,7 +71,7 @@ def write_cells(client: RobotClient, sides: Mapping[int, int]) -> None:
     before = client.memory
     after = with_sides(before, client.memory_kind, sides.items())
     named = sides if client.memory_kind != MemoryKind.ALL_SENSORS else ()
-    _write(client, {i: byte for i, byte in enumerate(after) if byte != before[i] or i in named})
+    _write(client, after, {i for i, byte in enumerate(after) if byte != before[i] or i in named})
 
 
 def erase_memory(client: RobotClient) -> None:
@@ -95,14 +95,17 @@ def freeze(client: RobotClient, on: bool) -> None:
         client.inbox.session.frozen = on
 
 
-def _write(client: RobotClient, content: Mapping[int, int]) -> None:
-    """Writes some bytes of the memory. All zeros erase it, so that no half of another memory is left."""
-    if len(content) == CELL_COUNT and not any(content.values()):
+def _write(client: RobotClient, memory: Sequence[int], written: Collection[int]) -> None:
+    """Writes some bytes of a memory. All zeros erase it, so that no half of another memory is left."""
+    if len(written) == CELL_COUNT and not any(memory):
         erase_memory(client)
         return
     for half in range(2):
-        cells = {i % _HALF: byte for i, byte in content.items() if i // _HALF == half}
-        if cells:
-            content_of_half = {f"byte_{i}": cells.get(i, 0) for i in range(_HALF)}
-            client.dialogue.command("write", mask=sum(1 << i for i in cells), half=half, **content_of_half)
+        signals = {"half": half, "mask": 0}
+        for i in range(_HALF):
+            cell = half * _HALF + i
+            signals["mask"] |= (cell in written) << i
+            signals[f"byte_{i}"] = memory[cell] if cell in written else 0
+        if signals["mask"]:
+            client.dialogue.command("write", **signals)
             client.await_memory()

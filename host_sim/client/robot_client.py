@@ -12,9 +12,8 @@ from host_sim.client.incidents import Incident, RefusedFrames
 from host_sim.client.punctuality import Punctuality
 from host_sim.client.report_checks import check_report, holds, is_as_started
 from host_sim.client.robot_reports import RobotReports
-from host_sim.client.round_trip import RoundTrip
 from host_sim.client.session import FrameCounts
-from host_sim.client.waiting import Waiting
+from host_sim.client.waiting import RoundTrip, Waiting
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import NOTHING_NEAR, Drive, MemoryKind, Ranges, Senses
 

@@ -4,7 +4,7 @@ import pytest
 
 from host_sim.client.punctuality import Limits, Punctuality
 from host_sim.client.robot_reports import Arrival, Freshness
-from host_sim.client.round_trip import RoundTrip
+from host_sim.client.waiting import RoundTrip
 from host_sim.protocol.codec import Frame
 from tests.client.support import PROTOCOL, connected, run
 
