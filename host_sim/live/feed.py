@@ -10,7 +10,7 @@ from typing import Any
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, Question
 from host_sim.live.page_talk import PageTalk
-from host_sim.live.seats import Rights
+from host_sim.live.visitor import Rights
 from host_sim.protocol.generated import ROW, Reason
 from host_sim.recording.summary import frame_counts
 from host_sim.recording.trajectory import AXES, RobotTrack

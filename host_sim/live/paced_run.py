@@ -4,7 +4,7 @@ import asyncio
 import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from host_sim.base.errors import RefusedError
 from host_sim.client.commands import erase_memory
@@ -21,7 +21,7 @@ from host_sim.live.page_commands import (
     Speed,
     WriteCell,
 )
-from host_sim.live.robot_orders import command_robot, discard_reports, edit
+from host_sim.live.robot_orders import command_robot, discard_reports, index_of
 from host_sim.protocol.generated import Drive, Reason
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.episode_result import EpisodeResult
@@ -281,7 +281,9 @@ class PacedRun:
             raise EditError("the run is over: start over to see more")
         if self.ended_at is not None:
             raise EditError("this environment is over: the next one begins in a moment")
-        edit(self.simulation, command)
+        if isinstance(command, MoveRobot):
+            command = replace(command.edit, robot=index_of(self.simulation, command.node))
+        self.simulation.edit(command)
         self.layout += 1
 
     def _start_over(self, seed: int, keep: bool) -> None:

@@ -1,26 +1,13 @@
-"""Moves and commands robots between two ticks, as people at a page request."""
-
-from dataclasses import replace
+"""Commands robots between two ticks, as people at a page request."""
 
 from host_sim.client.commands import erase_memory, freeze, write_cells
 from host_sim.client.pacing import RealTime
-from host_sim.live.page_commands import EraseMemory, Freeze, MoveRobot, WriteCell
+from host_sim.live.page_commands import EraseMemory, Freeze, WriteCell
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.simulation import Simulation
-from host_sim.world.edits import Edit, EditError
+from host_sim.world.edits import EditError
 
 _DISCARDED_MAX = 256
-
-
-def edit(simulation: Simulation, command: MoveRobot | Edit) -> None:
-    """Changes the arena, or moves a robot.
-
-    Raises:
-        EditError: The change is not possible, or there is no such robot.
-    """
-    if isinstance(command, MoveRobot):
-        command = replace(command.edit, robot=_index(simulation, command.node))
-    simulation.edit(command)
 
 
 def command_robot(simulation: Simulation, recorder: RunRecorder, command: WriteCell | EraseMemory | Freeze) -> None:
@@ -31,7 +18,7 @@ def command_robot(simulation: Simulation, recorder: RunRecorder, command: WriteC
         RefusedError: The robot refuses the command.
         RobotError: The robot does not answer.
     """
-    index = _index(simulation, command.node)
+    index = index_of(simulation, command.node)
     client = simulation.clients[index]
     simulation.set_clock()
     match command:
@@ -59,9 +46,15 @@ def discard_reports(simulation: Simulation) -> None:
         client.connection.status()
 
 
-def _index(simulation: Simulation, node: int | None) -> int:
-    """The index of the robot with a node number; None stands for the first."""
+def index_of(simulation: Simulation, node: int | None) -> int:
+    """The index of the robot with a node number; None stands for the first.
+
+    Raises:
+        EditError: There is no such robot.
+    """
+    if node is None:
+        return 0
     nodes = simulation.nodes
-    if node is not None and node not in nodes:
+    if node not in nodes:
         raise EditError(f"there is no robot {node}; there are {', '.join(map(str, nodes))}")
-    return 0 if node is None else nodes.index(node)
+    return nodes.index(node)

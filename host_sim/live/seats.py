@@ -2,23 +2,13 @@
 
 import re
 import unicodedata
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
-
-from host_sim.base.errors import OctetError
-from host_sim.live.page_commands import PageCommand, RobotCommand
+from collections.abc import Iterable
+from dataclasses import dataclass
 
 NAME_MAX = 20
 """Maximum length of a name tag, characters."""
 
 _KEY = re.compile(r"[0-9a-f]{32}")
-_THE_BOARDS = "the board does that for all: here you can change your own robot"
-_ONLY_WATCHING = "every robot has a page of its own already: here you can watch"
-
-
-class NotYoursError(OctetError):
-    """The page may not give this command."""
 
 
 @dataclass
@@ -95,62 +85,3 @@ def name_from(text: str) -> str:
     known = unicodedata.normalize("NFC", text[: 4 * NAME_MAX])
     printable = "".join(sign if sign.isprintable() else " " for sign in known)
     return " ".join(printable.split())[:NAME_MAX].rstrip()
-
-
-@dataclass(frozen=True)
-class Rights:
-    """The rights of a page.
-
-    Attributes:
-        seats: The assignment of robots to pages; None for a page that may do everything.
-        seat: The page's own robot; None if it has none.
-    """
-
-    seats: Seats | None = None
-    seat: Seat | None = None
-
-    @classmethod
-    @contextmanager
-    def of(cls, seats: Seats | None, key: str) -> "Iterator[Rights]":
-        """The rights of a page while it is open.
-
-        Args:
-            seats: The assignment if each page has a robot of its own; None for a page that may do everything.
-            key: Key that identifies the page.
-        """
-        seat = seats.take(key) if seats else None
-        try:
-            yield cls(seats, seat)
-        finally:
-            if seats and seat:
-                seats.leave(seat)
-
-    def rename(self, text: str) -> None:
-        """Puts a name tag on the page's robot.
-
-        Raises:
-            NotYoursError: It has none.
-        """
-        if self.seats is None or self.seat is None:
-            raise NotYoursError("this page has no robot of its own to name")
-        self.seats.rename(self.seat, text)
-
-    def admit(self, command: PageCommand) -> PageCommand:
-        """A command that the page may give; one without a node is for its own robot.
-
-        Raises:
-            NotYoursError: The command is for all, or for another robot.
-        """
-        if self.seats is None:
-            return command
-        if self.seat is None:
-            raise NotYoursError(_ONLY_WATCHING)
-        if not isinstance(command, RobotCommand):
-            raise NotYoursError(_THE_BOARDS)
-        return _for_node(command, self.seat.node)
-
-
-def _for_node(command: RobotCommand, node: int) -> PageCommand:
-    if command.node not in (None, node):
-        raise NotYoursError(f"robot {command.node} is not yours: yours is robot {node}")
-    return replace(command, node=node)

@@ -15,8 +15,8 @@ from host_sim.live.join_code import TooManyGuessesError
 from host_sim.live.listener import Listener
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX
-from host_sim.live.seats import Rights, Seats
-from host_sim.live.visitor import Visitor
+from host_sim.live.seats import Seats
+from host_sim.live.visitor import Rights, Visitor
 from host_sim.view.languages import languages, with_languages
 
 PAGES_MAX = 64

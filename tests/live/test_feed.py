@@ -11,7 +11,8 @@ from host_sim.live.feed import PageFeed, points
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, Question, page_command_from
 from host_sim.live.page_talk import PageTalk
-from host_sim.live.seats import Rights, Seats
+from host_sim.live.seats import Seats
+from host_sim.live.visitor import Rights
 from host_sim.protocol.generated import ROW, Reason
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import RobotTrack

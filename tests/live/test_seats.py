@@ -14,7 +14,8 @@ from host_sim.live.page_commands import (
     Play,
     WriteCell,
 )
-from host_sim.live.seats import NAME_MAX, NotYoursError, Rights, Seats, name_from
+from host_sim.live.seats import NAME_MAX, Seats, name_from
+from host_sim.live.visitor import NotYoursError, Rights
 from host_sim.protocol.generated import Reason
 from host_sim.world.edits import Edit
 from tests.live.support import order, play
