@@ -46,7 +46,7 @@ class AskedCommands:
         asked = next((command for command in reversed(self._asked) if counter_of(command) == counter), None)
         if asked is None or asked.data[1] != answer.data[1]:
             return Arrival.OTHER
-        if self.answered or asked is not self.last:
+        if self.answered or asked is not self._asked[-1]:
             return Arrival.AGAIN
         self.answered = True
         return Arrival.NEW

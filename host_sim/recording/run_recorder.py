@@ -121,16 +121,17 @@ class RunRecorder:
             written: Its eight cells after each report since then.
         """
         history, track = self.histories[robot], self.trajectory.tracks[robot]
+        tick = history.ticks
         if started is not None:
-            history.restart(track.ticks, started)
-            _note(track.trials, track.ticks, None)
-            track.cells = [cell for cell in track.cells if cell.tick < track.ticks]
-            track.cells += [cell._replace(tick=track.ticks) for cell in NEW_CELLS]
+            history.restart(tick, started)
+            _note(track.trials, tick, None)
+            track.cells = [cell for cell in track.cells if cell.tick < tick]
+            track.cells += [cell._replace(tick=tick) for cell in NEW_CELLS]
             self._memories[robot] = started
         for memory in written:
-            track.cells += history.relearn(track.ticks, memory)
+            track.cells += history.relearn(tick, memory)
             self._memories[robot] = memory
-        _note(track.memories, track.ticks, list(history.memory))
+        _note(track.memories, tick, list(history.memory))
 
     def add_block(self, robot: int, block: RobotBlock, memory: Memory) -> None:
         """Adds one robot's ticks of a block. Food eaten and reports end a block, so they belong to its last tick.
