@@ -24,7 +24,7 @@ SOURCE = """int main(int argc, char *argv[])
 """
 A, B, C = (f"told[{i}] == '1'" for i in range(3))
 ENOUGH = ("000", "100", "110", "001")
-ROW = '[[exception]]\nin = "firmware/a.c"\nwhat = ["{}"]\nwhy = "{}"\n'
+ROW = '[["firmware/a.c"]]\nwhat = ["{}"]\nwhy = "{}"\n'
 GAP = Gap("firmware/a.c", 4, f"never true: {B}")
 
 

@@ -13,7 +13,7 @@ from tools.verify.exceptions import TableError, is_covered, read  # noqa: E402
 from tools.verify.mutants.equivalent import needless, unmatched  # noqa: E402
 from tools.verify.mutants.verdicts import Verdict, scores  # noqa: E402
 
-ROW = '[[exception]]\nin = "firmware/a.c"\nwhat = ["{}"]\nwhy = "{}"\n'
+ROW = '[["firmware/a.c"]]\nwhat = ["{}"]\nwhy = "{}"\n'
 
 
 @pytest.mark.parametrize(

@@ -1,9 +1,11 @@
 """Tables of exceptions: findings that a check permits, each with its reason. All have this format.
 
-[[exception]]
-in = "firmware/brain.c"            # a file, or several; * stands for anything
+[["firmware/brain.c"]]             # a file; * stands for anything
 what = ["never true: default"]     # what is found there, one or several; * stands for anything
 why = "A reason."
+
+[[exception]]
+in = ["firmware/*", "hal/*"]       # several files
 """
 
 from collections.abc import Sequence
@@ -58,7 +60,8 @@ def read(path: Path) -> list[Permit]:
         TableError: The table cannot be read, or an exception lacks a part.
     """
     try:
-        rows = parse_toml(path.read_text())["exception"]
+        table = parse_toml(path.read_text())
+        rows = [{"in": name, **row} for name, rows in table.items() for row in rows]
         parts = [(_several(row["in"]), _several(row["what"]), row["why"].strip()) for row in rows]
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise TableError(f"cannot read {path}: {error!r}") from error
