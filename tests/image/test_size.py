@@ -6,11 +6,11 @@ import pytest
 
 from tests.tools.project import ROOT, script_named
 from tools.verify import command
-from tools.verify.command import ChoiceError
+from tools.verify.command import ChoiceError, VerifyError
 from tools.verify.size.budget import read
 from tools.verify.size.core_alone import compiler_of
 from tools.verify.size.pieces import read_pieces
-from tools.verify.size.stack import CallGraph, StackError, worst_stack
+from tools.verify.size.stack import CallGraph, worst_stack
 
 BUDGET = ROOT / "tools" / "verify" / "size.md"
 HEAD = "# Budgets\n\n| what | compiler | flash | ram | stack | instructions |\n| - | - | - | - | - | - |\n"
@@ -134,10 +134,10 @@ def test_the_worst_stack_is_that_of_the_deepest_way() -> None:
     ],
 )
 def test_a_stack_that_cannot_be_known_is_refused(line: str, reason: str) -> None:
-    with pytest.raises(StackError, match=reason):
+    with pytest.raises(VerifyError, match=reason):
         worst_stack(graph(GRAPH + line), ["top"])
 
 
 def test_a_stack_that_grows_as_it_runs_is_refused() -> None:
-    with pytest.raises(StackError, match="dynamic"):
+    with pytest.raises(VerifyError, match="dynamic"):
         graph(GRAPH.replace("(static)", "(dynamic)"))

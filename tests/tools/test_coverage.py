@@ -10,7 +10,8 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tests.tools.project import script_named  # noqa: E402 - found by the line above
-from tools.verify.coverage.measure import CLANG, COPY, FLAGS, NOT_MEASURED, Gap, MeasureError, measure  # noqa: E402 - found by the line above
+from tools.verify.command import VerifyError  # noqa: E402 - found by the line above
+from tools.verify.coverage.measure import CLANG, COPY, FLAGS, NOT_MEASURED, Gap, measure  # noqa: E402
 from tools.verify.exceptions import compare, read  # noqa: E402
 
 # It is told what a, b and c are: "100" for a true and the others false.
@@ -98,7 +99,7 @@ def test_the_sums_are_those_of_all_conditions(built):
 
 
 def test_a_build_whose_tests_have_not_run_is_an_error(built):
-    with pytest.raises(MeasureError, match="no test has left coverage data"):
+    with pytest.raises(VerifyError, match="no test has left coverage data"):
         measure(built, built / "build")
 
 
@@ -120,11 +121,11 @@ def test_a_build_that_broke_off_warns_again(tmp_path, monkeypatch):
     def output_of(*words: object) -> str:
         script.BUILD.mkdir(exist_ok=True)
         if "--build" in words:
-            raise MeasureError("another file does not compile")
+            raise VerifyError("another file does not compile")
         return ""
 
     monkeypatch.setattr(script.command, "output_of", output_of)
-    with pytest.raises(MeasureError, match="another file"):
+    with pytest.raises(VerifyError, match="another file"):
         script.build()
 
     assert not script.BUILD.exists()

@@ -9,7 +9,8 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tests.tools.mutants_of_text import TEXT, mutants  # noqa: E402 - found by the line above
-from tools.verify.exceptions import TableError, is_covered, read  # noqa: E402
+from tools.verify.command import VerifyError  # noqa: E402
+from tools.verify.exceptions import is_covered, read  # noqa: E402
 from tools.verify.mutants.equivalent import needless, unmatched  # noqa: E402
 from tools.verify.mutants.verdicts import Verdict, scores  # noqa: E402
 
@@ -50,7 +51,7 @@ def test_a_table_with_parts_missing_is_an_error(tmp_path, text):
     table = tmp_path / "table.toml"
     table.write_text(text)
 
-    with pytest.raises(TableError):
+    with pytest.raises(VerifyError):
         read(table)
 
 

@@ -12,10 +12,10 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tests.tools.mutants_of_text import STANDARD, TEXT, mutants  # noqa: E402 - found by the line above
+from tools.verify.command import VerifyError  # noqa: E402
 from tools.verify.mutants import runner  # noqa: E402
 from tools.verify.mutants.equivalent import Compiler  # noqa: E402
 from tools.verify.mutants.sources import MUTATED, Source, group_of  # noqa: E402
-from tools.verify.mutants.syntax import SourceError  # noqa: E402
 from tools.verify.mutants.tree import PLAIN, RUNTIME, SANITIZED  # noqa: E402
 from tools.verify.mutants.trial import Trial  # noqa: E402
 from tools.verify.mutants.verdicts import Verdict  # noqa: E402
@@ -264,5 +264,5 @@ def test_what_a_program_has_used_of_the_processor_is_counted():
 
 
 def test_a_source_that_is_no_c_is_an_error(tmp_path):
-    with pytest.raises(SourceError, match="clang cannot read"):
+    with pytest.raises(VerifyError, match="clang cannot read"):
         mutants(tmp_path, "int f(")

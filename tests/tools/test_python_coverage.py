@@ -9,7 +9,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.verify.coverage.measure import MeasureError  # noqa: E402 - found by the line above
+from tools.verify.command import VerifyError  # noqa: E402 - found by the line above
 from tools.verify.coverage.python_tests import measure_python, python_gaps, sums  # noqa: E402
 
 SOURCE = """def sign(number: int) -> int:
@@ -56,5 +56,5 @@ def test_a_branch_or_a_line_that_no_test_takes_is_a_gap_even_if_a_comment_excuse
 
 
 def test_a_test_that_fails_is_told(tmp_path):
-    with pytest.raises(MeasureError, match="coverage run failed"):
+    with pytest.raises(VerifyError, match="coverage run failed"):
         measured(tmp_path, [1], [2])

@@ -35,12 +35,11 @@ def run(name: str, check: Callable[[], Sequence[str]]) -> int:
     return code if complaints else 0
 
 
-def output_of(*command: object, error: type[VerifyError] = VerifyError, env: Mapping[str, str] | None = None) -> str:
+def output_of(*command: object, env: Mapping[str, str] | None = None) -> str:
     """Runs a program and returns its standard output.
 
     Args:
         command: Program and arguments.
-        error: The exception to raise if it fails.
         env: Environment; None for this process's.
 
     Raises:
@@ -50,7 +49,7 @@ def output_of(*command: object, error: type[VerifyError] = VerifyError, env: Map
     try:
         result = subprocess.run(words, capture_output=True, text=True, check=False, env=env)
     except OSError as reason:
-        raise error(f"cannot run {words[0]}: {reason}; tools/setup tests installs it") from reason
+        raise VerifyError(f"cannot run {words[0]}: {reason}; tools/setup tests installs it") from reason
     if result.returncode != 0:
-        raise error(f"{' '.join(words[:3])} failed:\n{(result.stdout + result.stderr)[-OUTPUT_MAX:]}")
+        raise VerifyError(f"{' '.join(words[:3])} failed:\n{(result.stdout + result.stderr)[-OUTPUT_MAX:]}")
     return result.stdout

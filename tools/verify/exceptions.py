@@ -18,10 +18,6 @@ from host_sim.base.toml_file import parse_toml
 from tools.verify.command import VerifyError
 
 
-class TableError(VerifyError):
-    """The table is invalid; the message says why."""
-
-
 class Finding(Protocol):
     """A finding of a check."""
 
@@ -57,17 +53,17 @@ def read(path: Path) -> list[Permit]:
     """Reads the exceptions of a table.
 
     Raises:
-        TableError: The table cannot be read, or an exception lacks a part.
+        VerifyError: The table cannot be read, or an exception lacks a part.
     """
     try:
         table = parse_toml(path.read_text())
         rows = [{"in": name, **row} for name, rows in table.items() for row in rows]
         parts = [(_several(row["in"]), _several(row["what"]), row["why"].strip()) for row in rows]
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise TableError(f"cannot read {path}: {error!r}") from error
+        raise VerifyError(f"cannot read {path}: {error!r}") from error
     for files, texts, why in parts:
         if not (files and texts and why):
-            raise TableError(f"{path}: an exception in {files} lacks `in`, `what` or `why`")
+            raise VerifyError(f"{path}: an exception in {files} lacks `in`, `what` or `why`")
     return [Permit(*each) for files, texts, _ in parts for each in product(files, texts)]
 
 

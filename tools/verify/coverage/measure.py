@@ -27,10 +27,6 @@ _CODE = 0
 _JOINT = 6
 
 
-class MeasureError(VerifyError):
-    """The coverage cannot be measured; the message says why."""
-
-
 @dataclass(frozen=True, order=True)
 class Gap:
     """A gap in the coverage.
@@ -157,7 +153,7 @@ def measure(root: Path, build: Path) -> Measured:
         build: Build folder, compiled by CLANG with FLAGS, whose test_* programs have been run.
 
     Raises:
-        MeasureError: There is no coverage data.
+        VerifyError: There is no coverage data.
     """
     files = list(_files(root, _export(build)))
     conditions = [condition for file in files for condition in file.conditions]
@@ -176,18 +172,14 @@ def _export(build: Path) -> list[dict[str, Any]]:
     profiles = sorted(build.rglob("*.profraw"))
     programs = [path for path in sorted(build.rglob("test_*")) if path.is_file() and os.access(path, os.X_OK)]
     if not profiles or not programs:
-        raise MeasureError(f"no test has left coverage data in {build}")
+        raise VerifyError(f"no test has left coverage data in {build}")
     programs += sorted(build.rglob("lib*.so"))
     merged = build / "tests.profdata"
-    _output(f"llvm-profdata-{VERSION}", "merge", "-o", merged, *profiles)
+    output_of(f"llvm-profdata-{VERSION}", "merge", "-o", merged, *profiles)
     objects = [word for program in programs[1:] for word in ("-object", program)]
-    text = _output(f"llvm-cov-{VERSION}", "export", "-instr-profile", merged, programs[0], *objects)
+    text = output_of(f"llvm-cov-{VERSION}", "export", "-instr-profile", merged, programs[0], *objects)
     functions: list[dict[str, Any]] = json.loads(text)["data"][0]["functions"]
     return functions
-
-
-def _output(*command: object) -> str:
-    return output_of(*command, error=MeasureError)
 
 
 def _files(root: Path, functions: Iterable[dict[str, Any]]) -> Iterator[File]:

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tools.verify.coverage.measure import Gap, MeasureError
+from tools.verify.command import VerifyError
+from tools.verify.coverage.measure import Gap
 
 # These patterns replace coverage.py's: no comment excludes a line, and only lines that do nothing are excluded.
 _SETTING = """\
@@ -55,7 +56,7 @@ def measure_python(root: Path, python: Path, sources: Sequence[str], tests: Sequ
         folder: An existing, empty folder for coverage's files.
 
     Raises:
-        MeasureError: A test failed, or nothing was measured.
+        VerifyError: A test failed, or nothing was measured.
     """
     setting = folder / "setting"
     lines = "\n".join(f"    {root / source}" for source in sources)
@@ -65,7 +66,7 @@ def measure_python(root: Path, python: Path, sources: Sequence[str], tests: Sequ
         command = (str(python), "-m", "coverage", words[0], f"--rcfile={setting}", *words[1:])
         result = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
         if result.returncode != 0:
-            raise MeasureError(f"coverage {words[0]} failed:\n{result.stdout}{result.stderr}")
+            raise VerifyError(f"coverage {words[0]} failed:\n{result.stdout}{result.stderr}")
 
     coverage("run", "-m", "pytest", "--quiet", "-p", "no:cacheprovider", *tests)
     coverage("combine", "--quiet")

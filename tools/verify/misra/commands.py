@@ -5,17 +5,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TypedDict
 
-from tools.verify.command import VerifyError, output_of
+from tools.verify.command import output_of
 
 ROOT = Path(__file__).resolve().parents[3]
 BUILDS = ("feather_stm32f405", "blue_pill", "nucleo_g431rb")
 """A source that is part of several builds is checked with the options of the first."""
 
 CHECKED = ("firmware", "hal")
-
-
-class CheckError(VerifyError):
-    """The check cannot be made; the message says why."""
 
 
 class Command(TypedDict):
@@ -30,7 +26,7 @@ def built_sources() -> list[Command]:
     """The compile commands of all our sources in the builds, one for each source.
 
     Raises:
-        CheckError: A build is missing.
+        VerifyError: A build is missing.
     """
     commands: dict[Path, Command] = {}
     for build in BUILDS:

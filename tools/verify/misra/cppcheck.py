@@ -9,7 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tools.verify.misra.commands import ROOT, CheckError, Command
+from tools.verify.command import VerifyError
+from tools.verify.misra.commands import ROOT, Command
 
 CPPCHECK = ROOT / ".venv/bin/cppcheck"
 _FINDING = re.compile(r"(?P<file>.+):(?P<line>\d+) misra-c2012-(?P<rule>[\d.]+)$")
@@ -45,7 +46,7 @@ def findings(commands: Sequence[Command]) -> list[Finding]:
     """All findings in these sources, each once.
 
     Raises:
-        CheckError: cppcheck is missing, or does not understand a source.
+        VerifyError: cppcheck is missing, or does not understand a source.
     """
     with tempfile.TemporaryDirectory() as folder:
         project = Path(folder, "compile_commands.json")
@@ -54,7 +55,7 @@ def findings(commands: Sequence[Command]) -> list[Finding]:
     found = set()
     for line in output.splitlines():
         if _ERROR.fullmatch(line):
-            raise CheckError(f"cppcheck does not understand {line}")
+            raise VerifyError(f"cppcheck does not understand {line}")
         if (match := _FINDING.fullmatch(line)) and match["rule"] not in _OF_WHOLE_PROGRAMS:
             found.add(Finding(match["rule"], _relative(match["file"]), int(match["line"])))
     return sorted(found)
@@ -68,9 +69,9 @@ def _run(project: Path, scratch: str) -> str:
         command = (CPPCHECK, f"--project={project}", *options, template)
         result = subprocess.run(command, capture_output=True, text=True, check=False)
     except OSError as error:
-        raise CheckError(f"cannot run cppcheck: {error}; tools/setup misra installs it") from error
+        raise VerifyError(f"cannot run cppcheck: {error}; tools/setup misra installs it") from error
     if result.returncode != 0 or "Bailing out" in result.stdout:
-        raise CheckError(f"cppcheck failed: {result.stdout}{result.stderr}")
+        raise VerifyError(f"cppcheck failed: {result.stdout}{result.stderr}")
     return result.stderr
 
 

@@ -25,7 +25,7 @@ class Project:
             without: Names of tests to leave out.
 
         Raises:
-            BuildError: The build cannot be configured.
+            VerifyError: The build cannot be configured.
         """
         self._root = root
         self._tree = Tree(root, builds)
@@ -42,7 +42,7 @@ class Project:
         """Some of the sources, with their mutants, whose numbers do not depend on the selection.
 
         Raises:
-            SourceError: They cannot be read.
+            VerifyError: They cannot be read.
         """
         new = read_sources(self._root, self._options, set(files) - self._read.keys())
         self._read |= {source.file: source for source in new}
@@ -52,8 +52,7 @@ class Project:
         """The tests of some files, with all mutants compiled in.
 
         Raises:
-            BuildError: They cannot be built.
-            RunError: A test fails without a mutant.
+            VerifyError: They cannot be built, or one fails without a mutant.
         """
         sources = self.sources(self.files)
         self._tree.write(self._texts | {source.file: source.schemata for source in sources})

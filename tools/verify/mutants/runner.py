@@ -23,10 +23,6 @@ FIRST_WAIT_S = 120.0
 FIRST_CPU_MS = "120000"
 
 
-class RunError(VerifyError):
-    """A test fails without a mutant; the message names it."""
-
-
 class Runner:
     """The tests of one build."""
 
@@ -38,7 +34,7 @@ class Runner:
             highest: The highest mutant number.
 
         Raises:
-            RunError: A test fails.
+            VerifyError: A test fails.
         """
         self._tests = tests
         self._seconds: dict[str, float] = {}  # of processor time
@@ -56,7 +52,7 @@ class Runner:
             before, start = os.times(), time.monotonic()
             environment = {"OCTET_MUTANT_TRACE": marks.name, "OCTET_MUTANT_CPU_MS": FIRST_CPU_MS}
             if not passes(test, environment, FIRST_WAIT_S):
-                raise RunError(f"{test.name} fails without a mutant")
+                raise VerifyError(f"{test.name} fails without a mutant")
             used = os.times()
             cpu = used.children_user + used.children_system - before.children_user - before.children_system
             self._seconds[test.name] = cpu

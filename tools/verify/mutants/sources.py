@@ -85,7 +85,7 @@ def read_sources(root: Path, options: Mapping[str, Sequence[str]], files: Collec
         files: The sources to read.
 
     Raises:
-        SourceError: Clang cannot read one of them.
+        VerifyError: Clang cannot read one of them.
     """
     with ProcessPoolExecutor(os.cpu_count()) as pool:
         each = enumerate(options.items())

@@ -24,10 +24,6 @@ CONSTANT_PARTS = {
 TRANSPARENT = ("ImplicitCastExpr", "ParenExpr", "CStyleCastExpr")
 
 
-class SourceError(VerifyError):
-    """Clang cannot read a source; the message says why."""
-
-
 @dataclass
 class Node:
     """A declaration, statement or expression.
@@ -103,12 +99,12 @@ def functions(path: Path, options: Sequence[str]) -> list[Node]:
         options: The compiler's options: folders, definitions, the standard.
 
     Raises:
-        SourceError: clang cannot read it.
+        VerifyError: clang cannot read it.
     """
     command = ["clang", *options, "-w", "-fsyntax-only", "-Xclang", "-ast-dump=json", str(path)]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     if result.returncode != 0:
-        raise SourceError(f"clang cannot read {path}:\n{result.stderr}")
+        raise VerifyError(f"clang cannot read {path}:\n{result.stderr}")
     nodes = (node_of(item) for item in json.loads(result.stdout)["inner"] if item["kind"] == "FunctionDecl")
     return [node for node in nodes if node and any(child.kind == "CompoundStmt" for child in node.children)]
 

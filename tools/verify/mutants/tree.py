@@ -6,17 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tools.verify.command import VerifyError, output_of
+from tools.verify.command import output_of
 
 FOLDERS = ("firmware", "hal", "host_sim", "tests", "tools/cmake", "tools/reference", "tools/robot_words")
 SUFFIXES = {".c", ".h", ".txt", ".cmake", ".dbc", ".toml", ".map", ".py", ".inc"}
 FILES = ("CMakeLists.txt", "tools/generate", "tools/pins")
 RUNTIME = Path(__file__).with_name("runtime.c")
 GENERATED = ("generated/robot_words.h", "generated/octet.h", "generated/build_id.h")
-
-
-class BuildError(VerifyError):
-    """The build fails; the message says why."""
 
 
 @dataclass(frozen=True)
@@ -97,51 +93,49 @@ class Tree:
         """Configures a build and generates its sources.
 
         Raises:
-            BuildError: CMake or a generator fails.
+            VerifyError: CMake or a generator fails.
         """
         to = self._builds / build.name
         to.mkdir(parents=True, exist_ok=True)
         runtime = to / "mutant_runtime.o"
-        _run("cc", "-O1", "-fPIC", "-c", RUNTIME, "-o", runtime)
-        _run(
+        output_of("cc", "-O1", "-fPIC", "-c", RUNTIME, "-o", runtime)
+        output_of(
             *("cmake", "-G", "Ninja", "-S", self.folder, "-B", to, "-DCMAKE_BUILD_TYPE=", "-DCMAKE_C_FLAGS=-O1 -w"),
             *(f"-DUNITY_DIR={self._root / 'build/unity'}", f"-DMONOCYPHER_DIR={self._root / 'build/monocypher'}"),
             *(f"-DCANTOOLS={self._root / '.venv/bin/cantools'}", f"-DCMAKE_C_STANDARD_LIBRARIES={runtime}"),
             *build.options,
         )
-        _run("ninja", "-C", to, *GENERATED)
+        output_of("ninja", "-C", to, *GENERATED)
 
     def commands(self, build: Build) -> list[Mapping[str, str]]:
         """The entries of the compilation database, one for each source."""
-        entries: list[Mapping[str, str]] = json.loads(_run("ninja", "-C", self._builds / build.name, "-t", "compdb"))
+        entries: list[Mapping[str, str]] = json.loads(
+            output_of("ninja", "-C", self._builds / build.name, "-t", "compdb")
+        )
         return [entry for entry in entries if " -c " in entry["command"]]
 
     def tests(self, build: Build, files: Collection[str]) -> list[Test]:
         """Builds the tests that contain some files; returns those that need no CAN interface.
 
         Raises:
-            BuildError: They cannot be built.
+            VerifyError: They cannot be built.
         """
         to = self._builds / build.name
         targets = [target for target in self._programs(to) if self._inputs(to, target) & set(files)]
-        _run("ninja", "-C", to, *targets)
-        listed = json.loads(_run("ctest", "--test-dir", to, "-LE", "vcan", "--show-only=json-v1"))["tests"]
+        output_of("ninja", "-C", to, *targets)
+        listed = json.loads(output_of("ctest", "--test-dir", to, "-LE", "vcan", "--show-only=json-v1"))["tests"]
         built = {str(to / target) for target in targets}
         return [_test(item) for item in listed if item.get("command", ("",))[0] in built]
 
     def _programs(self, to: Path) -> list[str]:
-        rules = (line.rpartition(": ") for line in _run("ninja", "-C", to, "-t", "targets", "all").splitlines())
+        rules = (line.rpartition(": ") for line in output_of("ninja", "-C", to, "-t", "targets", "all").splitlines())
         return [path for path, _, rule in rules if path.startswith("tests/") and rule.startswith("C_EXECUTABLE")]
 
     def _inputs(self, to: Path, target: str) -> set[str]:
-        lines = map(Path, _run("ninja", "-C", to, "-t", "inputs", target).splitlines())
+        lines = map(Path, output_of("ninja", "-C", to, "-t", "inputs", target).splitlines())
         return {str(line.relative_to(self.folder)) for line in lines if line.is_relative_to(self.folder)}
 
 
 def _test(item: Mapping[str, Any]) -> Test:
     properties = {it["name"]: it["value"] for it in item["properties"]}
     return Test(item["name"], item["command"], properties.get("FAIL_REGULAR_EXPRESSION", ()))
-
-
-def _run(*command: object) -> str:
-    return output_of(*command, error=BuildError)

@@ -46,8 +46,7 @@ class Trial:
             is_enough: Whether the verdicts without sanitizers suffice; the sanitizer build doubles the time.
 
         Raises:
-            BuildError: The tests cannot be built.
-            RunError: A test fails without a mutant.
+            VerifyError: The tests cannot be built, or one fails without a mutant.
         """
         left = self._survivors(PLAIN, mutants)
         same = self._of_same_code(left)

@@ -15,10 +15,6 @@ _NODE = re.compile(r'^node: \{ title: "([^"]+)" label: "[^"]*\\n(\d+) bytes \(([
 _EDGE = re.compile(r'^edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"', re.MULTILINE)
 
 
-class StackError(VerifyError):
-    """The worst-case stack cannot be determined."""
-
-
 @dataclass
 class CallGraph:
     """A call graph with the stack frame of each function.
@@ -35,11 +31,11 @@ class CallGraph:
         """Adds the text of a .ci file that the compiler wrote.
 
         Raises:
-            StackError: The stack frame of a function is not constant.
+            VerifyError: The stack frame of a function is not constant.
         """
         for name, size, kind in _NODE.findall(text):
             if kind != "static":
-                raise StackError(f"the stack of {name} is {kind}")
+                raise VerifyError(f"the stack of {name} is {kind}")
             self.frames[name] = int(size)
         for caller, callee in _EDGE.findall(text):
             self.calls[caller].add(callee)
@@ -48,12 +44,12 @@ class CallGraph:
         """The deepest call chain from a function: its bytes of stack, and its functions.
 
         Raises:
-            StackError: There is recursion, or a call through a pointer.
+            VerifyError: There is recursion, or a call through a pointer.
         """
         if function in above:
-            raise StackError(f"{function} calls itself, through {' '.join(above)}")
+            raise VerifyError(f"{function} calls itself, through {' '.join(above)}")
         if function == "__indirect_call":
-            raise StackError(f"{above[-1]} calls through a pointer")
+            raise VerifyError(f"{above[-1]} calls through a pointer")
         deepest, way = 0, list[str]()
         for callee in sorted(self.calls[function]):
             depth, further = self.worst(callee, (*above, function))
@@ -70,12 +66,12 @@ def read_graph(build: Path, image: str) -> CallGraph:
         image: The image's name.
 
     Raises:
-        StackError: It is missing, or the stack frame of a function is not constant.
+        VerifyError: It is missing, or the stack frame of a function is not constant.
     """
     graph = CallGraph()
     linked = sorted(build.glob(f"{image}.elf.ltrans*.ci"))
     if not linked:
-        raise StackError(f"no call graph of {image} in {build}")
+        raise VerifyError(f"no call graph of {image} in {build}")
     for path in (*linked, *sorted(build.glob("*/**/*.ci"))):
         graph.add(path.read_text())
     return graph
