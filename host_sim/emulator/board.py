@@ -79,7 +79,7 @@ class EmulatedBoard:
             self.hardware.flash.memory[at : at + len(data)] = data
         self.hardware.flash_image(load_segments(image), slots.span if slots else (0, 0))
         self._clock = self.hardware.clock
-        self._alarm = self._clock.add(self._due)
+        self._set_alarm = self._clock.add(self._due)
         self._said.extend(self._listen(round(_BOOT_S * SECOND)))
 
     def send(self, frame: Frame) -> None:
@@ -152,7 +152,7 @@ class EmulatedBoard:
     def _run_until(self, moment: int) -> None:
         """Runs until the board sends something, at most until a moment."""
         self._deadline = moment
-        self._alarm.set(moment)
+        self._set_alarm(moment)
         while not self._has_news() and self._clock.now < moment:
             try:
                 self.hardware.core.run()

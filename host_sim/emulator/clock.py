@@ -1,6 +1,7 @@
 """The board's time, `struct board_clock`, and the events scheduled on it."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from host_sim.emulator.c_models import c_models
@@ -13,18 +14,6 @@ _HOUR = 3600 * SECOND
 
 NEVER = (2**64 - 1) * _NS
 """A moment that never comes."""
-
-
-class Alarm:
-    """The time at which an event is next due."""
-
-    def __init__(self, clock: "Clock", number: int) -> None:
-        """Created by `Clock.add`."""
-        self._clock, self._number = clock, number
-
-    def set(self, moment: int) -> None:
-        """Sets the moment at which the event is due."""
-        self._clock.set_alarm(self._number, moment)
 
 
 class Clock:
@@ -73,14 +62,14 @@ class Clock:
         period: int = self.model.period_fs
         return period
 
-    def add(self, due: Callable[[], int]) -> Alarm:
+    def add(self, due: Callable[[], int]) -> Callable[[int], None]:
         """Adds an event.
 
         Args:
             due: Handles the event, and returns the moment of its next call.
 
         Returns:
-            The alarm, to be set when that moment changes. Until then, `due` is called as soon as any event is due.
+            Sets that moment if it changes. Until then, `due` is called as soon as any event is due.
         """
         self._timed.append(due)
         alarms = self._ffi.new("struct moment[]", len(self._timed))
@@ -88,7 +77,7 @@ class Clock:
             alarms[number] = self._alarms[number]
         self._alarms = self.model.alarms = alarms
         self.model.alarm_count = len(self._timed)
-        return Alarm(self, len(self._timed) - 1)
+        return partial(self._set_alarm, len(self._timed) - 1)
 
     def set_hz(self, hz: int) -> None:
         """Changes the core clock, Hz."""
@@ -118,14 +107,13 @@ class Clock:
         self._library.clock_settle(self.model)
         self.raise_failure()
 
-    def set_alarm(self, number: int, moment: int) -> None:
-        """As `Alarm.set`, by the number of the alarm."""
+    def _set_alarm(self, number: int, moment: int) -> None:
         alarm = self._alarms[number]
         alarm.ns, alarm.fs = divmod(min(moment, NEVER), _NS)
         self._library.clock_expect(self.model, alarm)
 
     def _ring(self, _clock: object, number: int) -> None:
-        self.set_alarm(number, self._timed[number]())
+        self._set_alarm(number, self._timed[number]())
 
     def execute(self, cycles: int) -> None:
         """Advances time by a number of cycles."""

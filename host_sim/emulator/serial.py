@@ -49,7 +49,7 @@ class Usart(Peripheral):
         self._came_at = self._left_at = 0
         self._cr1 = Register("CR1", on_write=self._write_cr1)
         super().__init__("USART", self.layout())
-        self._alarm = clock.add(self._due)
+        self._set_alarm = clock.add(self._due)
         self.reset()
 
     def layout(self) -> dict[int, Register]:
@@ -68,14 +68,14 @@ class Usart(Peripheral):
         self._received: deque[int] = deque()
         self._overrun = False
         self._leaving: deque[int] = deque()
-        self._alarm.set(self._next())
+        self._set_alarm(self._next())
 
     def feed(self, text: bytes) -> None:
         """Queues text from the far end of the line, which arrives at the line's full speed."""
         if not self._coming:
             self._came_at = max(self._came_at, self._clock.now) + _BYTE_SPAN
         self._coming.extend(text)
-        self._alarm.set(self._next())
+        self._set_alarm(self._next())
 
     def _due(self) -> int:
         while self._coming and self._came_at <= self._clock.now:
@@ -120,7 +120,7 @@ class Usart(Peripheral):
         if not self._leaving:
             self._left_at = self._clock.now + _BYTE_SPAN
         self._leaving.append(value & 0xFF)
-        self._alarm.set(self._next())
+        self._set_alarm(self._next())
 
     def _write_cr1(self, value: int) -> None:
         if value & ~(1 << self.on_bit | _TE | _RE | self.others):

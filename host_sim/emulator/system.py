@@ -97,14 +97,14 @@ class Watchdog(Peripheral):
         super().__init__(
             "IWDG", {0x0: key, 0x4: self._prescaler, 0x8: self._reload, 0xC: Register("SR")}, clocked=True
         )
-        self._alarm = clock.add(self._due)
+        self._set_alarm = clock.add(self._due)
 
     def reset(self) -> None:
         """As in `Peripheral`."""
         super().reset()
         self._started = self._unlocked = False
         self._expires = NEVER
-        self._alarm.set(NEVER)
+        self._set_alarm(NEVER)
 
     def period_s(self) -> float:
         """Timeout after a feed, s; 0 if it is not started."""
@@ -118,7 +118,7 @@ class Watchdog(Peripheral):
         if self._started and value in (_START, _FEED):
             period = SECOND // self._slow_hz * (4 << min(self._prescaler.value, 6))
             self._expires = self._clock.now + (self._reload.value + 1) * period
-            self._alarm.set(self._expires)
+            self._set_alarm(self._expires)
 
     def _write_prescaler(self, value: int) -> None:
         self._assert_unlocked("PR")

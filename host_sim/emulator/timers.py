@@ -70,13 +70,13 @@ class MotorTimer(KeptPeripheral):
         kept = {offset: name for offset, name in _NAMES.items() if offset != _CR1} | {_RCR: "RCR"}
         others = {0x00: self._cr1, 0x14: Register("EGR", on_write=self._generate), _BDTR: self._bdtr}
         super().__init__("TIM1", kept, others, resets={_ARR: _COUNT_MASK}, zeros_clear=[_SR])
-        self._alarm = clock.add(self._due)
+        self._set_alarm = clock.add(self._due)
 
     def reset(self) -> None:
         """As in `Peripheral`."""
         super().reset()
         self._next = NEVER
-        self._alarm.set(NEVER)
+        self._set_alarm(NEVER)
 
     def duty(self, channel: int) -> float:
         """Fraction of time for which its complementary output is high, 0..1.
@@ -112,7 +112,7 @@ class MotorTimer(KeptPeripheral):
             self._next = self._clock.now + self.period()
         elif not value & _CEN:
             self._next = NEVER
-        self._alarm.set(self._next)
+        self._set_alarm(self._next)
 
     def _generate(self, value: int) -> None:
         self.registers[_SR].value |= value & _UIF

@@ -28,7 +28,7 @@ def hardware():
         made.core.stop()
         return NEVER
 
-    made.clock.add(due).set(SECOND // 1000)
+    made.clock.add(due)(SECOND // 1000)
     return made
 
 
