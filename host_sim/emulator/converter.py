@@ -4,7 +4,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 
 from host_sim.emulator.clock import SECOND, Clock
-from host_sim.emulator.registers import BoardError, Peripheral, Register
+from host_sim.emulator.registers import BoardError, Peripheral, Register, plain
 
 _ADON, _CONT, _CALIBRATE, _FORGET, _DMA, _SCAN = 1, 1 << 1, 1 << 2, 1 << 3, 1 << 8, 1 << 8
 _CALIBRATIONS, _LOOKS = _CALIBRATE | _FORGET, 2
@@ -16,24 +16,6 @@ _G4_CFGR, _G4_DIVISORS = 1 << 13 | 3, (0, 1, 2, 4)
 _G4_ISR, _G4_SQR1, _G4_CCR, _ADC1_REQUEST = 0x00, 0x30, 0x308, 5
 _CHANNEL_ON, _CIRCULAR, _MINC, _HALVES = 1, 1 << 5, 1 << 7, 1 << 8 | 1 << 10
 _CCR, _CNDTR, _CPAR, _CMAR, _STRIDE = 0x08, 0x0C, 0x10, 0x14, 20
-
-
-class Dma(Peripheral):
-    """DMA1."""
-
-    def __init__(self) -> None:
-        """At rest."""
-        names = {0x00: "ISR", 0x04: "IFCR"}
-        for channel in range(7):
-            names |= {at + _STRIDE * channel: f"C{n}{channel + 1}" for at, n in ((_CCR, "CR"), (_CNDTR, "NDTR"))}
-            names |= {at + _STRIDE * channel: f"C{n}{channel + 1}" for at, n in ((_CPAR, "PAR"), (_CMAR, "MAR"))}
-        super().__init__("DMA1", {offset: Register(name) for offset, name in names.items()})
-
-    def target(self, source: int) -> tuple[int, int] | None:
-        """Target of channel 1 in circular mode, address and half-word count; None if it does not copy `source`."""
-        control, count, peripheral, memory = (self.registers[at].value for at in (_CCR, _CNDTR, _CPAR, _CMAR))
-        wanted = _CHANNEL_ON | _CIRCULAR | _MINC | _HALVES
-        return (memory, count) if control & wanted == wanted and peripheral == source else None
 
 
 class Multiplexer(Peripheral):
@@ -48,6 +30,31 @@ class Multiplexer(Peripheral):
         return self.registers[0].value == _ADC1_REQUEST
 
 
+class Dma(Peripheral):
+    """DMA1."""
+
+    def __init__(self, multiplexer: Multiplexer | None = None) -> None:
+        """At rest.
+
+        Args:
+            multiplexer: Selects its requests; None if channel 1 always serves ADC1.
+        """
+        self._multiplexer = multiplexer
+        names = {0x00: "ISR", 0x04: "IFCR"}
+        for channel in range(7):
+            names |= {at + _STRIDE * channel: f"C{n}{channel + 1}" for at, n in ((_CCR, "CR"), (_CNDTR, "NDTR"))}
+            names |= {at + _STRIDE * channel: f"C{n}{channel + 1}" for at, n in ((_CPAR, "PAR"), (_CMAR, "MAR"))}
+        super().__init__("DMA1", plain(names))
+
+    def target(self, source: int) -> tuple[int, int] | None:
+        """Target of channel 1 in circular mode, address and half-word count; None if it does not copy `source`."""
+        if self._multiplexer is not None and not self._multiplexer.serves_converter():
+            return None
+        control, count, peripheral, memory = (self.registers[at].value for at in (_CCR, _CNDTR, _CPAR, _CMAR))
+        wanted = _CHANNEL_ON | _CIRCULAR | _MINC | _HALVES
+        return (memory, count) if control & wanted == wanted and peripheral == source else None
+
+
 class Converter(Peripheral):
     """ADC1 in continuous scan mode."""
 
@@ -55,26 +62,25 @@ class Converter(Peripheral):
     """Offset of the data register DR."""
     hz_max: int
 
-    def __init__(self, base: int, hz: Callable[[], int], dma: Dma, registers: Mapping[int, Register]) -> None:
+    def __init__(
+        self, base: int, hz: Callable[[], int], dma: Dma, clock: Clock, registers: Mapping[int, Register]
+    ) -> None:
         """At rest.
 
         Args:
             base: Base address.
             hz: Returns its clock frequency, Hz.
             dma: Stores its samples.
+            clock: The board's clock.
             registers: Registers by offset.
         """
-        self._base, self._hz, self._dma = base, hz, dma
+        self._base, self._hz, self._dma, self._clock = base, hz, dma, clock
         self._begun = False
         super().__init__("ADC1", registers)
 
     @abstractmethod
     def order(self) -> Sequence[int]:
         """The channels of a scan, in order."""
-
-    def carried(self) -> bool:
-        """Whether its requests reach the DMA."""
-        return True
 
     def switch_on(self) -> None:
         """Switches it on.
@@ -96,7 +102,7 @@ class Converter(Peripheral):
         Args:
             volts: Sample of each channel, 0..4095; channels not listed read 0.
         """
-        target = self._dma.target(self._base + self.data) if self._begun and self.carried() else None
+        target = self._dma.target(self._base + self.data) if self._begun else None
         if target is None:
             return None
         order = self.order()
@@ -111,13 +117,13 @@ class ConverterF1(Converter):
 
     data, hz_max = 0x4C, 14_000_000
 
-    def __init__(self, base: int, hz: Callable[[], int], dma: Dma) -> None:
+    def __init__(self, base: int, hz: Callable[[], int], dma: Dma, clock: Clock) -> None:
         """As in `Converter`."""
         self._calibrated = self._looks = 0
         self._cr2 = Register("CR2", on_read=self._read_cr2, on_write=self._write_cr2)
         names = {0x00: "SR", 0x04: "CR1", 0x0C: "SMPR1", 0x10: "SMPR2", 0x2C: "SQR1", 0x30: "SQR2", 0x34: "SQR3"}
-        registers = {offset: Register(name) for offset, name in {**names, self.data: "DR"}.items()}
-        super().__init__(base, hz, dma, {**registers, 0x08: self._cr2})
+        registers = plain({**names, self.data: "DR"})
+        super().__init__(base, hz, dma, clock, {**registers, 0x08: self._cr2})
 
     def reset(self) -> None:
         """As in `Peripheral`."""
@@ -159,31 +165,19 @@ class ConverterG4(Converter):
 
     data, hz_max = 0x40, 60_000_000
 
-    def __init__(self, base: int, hz: Callable[[], int], dma: Dma, multiplexer: Multiplexer, clock: Clock) -> None:
-        """As in `Converter`.
-
-        Args:
-            base: Base address.
-            hz: Returns the frequency of its bus, Hz.
-            dma: Stores its samples.
-            multiplexer: Selects the DMA request.
-            clock: The board's clock.
-        """
-        self._multiplexer, self._clock, self._regulated_at = multiplexer, clock, 0
+    def __init__(self, base: int, hz: Callable[[], int], dma: Dma, clock: Clock) -> None:
+        """As in `Converter`, with the frequency of its bus."""
+        self._regulated_at = 0
         self._cr = Register("CR", _G4_ASLEEP, on_write=self._write_cr)
         names = {0x0C: "CFGR", 0x10: "CFGR2", 0x14: "SMPR1", 0x18: "SMPR2", 0x30: "SQR1", 0x34: "SQR2"}
-        registers = {offset: Register(name) for offset, name in {**names, _G4_CCR: "CCR", self.data: "DR"}.items()}
+        registers = plain({**names, _G4_CCR: "CCR", self.data: "DR"})
         isr = Register("ISR", on_read=lambda: self._cr.value & _G4_ON)
-        super().__init__(base, lambda: self._divided(hz()), dma, {**registers, _G4_ISR: isr, 0x08: self._cr})
+        super().__init__(base, lambda: self._divided(hz()), dma, clock, {**registers, _G4_ISR: isr, 0x08: self._cr})
 
     def order(self) -> Sequence[int]:
         """As in `Converter`: six bits per entry, the first entry for the number of entries."""
         fields = self.registers[_G4_SQR1].value | self.registers[_G4_SQR1 + 4].value << 30
         return [fields >> 6 * place & 31 for place in range(1, (fields & 15) + 2)]
-
-    def carried(self) -> bool:
-        """As in `Converter`."""
-        return self._multiplexer.serves_converter()
 
     def _divided(self, bus_hz: int) -> int:
         divisor = _G4_DIVISORS[self.registers[_G4_CCR].value >> 16 & 3]

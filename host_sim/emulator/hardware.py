@@ -6,20 +6,9 @@ from dataclasses import dataclass, field
 
 from host_sim.emulator.board_pins import read_pins
 from host_sim.emulator.can import CanFaults, CanFrame
-from host_sim.emulator.chips import (
-    AFIO_BASE,
-    CAN_BASE,
-    GPIO_STRIDE,
-    NVIC_BASE,
-    POWER_BASE,
-    SCB_BASE,
-    SYSTICK_BASE,
-    WATCHDOG_BASE,
-    Chip,
-    RobotParts,
-)
+from host_sim.emulator.chips import CAN_BASE, SYSTICK_BASE, Chip
 from host_sim.emulator.clock import Clock
-from host_sim.emulator.converter import Dma, Multiplexer
+from host_sim.emulator.converter import Converter, Dma, Multiplexer
 from host_sim.emulator.core import PAGE, Core, Fault
 from host_sim.emulator.flash import BASE as FLASH
 from host_sim.emulator.flash import FlashFaults
@@ -32,10 +21,9 @@ from host_sim.emulator.system import PowerControl, SystemControl, SysTick, Watch
 from host_sim.emulator.timers import MotorTimer, Timer
 from host_sim.emulator.wiring import Wiring
 
-_COUNTERS = {"TIM2": 0x40000000, "TIM3": 0x40000400, "TIM4": 0x40000800}
 _NMI = 2
 """Number of the exception."""
-_TIM1_BASE, _DMA_BASE, _TIM1_UP = 0x40012C00, 0x40020000, 25
+_TIM1_UP = 25
 _WINDOWS = ((0x40000000, 0x80000), (0x48000000, 2 * PAGE), (0x50000000, PAGE), (0xE000E000, PAGE))
 """Address ranges of registers, (base, bytes)."""
 
@@ -99,7 +87,7 @@ class Hardware:
         self.core = Core(self.clock, FLASH)
         self.core.on_fault = self._note_fault
         self.flash = chip.flash(self.clock, faults.flash)
-        self.pins = [chip.gpio(f"GPIO{letter}") for letter in "ABCDEFGHI"[: len(chip.gpio_gates)]]
+        self.pins = [chip.gpio(name) for name in chip.places if name.startswith("GPIO")]
         self.rcc = chip.rcc(self.clock, chip.oscillators, self.flash.core_hz_max, faults.rcc)
         self.flash.on_wait_states = self.rcc.check_speeds
         self.can = chip.can(self.clock, self.rcc.can_hz, faults.can, self._hear)
@@ -115,11 +103,16 @@ class Hardware:
         self.flash.on_unreadable = self.core.interrupt
         self.core.on_nmi = lambda taken: self._scb.enter(_NMI if taken else 0)
         self.robot: RobotOnPins | None = None
-        self._peripherals = self._always_clocked() + self._gated()
-        afio = next((it for base, it in self._peripherals if base == AFIO_BASE), None)
-        self.wiring = Wiring(read_pins(chip.name), self.pins, afio.registers[0x04] if afio else None)
-        if chip.robot is not None:
-            self._peripherals += self._for_robot(chip.robot)
+        self._peripherals: list[Peripheral] = [
+            *(self.rcc, self.flash, self.watchdog, self._systick, self._scb, self.interrupts),
+            *(self.can, self.power, self.usart, *self.pins),
+        ]
+        mapr = Register("MAPR") if "AFIO" in chip.places else None
+        if mapr is not None:
+            self._peripherals.append(Peripheral("AFIO", {0x00: Register("EVCR"), 0x04: mapr}))
+        self.wiring = Wiring(read_pins(chip.name), self.pins, mapr)
+        if chip.converter is not None:
+            self._add_robot(chip.converter)
         self._map()
 
     @property
@@ -185,63 +178,29 @@ class Hardware:
         """
         if cause == "power":
             self._scramble_ram()
-        for _, peripheral in self._peripherals:
+        for peripheral in self._peripherals:
             peripheral.reset()
         self.rcc.restart(cause)
         self.core.reset()
         self.follow_vectors()
 
-    def _always_clocked(self) -> list[tuple[int, Peripheral]]:
-        return [
-            (self.chip.rcc_base, self.rcc),
-            (self.chip.flash_base, self.flash),
-            (WATCHDOG_BASE, self.watchdog),
-            (SYSTICK_BASE, self._systick),
-            (SCB_BASE, self._scb),
-            (NVIC_BASE, self.interrupts),
-        ]
-
-    def _gated(self) -> list[tuple[int, Peripheral]]:
-        chip = self.chip
-        gated: list[tuple[int, Peripheral]] = [
-            (CAN_BASE, self.can),
-            (POWER_BASE, self.power),
-            (chip.usart_base, self.usart),
-        ]
-        gated += [(chip.gpio_base + GPIO_STRIDE * number, port) for number, port in enumerate(self.pins)]
-        gates = [chip.can_gate, chip.power_gate, chip.usart_gate, *chip.gpio_gates]
-        if chip.afio_gate is not None:
-            gated.append((AFIO_BASE, Peripheral("AFIO", {0x00: Register("EVCR"), 0x04: Register("MAPR")})))
-            gates.append(chip.afio_gate)
-        for gate, (_, peripheral) in zip(gates, gated, strict=True):
-            self.rcc.add_gate(*gate, peripheral)
-        return gated
-
-    def _for_robot(self, parts: RobotParts) -> list[tuple[int, Peripheral]]:
-        """Creates the peripherals and wiring of a robot with a body on pins."""
-        rcc = self.rcc
+    def _add_robot(self, create_converter: Callable[[int, Callable[[], int], Dma, Clock], Converter]) -> None:
+        """Adds the peripherals and the wiring of a robot with a body on pins."""
+        places, rcc = self.chip.places, self.rcc
         motors = MotorTimer(self.clock, rcc.apb2_hz, lambda: self.interrupts.pend(_TIM1_UP))
-        dma, timers = Dma(), {name: Timer(name) for name in _COUNTERS}
-        made: list[tuple[int, Peripheral]] = [(_TIM1_BASE, motors), (_DMA_BASE, dma)]
-        made += [(_COUNTERS[name], timer) for name, timer in timers.items()]
-        gates = [parts.motors, parts.dma, *((parts.counters[0], parts.counters[1] + n) for n in range(len(timers)))]
-        special: list[Multiplexer | Clock] = []
-        if parts.multiplexed is not None:
-            gate, base = parts.multiplexed
-            multiplexer = Multiplexer()
-            special = [multiplexer, self.clock]
-            made.append((base, multiplexer))
-            gates.append(gate)
-        converter = parts.converter(parts.adc_base, rcc.adc_hz, dma, *special)
-        made.append((parts.adc_base, converter))
-        for gate, (_, peripheral) in zip([*gates, parts.adc], made, strict=True):
-            rcc.add_gate(*gate, peripheral)
+        timers = {name: Timer(name) for name in ("TIM2", "TIM3", "TIM4")}
+        multiplexer = Multiplexer() if "DMAMUX" in places else None
+        dma = Dma(multiplexer)
+        converter = create_converter(places["ADC1"][0], rcc.adc_hz, dma, self.clock)
+        self._peripherals += [motors, *timers.values(), dma, converter, *([multiplexer] if multiplexer else [])]
         self.robot = RobotOnPins(self.core, self.wiring, motors, timers, converter)
-        return made
 
     def _map(self) -> None:
         space = self.space
-        for base, peripheral in self._peripherals:
+        for peripheral in self._peripherals:
+            base, *gate = self.chip.places[peripheral.name]
+            if gate:
+                self.rcc.add_gate(peripheral, *gate)
             space.attach(base, peripheral)
             if isinstance(peripheral, KeptPeripheral):
                 peripheral.keep_in(space.model, base)

@@ -129,7 +129,7 @@ def start_robot(name: str, faults: Faults | None = None) -> PinsBoard:
     """Starts a board with the image of a robot with a body on pins.
 
     Args:
-        name: A board whose chip has a `robot`, such as `blue_pill`.
+        name: A board with pins for one, such as `blue_pill`.
         faults: Hardware faults to simulate.
 
     Raises:
@@ -137,7 +137,7 @@ def start_robot(name: str, faults: Faults | None = None) -> PinsBoard:
         OctetError: The image is not built.
         BoardError: The image did something that the hardware does not allow.
     """
-    boards = [chip.name for chip in CHIPS.values() if chip.robot]
+    boards = [chip.name for chip in CHIPS.values() if chip.converter]
     if name not in boards:
         raise UsageError(f"there is no image with a body on pins for {name}: use --board {' or '.join(boards)}")
     return PinsBoard(CHIPS[name], image_path(name, PINS), faults)

@@ -67,17 +67,11 @@ class Rcc(Peripheral):
     """Bit RMVF of CSR."""
 
     def __init__(
-        self,
-        registers: Mapping[int, Register],
-        clock: Clock,
-        oscillators: Oscillators,
-        flash_hz: Callable[[], int],
-        faults: RccFaults,
+        self, clock: Clock, oscillators: Oscillators, flash_hz: Callable[[], int], faults: RccFaults
     ) -> None:
         """Creates the clocks in their power-up state.
 
         Args:
-            registers: Additional registers of the family, by offset.
             clock: The board's clock.
             oscillators: Frequencies of the oscillators.
             flash_hz: Returns the fastest core clock that the flash allows with its current settings, Hz.
@@ -90,8 +84,12 @@ class Rcc(Peripheral):
         self._gates: dict[tuple[int, int], Peripheral] = {}
         self._cr = Register("CR", 1 << self.bits[HSI][0], on_read=self._read_cr, on_write=self._write_cr)
         self._csr = Register("CSR", on_write=self._write_csr)
-        super().__init__("RCC", {0x00: self._cr, self.csr_offset: self._csr, **registers}, clocked=True)
+        super().__init__("RCC", {0x00: self._cr, self.csr_offset: self._csr, **self.layout()}, clocked=True)
         self.restart("power")
+
+    @abstractmethod
+    def layout(self) -> dict[int, Register]:
+        """The other registers of the family by offset, among them `cfgr`."""
 
     @abstractmethod
     def pll_source(self) -> str:
@@ -112,7 +110,7 @@ class Rcc(Peripheral):
     def prescalers(self) -> tuple[int, int]:
         """Fields PPRE1 and PPRE2 of CFGR."""
 
-    def add_gate(self, offset: int, bit: int, peripheral: Peripheral) -> None:
+    def add_gate(self, peripheral: Peripheral, offset: int, bit: int) -> None:
         """Adds a clock gate: the peripheral is clocked while the bit of the register is set."""
         self._gates[offset, bit] = peripheral
         register = self.registers[offset]
@@ -244,8 +242,3 @@ class Rcc(Peripheral):
         slow = value & 1
         noted = 0 if value >> self.forget & 1 else self._csr.value & _ALL_FLAGS
         self._csr.value = noted | slow | slow << 1
-
-
-def plain(names: Mapping[int, str]) -> dict[int, Register]:
-    """Registers without effect, by their offsets."""
-    return {offset: Register(name) for offset, name in names.items()}

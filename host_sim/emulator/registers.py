@@ -63,6 +63,11 @@ class Register:
             self.on_write(value)
 
 
+def plain(names: Mapping[int, str]) -> dict[int, Register]:
+    """Registers without side effects, by their offsets."""
+    return {offset: Register(name) for offset, name in names.items()}
+
+
 def ignore(_value: int) -> None:
     """An `on_write` for registers whose writes have no effect."""
 

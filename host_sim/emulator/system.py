@@ -6,7 +6,7 @@ from typing import Any
 
 from host_sim.emulator.c_models import c_models
 from host_sim.emulator.clock import NEVER, SECOND, Clock
-from host_sim.emulator.registers import BoardError, Peripheral, Register
+from host_sim.emulator.registers import BoardError, Peripheral, Register, plain
 
 _TICKINT, _COUNTFLAG, _COUNT_MAX = 1 << 1, 1 << 16, 0xFFFFFF
 _START, _FEED, _UNLOCK, _RELOAD_MAX = 0xCCCC, 0xAAAA, 0x5555, 0xFFF
@@ -187,7 +187,7 @@ class PowerControl(Peripheral):
     def __init__(self, kind: PowerKind) -> None:
         """Starts with a sufficient supply."""
         self.supply_mv, self._kind = _SUPPLY_MV, kind
-        super().__init__("PWR", {offset: Register(name) for offset, name in kind.registers.items()})
+        super().__init__("PWR", plain(kind.registers))
         self.registers[kind.status].on_read = self._read_status
 
     def _read_status(self) -> int:
@@ -211,11 +211,11 @@ class SystemControl(Peripheral):
         self._icsr, self._bfar = Register("ICSR"), Register("BFAR")
         self._vtor = Register("VTOR", on_write=self._write_vtor)
         self._cfsr, self._hfsr = (self._clearing(name) for name in ("CFSR", "HFSR"))
-        plain = {0x10: "SCR", 0x14: "CCR", 0x18: "SHPR1", 0x1C: "SHPR2", 0x20: "SHPR3", 0x24: "SHCSR"}
-        plain |= {0x30: "DFSR", 0x34: "MMFAR", 0x88: "CPACR"}
+        names = {0x10: "SCR", 0x14: "CCR", 0x18: "SHPR1", 0x1C: "SHPR2", 0x20: "SHPR3", 0x24: "SHCSR"}
+        names |= {0x30: "DFSR", 0x34: "MMFAR", 0x88: "CPACR"}
         super().__init__(
             "SCB",
-            {offset: Register(name) for offset, name in plain.items()}
+            plain(names)
             | {
                 0x00: Register("CPUID", cpuid),
                 0x04: self._icsr,

@@ -70,7 +70,7 @@ class Robot:
     """A board and what one does with it."""
 
     def __init__(self, name: str) -> None:
-        self.board: EmulatedBoard = start_robot(name) if CHIPS[name].robot else start_board(name)
+        self.board: EmulatedBoard = start_robot(name) if CHIPS[name].converter else start_board(name)
         self.rig, self.talk = Rig(name), Talk(self.board)
 
     def power_up(self) -> None:

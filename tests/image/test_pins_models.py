@@ -156,9 +156,9 @@ def test_a_duty_is_that_of_a_running_enabled_unbroken_channel(motors):
 
 
 @pytest.fixture
-def converter():
+def converter(clock):
     dma = Dma()
-    made = ConverterF1(0x40012400, lambda: 12_000_000, dma)
+    made = ConverterF1(0x40012400, lambda: 12_000_000, dma, clock)
     for offset, value in ((0x08, 0x5A1), (0x0C, 2), (0x10, 0x4001244C), (0x14, 0x20000100)):
         write(dma, offset, value)
     for offset, value in ((0x2C, 1 << 20), (0x34, 3 | 5 << 5), (0x04, 1 << 8), (0x08, 1)):
@@ -225,7 +225,7 @@ def test_a_round_of_another_length_and_a_clock_too_fast_are_refused(converter):
     write(dma, 0x0C, 3)
     with pytest.raises(BoardError, match="converts 2 channels in a round, and DMA1 carries 3 off"):
         made.convert({})
-    fast = ConverterF1(0x40012400, lambda: 36_000_000, dma)
+    fast = ConverterF1(0x40012400, lambda: 36_000_000, dma, made._clock)
     with pytest.raises(BoardError, match="36000000 Hz, where 14000000 is allowed"):
         write(fast, 0x08, 1)
 
@@ -235,8 +235,9 @@ ON, START, REGULATOR, CALIBRATE = 1, 4, 1 << 28, 1 << 31
 
 @pytest.fixture
 def converter_g4(clock):
-    dma, before = Dma(), Multiplexer()
-    made = ConverterG4(0x50000000, lambda: 80_000_000, dma, before, clock)
+    before = Multiplexer()
+    dma = Dma(before)
+    made = ConverterG4(0x50000000, lambda: 80_000_000, dma, clock)
     for offset, value in ((0x08, 0x5A1), (0x0C, 6), (0x10, 0x50000040), (0x14, 0x20000100)):
         write(dma, offset, value)
     write(before, 0, 5)

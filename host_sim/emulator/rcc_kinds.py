@@ -1,18 +1,60 @@
-"""Reset and clock control of F4 (RM0090 7.3) and G4 (RM0440 7.4), whose PLL has a register of its own."""
+"""Reset and clock control of each family of chips (F1: RM0008 7.3, F4: RM0090 7.3, G4: RM0440 7.4)."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import ClassVar
 
-from host_sim.emulator.clock import Clock
-from host_sim.emulator.rcc import HSE, HSI, PLL, Oscillators, Rcc, RccFaults, plain
-from host_sim.emulator.registers import BoardError, Register
+from host_sim.emulator.rcc import HSE, HSI, PLL, Rcc
+from host_sim.emulator.registers import BoardError, Register, plain
 
+_PLLSRC, _PLLXTPRE, _MUL_SHIFT, _MUL_MAX = 1 << 16, 1 << 17, 18, 16
+_PLL_SETUP = 0x3F << 16
 _F4_PLLSRC = 1 << 22
 _G4_FROM_HSE, _G4_OUTPUT_R, _G4_CAN_SHIFT, _G4_CAN_PCLK1 = 3, 1 << 24, 24, 2
 
 
+class RccF1(Rcc):
+    """Reset and clock control of the F1: CFGR configures the PLL."""
+
+    csr_offset = 0x24
+
+    def layout(self) -> dict[int, Register]:
+        """As in `Rcc`."""
+        self.cfgr = Register("CFGR", on_write=self._write_cfgr)
+        without_effect = plain(
+            {0x08: "CIR", 0x0C: "APB2RSTR", 0x10: "APB1RSTR", 0x18: "APB2ENR", 0x1C: "APB1ENR", 0x20: "BDCR"}
+        )
+        return without_effect | {0x04: self.cfgr, 0x14: Register("AHBENR", 0x14)}
+
+    def pll_source(self) -> str:
+        """As in `Rcc`."""
+        return HSE if self.cfgr.value & _PLLSRC else HSI
+
+    def pll_hz(self) -> int:
+        """As in `Rcc`."""
+        halved = self.pll_source() == HSI or bool(self.cfgr.value & _PLLXTPRE)
+        return (self._source_hz() >> halved) * min((self.cfgr.value >> _MUL_SHIFT & 0xF) + 2, _MUL_MAX)
+
+    def prescalers(self) -> tuple[int, int]:
+        """As in `Rcc`."""
+        return self.cfgr.value >> 8 & 7, self.cfgr.value >> 11 & 7
+
+    def check_pll(self) -> None:
+        """As in `Rcc`."""
+        if self.pll_hz() > self._oscillators.core_max:
+            raise BoardError(f"RCC CR was written to start the PLL at {self.pll_hz()} Hz, which it cannot make")
+
+    def adc_hz(self) -> int:
+        """Frequency of the ADC's clock, Hz."""
+        return self.apb2_hz() // (2 * ((self.cfgr.value >> 14 & 3) + 1))
+
+    def _write_cfgr(self, value: int) -> None:
+        """Writes CFGR; the PLL's fields keep their values while it is on."""
+        kept = _PLL_SETUP if self.pll_is_on() else 0
+        self._switch(value & ~kept | self.cfgr.value & kept)
+
+
 class RccF4(Rcc):
-    """Reset and clock control of the F4."""
+    """Reset and clock control of the F4, whose PLL has a register of its own."""
 
     csr_offset = 0x74
     pll_in: ClassVar[tuple[int, int]] = (950_000, 2_100_000)
@@ -29,15 +71,13 @@ class RccF4(Rcc):
     gates_on: ClassVar[Mapping[int, tuple[str, int]]] = {0x30: ("AHB1ENR", 0x00100000)}
     """Reset values of gate registers with gates open after a reset."""
 
-    def __init__(
-        self, clock: Clock, oscillators: Oscillators, flash_hz: Callable[[], int], faults: RccFaults
-    ) -> None:
+    def layout(self) -> dict[int, Register]:
         """As in `Rcc`."""
         self.cfgr = Register("CFGR", self.cfgr_at[1], on_write=self._switch)
         self._pllcfgr = Register("PLLCFGR", self.pllcfgr_at[1], on_write=self._write_pllcfgr)
         gates = {offset: Register(*gate) for offset, gate in self.gates_on.items()}
         own = {self.pllcfgr_at[0]: self._pllcfgr, self.cfgr_at[0]: self.cfgr}
-        super().__init__(plain(self.without_effect) | gates | own, clock, oscillators, flash_hz, faults)
+        return plain(self.without_effect) | gates | own
 
     def pll_source(self) -> str:
         """As in `Rcc`."""
