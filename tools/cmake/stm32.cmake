@@ -17,11 +17,11 @@ function(octet_program image)
   set(sections ${PROJECT_SOURCE_DIR}/hal/port/cortex_m)
   add_executable(${image})
   target_link_libraries(${image} PRIVATE octet_flash_store octet_cortex_m octet_stm32 ${ARGN})
-  target_link_options(${image} PRIVATE -T ${script} -L ${sections})
+  target_link_options(${image} PRIVATE -T ${script} -L${OCTET_STM32} -L${sections})
   set_target_properties(${image} PROPERTIES
     SUFFIX .elf
     RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}
-    LINK_DEPENDS "${script};${sections}/sections.ld")
+    LINK_DEPENDS "${script};${OCTET_STM32}/stm32.ld;${sections}/sections.ld")
   foreach(format binary:bin ihex:hex)
     string(REGEX MATCH "(.*):(.*)" _ ${format})
     add_custom_command(TARGET ${image} POST_BUILD
