@@ -3,12 +3,8 @@
 import argparse
 import shutil
 import sys
-from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command, check_outputs, file_path
-
-if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
+from host_sim.cli.parsing import Subparsers, add_command, check_outputs, file_path
 
 _EXAMPLES = """\
 examples:
@@ -16,7 +12,7 @@ examples:
 """
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

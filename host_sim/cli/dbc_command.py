@@ -3,13 +3,9 @@
 import argparse
 import re
 import sys
-from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command, number
+from host_sim.cli.parsing import Subparsers, add_command, number
 from host_sim.protocol.words import NODE_MAX
-
-if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
 
 _EXAMPLES = """\
 examples:
@@ -20,7 +16,7 @@ examples:
 _SPAN = re.compile(r"(\d{1,3})(?:-(\d{1,3}))?")
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

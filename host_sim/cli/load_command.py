@@ -2,12 +2,8 @@
 
 import argparse
 import sys
-from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command, file_path
-
-if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
+from host_sim.cli.parsing import Subparsers, add_command, file_path
 
 _EXAMPLES = """\
 examples:
@@ -16,7 +12,7 @@ examples:
 """
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

@@ -1,12 +1,8 @@
 """`tools/octet page`: writes the robot and its world as one web page."""
 
 import argparse
-from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command, check_outputs, file_path
-
-if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
+from host_sim.cli.parsing import Subparsers, add_command, check_outputs, file_path
 
 _EXAMPLE = """\
 example:
@@ -14,7 +10,7 @@ example:
 """
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

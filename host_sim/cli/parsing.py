@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn, TypeAlias
 
 from host_sim.base.errors import UsageError
 from host_sim.base.near_word import meant, near_word
@@ -14,8 +14,8 @@ from host_sim.base.paths import as_called
 from host_sim.base.regular_file import read_words
 from host_sim.protocol.words import PARAMETERS
 
-if TYPE_CHECKING:
-    Subparsers = argparse._SubParsersAction["Parser"]
+Subparsers: TypeAlias = "argparse._SubParsersAction[Parser]"
+"""The subcommands of a command line."""
 
 DEFAULT = " (default: %(default)s)"
 """The end of the help text of an option that has a default."""
@@ -72,7 +72,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def add_command(  # noqa: PLR0913 - what a command's help is made of
-    commands: "Subparsers",
+    commands: Subparsers,
     name: str,
     run: Callable[[argparse.Namespace], int],
     *,

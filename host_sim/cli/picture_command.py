@@ -1,14 +1,10 @@
 """`tools/octet picture`: draws a recorded run as a picture or an animation."""
 
 import argparse
-from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
 from host_sim.cli.log_options import add_log_options, resimulated
-from host_sim.cli.parsing import add_command, check_outputs, number, output_of
-
-if TYPE_CHECKING:
-    from host_sim.cli.parsing import Parser, Subparsers
+from host_sim.cli.parsing import Parser, Subparsers, add_command, check_outputs, number, output_of
 
 _EXAMPLES = """\
 examples:
@@ -17,7 +13,7 @@ examples:
 """
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,
@@ -35,7 +31,7 @@ def add(commands: "Subparsers") -> None:
     _add_clip_options(parser)
 
 
-def _add_clip_options(parser: "Parser") -> None:
+def _add_clip_options(parser: Parser) -> None:
     """Adds the options for the animation's part of the run, speed and width."""
     add, time = parser.add_argument, number(0, 1e9, float)
     add(

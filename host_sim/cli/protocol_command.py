@@ -2,15 +2,11 @@
 
 import argparse
 import sys
-from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command
-
-if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
+from host_sim.cli.parsing import Subparsers, add_command
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     add_command(
         commands,

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import PAGE_WASM
 from host_sim.cli.log_options import add_log_options, resimulated
-from host_sim.cli.parsing import add_command, check_outputs, file_path
+from host_sim.cli.parsing import Subparsers, add_command, check_outputs, file_path
 
 if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
     from host_sim.recording.resimulation import Resimulation
 
 _SHOWN_MAX = 10
@@ -24,7 +23,7 @@ examples:
 """
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

@@ -3,15 +3,11 @@
 import argparse
 import sys
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from host_sim.backends.images import BOARDS
 from host_sim.base.system import HAS_ROBOT_PROCESSES
-from host_sim.cli.parsing import add_command, parameter_table
+from host_sim.cli.parsing import Subparsers, add_command, parameter_table
 from host_sim.cli.run_options import RunOptions, add_options, run_options
-
-if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
 
 _RUN_EXAMPLES = f"""\
 examples:
@@ -40,7 +36,7 @@ _PROCESSES_MAX = 8
 """Maximum number of robots of a watched run that have a process each, unless a bus is named."""
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the commands."""
     _add(
         commands,
@@ -61,7 +57,7 @@ def add(commands: "Subparsers") -> None:
     )
 
 
-def _add(commands: "Subparsers", name: str, *, examples: str, summary: str, description: str, **others: bool) -> None:
+def _add(commands: Subparsers, name: str, *, examples: str, summary: str, description: str, **others: bool) -> None:
     def check(arguments: argparse.Namespace) -> None:
         arguments.options = run_options(arguments, **others)
 

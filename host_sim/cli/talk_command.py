@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
 from host_sim.cli.log_options import resimulated
-from host_sim.cli.parsing import add_command, file_path, number
+from host_sim.cli.parsing import Subparsers, add_command, file_path, number
 from host_sim.protocol.words import NODE_MAX
 
 if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
     from host_sim.talk.conversation import Conversation, Source
 
 _LINE_MAX = 2_000_000
@@ -27,7 +26,7 @@ examples:
 """
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

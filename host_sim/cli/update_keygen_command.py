@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from host_sim.backends.images import BOARDS
 from host_sim.base.errors import UsageError
-from host_sim.cli.parsing import add_command, number
+from host_sim.cli.parsing import Subparsers, add_command, number
 from host_sim.cli.run_options import add_option
 
 if TYPE_CHECKING:
     from rich.progress import Progress
 
-    from host_sim.cli.parsing import Subparsers
     from host_sim.update.hub import Share
     from host_sim.update.image import SlotImage
     from host_sim.update.keys import Ed25519PrivateKey
@@ -39,7 +38,7 @@ Keep that file: boards with its public key accept only images signed with it.
 """
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

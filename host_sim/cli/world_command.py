@@ -2,14 +2,10 @@
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import DEFAULT, add_command, check_outputs, number, output_of
+from host_sim.cli.parsing import DEFAULT, Subparsers, add_command, check_outputs, number, output_of
 from host_sim.cli.run_options import add_option
 from host_sim.world.world_names import WORLD_NAMES
-
-if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
 
 _EXAMPLES = """\
 examples:
@@ -19,7 +15,7 @@ examples:
 """
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

@@ -7,11 +7,10 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
-from host_sim.cli.parsing import add_command, number
+from host_sim.cli.parsing import Subparsers, add_command, number
 from host_sim.cli.run_options import add_option
 
 if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
     from host_sim.lab.calibrate.calibration import Calibration
     from host_sim.lab.calibrate.places import Places
 
@@ -32,7 +31,7 @@ An impossible result is refused, and the old values stay. Without a PC, use the 
 """
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

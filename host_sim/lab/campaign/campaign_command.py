@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 
 from host_sim.backends.images import BOARDS
 from host_sim.base.errors import UsageError
-from host_sim.cli.parsing import add_command, check_outputs, file_path, number, output_of
+from host_sim.cli.parsing import Subparsers, add_command, check_outputs, file_path, number, output_of
 from host_sim.protocol.words import PROFILES
 
 if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
     from host_sim.lab.campaign.cell import Cell
     from host_sim.lab.campaign.outcome import Outcome
 
@@ -30,7 +29,7 @@ learned, the run's files lacked something without a message, or an unexpected er
 """
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

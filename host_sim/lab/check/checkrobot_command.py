@@ -4,12 +4,11 @@ import argparse
 from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
-from host_sim.cli.parsing import add_command, check_outputs, number, output_of
+from host_sim.cli.parsing import Subparsers, add_command, check_outputs, number, output_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from host_sim.cli.parsing import Subparsers
     from host_sim.lab.check.checking import Verdict
 
 _JOBS, _TRIES = 4, 3
@@ -26,7 +25,7 @@ not hold, 2 if no robot answers.
 """
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
-from host_sim.cli.parsing import add_command, check_outputs, file_path
+from host_sim.cli.parsing import Subparsers, add_command, check_outputs, file_path
 
 if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
     from host_sim.recording.log_text import Recorded
 
 _FORMATS = {
@@ -29,7 +28,7 @@ examples:
 """
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

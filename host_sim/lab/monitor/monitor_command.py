@@ -3,13 +3,9 @@
 import argparse
 import math
 import sys
-from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command, number
+from host_sim.cli.parsing import Subparsers, add_command, number
 from host_sim.cli.run_options import add_option
-
-if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
 
 _EXAMPLES = """\
 examples:
@@ -19,7 +15,7 @@ examples:
 """
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

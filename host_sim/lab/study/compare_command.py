@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING
 
 from host_sim.base.counted import counted
 from host_sim.base.errors import UsageError
-from host_sim.cli.parsing import DEFAULT, add_command, file_path, number, settings
+from host_sim.cli.parsing import DEFAULT, Subparsers, add_command, file_path, number, settings
 from host_sim.lab.study.study_command import add_workers, with_progress, worker_stages, workers_of
 from host_sim.protocol.words import PROFILES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from host_sim.cli.parsing import Subparsers
     from host_sim.lab.study.plan import Plan
     from host_sim.lab.study.sample import Sample
 
@@ -37,7 +36,7 @@ _OF_RUNS = ("seeds", "first", "environments", "set", "body", "change", "robot", 
 _SET_HELP = "change a parameter, as tools/run --help lists them; may be repeated"
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

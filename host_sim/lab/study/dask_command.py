@@ -4,14 +4,10 @@ import argparse
 import os
 import sys
 from importlib.util import find_spec
-from typing import TYPE_CHECKING
 
 from host_sim.base.extra_library import library
 from host_sim.base.paths import BUILD, ROOT
-from host_sim.cli.parsing import add_command
-
-if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
+from host_sim.cli.parsing import Subparsers, add_command
 
 _EXAMPLES = """\
 examples:
@@ -25,7 +21,7 @@ Anyone who can reach the scheduler can run any program on the workers: use it on
 _HERE_PAGE = ["--dashboard-address", "127.0.0.1:8787"]
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

@@ -2,15 +2,11 @@
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import ROOT
-from host_sim.cli.parsing import DEFAULT, add_command, file_path
+from host_sim.cli.parsing import DEFAULT, Subparsers, add_command, file_path
 from host_sim.lab.study.study_command import add_workers, run_study, worker_stages, workers_of
-
-if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
 
 _DOCUMENT, _SIZE_MAX = "learning.md", 1_000_000
 _EXAMPLES = """\
@@ -21,7 +17,7 @@ examples:
 _PLOTS = {"learned": ("learning", "survival"), "swapped": ("recovery",), "score": ("score",)}
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import as_called
-from host_sim.cli.parsing import DEFAULT, add_command, file_path, number
+from host_sim.cli.parsing import DEFAULT, Subparsers, add_command, file_path, number
 
 if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
     from host_sim.lab.study.folder import StudyFolder
     from host_sim.lab.study.trial import Run, Trial
     from host_sim.lab.workers import Workers
@@ -31,7 +30,7 @@ _WRITE_S = 5.0
 _OUT = Path("out/studies")
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,

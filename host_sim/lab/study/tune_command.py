@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
-from host_sim.cli.parsing import DEFAULT, add_command, file_path, number, settings
+from host_sim.cli.parsing import DEFAULT, Subparsers, add_command, file_path, number, settings
 from host_sim.cli.run_options import add_option
 from host_sim.lab.study.study_command import add_workers, worker_stages, workers_of
 from host_sim.protocol.words import PARAMETERS
@@ -13,7 +13,6 @@ from host_sim.protocol.words import PARAMETERS
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from host_sim.cli.parsing import Subparsers
     from host_sim.lab.study.sample import Sample
     from host_sim.lab.study.tuning import Piece, Settings
 
@@ -29,7 +28,7 @@ HELD_OUT = 1_000_001
 """The first of the held-out seeds, unless the search itself needs so many."""
 
 
-def add(commands: "Subparsers") -> None:
+def add(commands: Subparsers) -> None:
     """Adds the command."""
     parser = add_command(
         commands,
