@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from random import Random
 
 from host_sim.base.frame import Frame
-from host_sim.faults.bus_faults import Fault, Forge, Forgers, Passing, make_fault
+from host_sim.faults.bus_faults import FAULTS, Fault, Forger, Forgers, Passing
 from host_sim.faults.rule import DIRECTIONS, Direction, Rule
 
 RECORD_MAX = 100_000
@@ -51,15 +51,20 @@ class Schedule:
             UsageError: There is no such fault, or its size is invalid.
         """
         self._rules = [*rules]
+        self._forgers: list[Forger] = []
+
+        def forger_of(name: str) -> Forger:
+            self._forgers.append(forgers(name))
+            return self._forgers[-1]
+
         rolled = [
-            _Rolled(place, rule, make_fault(rule.name, rule.size, forgers), seed) for place, rule in enumerate(rules)
+            _Rolled(place, rule, FAULTS[rule.name](rule.size, forger_of), seed) for place, rule in enumerate(rules)
         ]
         self._wide = [each for each in rolled if not each.rule.is_single]
         self._single: dict[int, list[_Rolled]] = {}
         for each in rolled:
             if each.rule.is_single:
                 self._single.setdefault(each.rule.first, []).append(each)
-        self._listening = [each.fault for each in rolled if isinstance(each.fault, Forge)]
         self._numbers = dict.fromkeys(DIRECTIONS, 0)
         self._struck = array("q")
         self.count = 0
@@ -78,9 +83,9 @@ class Schedule:
         for rolled in (*self._single.get(number, ()), *self._wide):
             if rolled.strikes(number, direction):
                 dice = rolled.dice(number, direction)
-                arriving = [after for before in arriving for after in rolled.fault.apply(before, dice)]
+                arriving = [after for before in arriving for after in rolled.fault(before, dice)]
                 self._record(rolled.place, number, direction)
-        for forger in self._listening:
+        for forger in self._forgers:
             forger.hear(frame)
         return arriving
 
