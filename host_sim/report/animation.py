@@ -1,12 +1,10 @@
 """An animated GIF of a run: the arena with the robot's senses, the reason for its action, and its memory."""
 
 from dataclasses import dataclass
-from io import BytesIO
 from pathlib import Path
 
 from PIL import Image, ImageFont
 
-from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import UsageError
 from host_sim.protocol.generated import CELL_COUNT, SIDES, Reason
 from host_sim.recording.trajectory import RobotTrack, Trajectory, at
@@ -22,6 +20,7 @@ from host_sim.report.drawing import (
     draw_scene,
     draw_trail,
     write,
+    write_image,
 )
 from host_sim.report.palette import BEAM, IN_USE, LEARNED, in_palette
 from host_sim.view.phrases import lesson_sentence, sentence
@@ -69,9 +68,7 @@ def write_gif(path: Path, trajectory: Trajectory, clip: Clip) -> None:
     holds = _holds(trajectory, clip)
     durations = [_FRAME_MS + holds.get(tick, 0) for tick in ticks]
     first, *others = (in_palette(draw_frame(trajectory, tick, clip.width_px)) for tick in ticks)
-    content = BytesIO()
-    first.save(content, "GIF", save_all=True, append_images=others, duration=durations, loop=0)
-    write_bytes(path, content.getvalue())
+    write_image(path, first, "GIF", save_all=True, append_images=others, duration=durations, loop=0)
 
 
 def draw_frame(trajectory: Trajectory, tick: int, width_px: int) -> Image.Image:

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 from io import BytesIO
 from itertools import groupby
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from PIL import Image, ImageDraw, ImageFont
 
@@ -195,6 +195,17 @@ def write(image: Image.Image, place: Point, text: str, size_px: int, anchor: str
     ImageDraw.Draw(image).text(place, text, INK, ImageFont.load_default(size_px), anchor=anchor)
 
 
+def write_image(path: Path, image: Image.Image, kind: str, **options: Any) -> None:
+    """Writes an image in one of Pillow's formats, with Pillow's options for it.
+
+    Raises:
+        OctetError: The file cannot be written.
+    """
+    content = BytesIO()
+    image.save(content, kind, **options)
+    write_bytes(path, content.getvalue())
+
+
 def write_world_picture(path: Path, layout: Layout, params: SimParams, width_px: int) -> None:
     """Writes an environment as PNG; equal environments give equal bytes.
 
@@ -207,6 +218,4 @@ def write_world_picture(path: Path, layout: Layout, params: SimParams, width_px:
         draw_food(plan, at, FOOD_MM, eaten=False)
     for start in layout.starts:
         draw_robot(plan, start, 2 * params.body_radius_mm, PAPER)
-    content = BytesIO()
-    plan.done().quantize().save(content, "PNG", optimize=True)
-    write_bytes(path, content.getvalue())
+    write_image(path, plan.done().quantize(), "PNG", optimize=True)

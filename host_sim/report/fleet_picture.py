@@ -1,13 +1,11 @@
 """The picture of a fleet: each robot's finishing time as a square, what they learned, and their common world."""
 
 from collections.abc import Sequence
-from io import BytesIO
 from math import ceil, sqrt
 from pathlib import Path
 
 from PIL import Image, ImageDraw
 
-from host_sim.base.atomic_file import write_bytes
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.recording.fleet_summary import learned
 from host_sim.report.drawing import (
@@ -21,8 +19,9 @@ from host_sim.report.drawing import (
     draw_obstacles,
     draw_robot,
     write,
+    write_image,
 )
-from host_sim.report.sheet import GAP_PX, LINE_PX, TEXT_PX, WIDTH_PX, stacked, titled
+from host_sim.report.sheet import GAP_PX, LINE_PX, TEXT_PX, WIDTH_PX, abreast, stacked, titled
 from host_sim.sim.fleet import FleetResult
 from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
@@ -59,9 +58,7 @@ def write_fleet_picture(
     else:
         rows = [_arena(groups[last], *world, params)]
     rows.append(_memories(groups[last], params))
-    content = BytesIO()
-    stacked(rows).quantize().save(content, "PNG", optimize=True)
-    write_bytes(path, content.getvalue())
+    write_image(path, stacked(rows).quantize(), "PNG", optimize=True)
 
 
 def _of_environment(results: Sequence[FleetResult], number: int) -> list[FleetResult]:
@@ -113,8 +110,7 @@ def _mosaics(groups: dict[int, list[FleetResult]], tick_s: float, longest_s: flo
         for number, results in groups.items()
     ]
     row = Image.new("RGB", (WIDTH_PX, panels[0].height), PAPER)
-    for i, panel in enumerate(panels):
-        row.paste(panel, (i * (side_px + GAP_PX), 0))
+    row.paste(abreast(panels, GAP_PX))
     shades = ", ".join(
         [f"pale: finished at once, dark: after {longest_s:.0f} s", "orange: not finished", "robot 1 top left"]
     )
@@ -156,8 +152,7 @@ def _memories(results: Sequence[FleetResult], params: SimParams) -> Image.Image:
     width_px, counts = WIDTH_PX // (CELL_COUNT - 1), learned(results)
     cells = [_cell(pattern, counts[pattern], width_px, params) for pattern in range(1, CELL_COUNT)]
     row = Image.new("RGB", (WIDTH_PX, cells[0].height + LINE_PX), PAPER)
-    for i, cell in enumerate(cells):
-        row.paste(cell, (i * width_px, 0))
+    row.paste(abreast(cells, 0))
     draw = ImageDraw.Draw(row)
     for i, (side, words) in enumerate(_WORDS.items()):
         x, y = i * 180, row.height - LINE_PX / 2

@@ -1,16 +1,12 @@
 """The picture of a whole run: every environment with the robots' paths, and the robots' memories below."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from io import BytesIO
-from itertools import islice, pairwise
+from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
-from typing import Protocol
 
 from PIL import Image
 
-from host_sim.base.atomic_file import write_bytes
 from host_sim.protocol.generated import CELL_COUNT, SIDES
 from host_sim.recording.trajectory import Trajectory, at
 from host_sim.report.drawing import (
@@ -28,10 +24,10 @@ from host_sim.report.drawing import (
     draw_scene,
     draw_trail,
     write,
+    write_image,
 )
 from host_sim.report.palette import in_palette
 from host_sim.report.sheet import GAP_PX, LINE_PX, TEXT_PX, WIDTH_PX, abreast, stacked, titled
-from host_sim.view.state_types import EnvironmentScene
 from host_sim.world.geometry import Point, Pose
 from host_sim.world.params import SimParams
 
@@ -42,102 +38,32 @@ _MOST_MEMORIES = 8
 _MOST_NEWS = 12
 
 
-@dataclass(frozen=True)
-class Panel:
-    """One environment of the picture.
-
-    Attributes:
-        scene: The scene at its end.
-        eaten: For each piece of food, 1 if it was eaten, else 0.
-        robot_s: Duration, s of robot time.
-        trails: For each robot and control tick, the position at its end (x and y in mm) and the reason of its drive.
-        starts: Each robot's pose after the first tick.
-        nodes: Each robot's node number on the bus.
-        news: The changes in it, each with the time since its start, s of robot time.
-    """
-
-    scene: EnvironmentScene
-    eaten: Sequence[int]
-    robot_s: float
-    trails: Sequence[Sequence[tuple[float, float, int]]]
-    starts: Sequence[Pose]
-    nodes: Sequence[int]
-    news: Sequence[tuple[float, str]] = ()
-
-
 def write_picture(path: Path, trajectory: Trajectory) -> None:
     """Writes the picture of a run as PNG, below 400 kB for one robot; equal runs give equal bytes.
 
     Args:
         path: The file to write; an existing one is replaced.
-        trajectory: The run, of at least one tick. At most the last nine environments and the memories of the first
-            eight robots are shown.
+        trajectory: As for `draw_run`.
 
     Raises:
         OctetError: The file cannot be written.
     """
-    memories = {track.node: at(track.memories, trajectory.ticks - 1) for track in trajectory.tracks}
-    content = BytesIO()
-    picture = draw_run(trajectory.params, _Panels(trajectory), memories, trajectory.environments)
-    picture.save(content, "PNG")
-    write_bytes(path, content.getvalue())
+    write_image(path, draw_run(trajectory), "PNG")
 
 
-class _Panels:
-    """The panels of a run's last environments, created on demand: many thousand points take much memory."""
-
-    def __init__(self, trajectory: Trajectory) -> None:
-        self._trajectory = trajectory
-        self._parts = list(pairwise([*trajectory.begun(), trajectory.ticks]))[-_MOST_ENVIRONMENTS:]
-
-    def __len__(self) -> int:
-        return len(self._parts)
-
-    def __iter__(self) -> Iterator[Panel]:
-        return (_panel(self._trajectory, first, end) for first, end in self._parts)
-
-
-def _panel(trajectory: Trajectory, first: int, end: int) -> Panel:
-    """The panel of the environment from tick `first` to before tick `end`."""
-    return Panel(
-        scene=at(trajectory.scenes, end - 1),
-        eaten=at(trajectory.meals, end - 1),
-        robot_s=(end - first) * trajectory.params.tick_s,
-        trails=[track.trail(first, end) for track in trajectory.tracks],
-        starts=[track.pose(first) for track in trajectory.tracks],
-        nodes=[track.node for track in trajectory.tracks],
-        news=[((tick - first) * trajectory.params.tick_s, it) for tick, it in trajectory.news if first <= tick < end],
-    )
-
-
-class Panels(Protocol):
-    """An ordered collection of panels."""
-
-    def __len__(self) -> int: ...
-
-    def __iter__(self) -> Iterator[Panel]: ...
-
-
-def draw_run(
-    params: SimParams, panels: Panels, memories: Mapping[int, Sequence[int]], environments: int = 0
-) -> Image.Image:
+def draw_run(trajectory: Trajectory) -> Image.Image:
     """The picture of a run.
 
     Args:
-        params: The dimensions of the world.
-        panels: The environments in order, at least one; at most the last nine are shown.
-        memories: Each robot's eight cells at the end, by node number: 0 nothing, 1 left, 2 right.
-        environments: Number of environments of the run, if there are more than panels.
-
-    Raises:
-        ValueError: There is no environment, or a memory does not have eight cells.
+        trajectory: The run, of at least one tick. At most the last nine environments and the memories of the first
+            eight robots are shown.
     """
-    if not len(panels) or any(len(memory) != CELL_COUNT for memory in memories.values()):
-        raise ValueError(f"no picture of {len(panels)} environments and these memories: {memories}")
-    rows = [_legend(params), *(_line(text) for text in omissions(max(environments, len(panels)), len(memories)))]
-    rows += _environment_rows(panels, params)
-    for node, memory in list(memories.items())[:_MOST_MEMORIES]:
-        rows.append(_memory_row(f"Robot {node}" if len(memories) > 1 else "The robot", memory, params))
+    params, tracks = trajectory.params, trajectory.tracks
+    rows = [_legend(params), *(_line(text) for text in omissions(trajectory.environments, len(tracks)))]
+    rows += _environment_rows(trajectory)
+    for track in tracks[:_MOST_MEMORIES]:
+        whose = f"Robot {track.node}" if len(tracks) > 1 else "The robot"
+        rows.append(_memory_row(whose, at(track.memories, trajectory.ticks - 1), params))
     return in_palette(stacked(rows))
 
 
@@ -155,12 +81,6 @@ def omissions(environments: int, robots: int) -> list[str]:
     return texts
 
 
-def _news(panel: Panel) -> list[str]:
-    """The changes in an environment, one per line."""
-    name = f"environment {panel.scene['number']}"
-    return [f"{name}, after {seconds:.0f} s: {sentence}" for seconds, sentence in panel.news]
-
-
 def _lines(texts: Sequence[str]) -> list[Image.Image]:
     """The lines of a paragraph as one image; none if there are none."""
     sheet = Image.new("RGB", (WIDTH_PX, len(texts) * LINE_PX), PAPER)
@@ -174,49 +94,63 @@ def _line(text: str) -> Image.Image:
     return titled(text, Image.new("RGB", (WIDTH_PX, 1), PAPER))
 
 
-def _environment_rows(panels: Panels, params: SimParams) -> list[Image.Image]:
+def _environment_rows(trajectory: Trajectory) -> list[Image.Image]:
     """The last environments, side by side, each under its caption; then the changes in them."""
-    columns = min(_COLUMNS, len(panels))
+    spans = list(pairwise([*trajectory.begun(), trajectory.ticks]))[-_MOST_ENVIRONMENTS:]
+    columns = min(_COLUMNS, len(spans))
     width_px = (WIDTH_PX - (columns - 1) * GAP_PX) // columns
-    shown = islice(panels, max(0, len(panels) - _MOST_ENVIRONMENTS), None)
-    images, news = [], []
-    for panel in shown:
-        images.append(titled(_caption(panel), _environment(panel, params, width_px)))
-        news += _news(panel)
+    images = [titled(_caption(trajectory, *span), _environment(trajectory, *span, width_px)) for span in spans]
+    news = [line for span in spans for line in _news(trajectory, *span)]
     rows = [abreast(images[first : first + columns], GAP_PX) for first in range(0, len(images), columns)]
     more = len(news) - _MOST_NEWS
     return rows + _lines(news if more <= 0 else [*news[:_MOST_NEWS], f"and {more} more changes"])
 
 
-def _caption(panel: Panel) -> str:
-    finished = bool(panel.eaten) and all(panel.eaten)
-    outcome = "finished in" if finished else "not finished in"
-    food = f"{sum(panel.eaten)} of {len(panel.eaten)} food"
-    return f"environment {panel.scene['number']}: {outcome} {panel.robot_s:.0f} s, {food}"
+def _caption(trajectory: Trajectory, first: int, end: int) -> str:
+    """The outcome of the environment from tick `first` to before tick `end`."""
+    number, eaten = at(trajectory.scenes, end - 1)["number"], at(trajectory.meals, end - 1)
+    outcome = "finished in" if eaten and all(eaten) else "not finished in"
+    robot_s = (end - first) * trajectory.params.tick_s
+    return f"environment {number}: {outcome} {robot_s:.0f} s, {sum(eaten)} of {len(eaten)} food"
 
 
-def _environment(panel: Panel, params: SimParams, width_px: int) -> Image.Image:
-    """The arena from above, with the robots' paths."""
+def _news(trajectory: Trajectory, first: int, end: int) -> list[str]:
+    """The changes in an environment, one per line."""
+    name, tick_s = f"environment {at(trajectory.scenes, end - 1)['number']}", trajectory.params.tick_s
+    return [
+        f"{name}, after {(tick - first) * tick_s:.0f} s: {sentence}"
+        for tick, sentence in trajectory.news
+        if first <= tick < end
+    ]
+
+
+def _environment(trajectory: Trajectory, first: int, end: int, width_px: int) -> Image.Image:
+    """The arena from above at the end of an environment, with the robots' paths."""
+    params = trajectory.params
     plan = Plan(params.width_mm, params.height_mm, width_px, FLOOR)
-    for start, trail in zip(panel.starts, panel.trails, strict=True):
+    starts = [track.pose(first) for track in trajectory.tracks]
+    ends = []
+    for start, track in zip(starts, trajectory.tracks, strict=True):
+        trail = track.trail(first, end)
         draw_trail(plan, start[:2], trail)
-    draw_scene(plan, panel.scene, panel.eaten, params)
-    for start, trail in zip(panel.starts, panel.trails, strict=True):
+        ends.append(_end(start, trail))
+    draw_scene(plan, at(trajectory.scenes, end - 1), at(trajectory.meals, end - 1), params)
+    for start, last in zip(starts, ends, strict=True):
         draw_robot(plan, start, 2 * params.body_radius_mm, PAPER)
-        draw_robot(plan, _end(start, trail), 2 * params.body_radius_mm, INK)
+        draw_robot(plan, last, 2 * params.body_radius_mm, INK)
     image = plan.done()
-    if len(panel.nodes) > 1:
-        _write_nodes(image, panel, params)
+    if len(trajectory.tracks) > 1:
+        for track, *poses in zip(trajectory.tracks, starts, ends, strict=True):
+            _write_node(image, params, track.node, poses)
     return image
 
 
-def _write_nodes(image: Image.Image, panel: Panel, params: SimParams) -> None:
-    """Writes each robot's number below its start and its end."""
+def _write_node(image: Image.Image, params: SimParams, node: int, poses: Sequence[Pose]) -> None:
+    """Writes a robot's number below each of its poses."""
     px_per_mm = image.width / params.width_mm
-    for node, start, trail in zip(panel.nodes, panel.starts, panel.trails, strict=True):
-        for x, y in (start[:2], _end(start, trail)[:2]):
-            place = x * px_per_mm, (y + 1.5 * params.body_radius_mm) * px_per_mm
-            write(image, place, str(node), TEXT_PX, "mm")
+    for pose in poses:
+        place = pose.x_mm * px_per_mm, (pose.y_mm + 1.5 * params.body_radius_mm) * px_per_mm
+        write(image, place, str(node), TEXT_PX, "mm")
 
 
 def _end(start: Pose, trail: Sequence[tuple[float, float, int]]) -> Pose:

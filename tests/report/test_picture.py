@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -12,8 +13,10 @@ from numpy.typing import NDArray
 from PIL import Image, ImageChops
 
 from host_sim.cli.main import main
+from host_sim.protocol.generated import ROW
+from host_sim.recording.trajectory import RobotTrack, Trajectory
 from host_sim.report.fleet_picture import write_fleet_picture
-from host_sim.report.picture import Panel, draw_run, omissions
+from host_sim.report.picture import draw_run, omissions
 from host_sim.sim.fleet import FleetResult
 from host_sim.sim.native_fleet import Contacts
 from host_sim.sim.world_record import Begun
@@ -32,14 +35,34 @@ FOOD_GREEN, TRIAL_ORANGE, BORED_PINK = (0, 158, 115), (213, 94, 0), (204, 121, 1
 
 
 SCENE = EnvironmentScene(number=1, of=1, seed=1, first_tick=0, start_tick=0, bars=[], food=[[1000.0, 2000.0]])
-START = Pose(2000.0, 1500.0, 0.0)
 Trail = Sequence[tuple[float, float, int]]
+STAY: Trail = ((2000.0, 1500.0, 1),)
 
 
-def panel(
-    trail: Trail = (), eaten: Sequence[int] = (0,), robot_s: float = 145.0, scene: EnvironmentScene = SCENE
-) -> Panel:
-    return Panel(scene, eaten, robot_s, [trail], [START], [1])
+class Panel(NamedTuple):
+    """An environment: what each robot does in each of its ticks, and how it ends."""
+
+    trails: Sequence[Trail]
+    eaten: Sequence[int] = (0,)
+    scene: EnvironmentScene = SCENE
+
+
+def panel(trail: Trail = (), eaten: Sequence[int] = (0,), scene: EnvironmentScene = SCENE) -> Panel:
+    return Panel([(*STAY, *trail)], eaten, scene)
+
+
+def run(*panels: Panel, memories: Sequence[Sequence[int]] = (EMPTY_MEMORY,)) -> Trajectory:
+    """A run of some environments; each robot's memory is as at its end."""
+    tracks = [RobotTrack(node, memories=[(0, list(memory))]) for node, memory in enumerate(memories, 1)]
+    trajectory = Trajectory(PARAMS, 6, tracks, environments=len(panels))
+    for number, (trails, eaten, scene) in enumerate(panels, 1):
+        trajectory.scenes.append((trajectory.ticks, EnvironmentScene(**{**scene, "number": number})))
+        trajectory.meals.append((trajectory.ticks, list(eaten)))
+        for track, trail in zip(tracks, trails, strict=True):
+            for x, y, reason in trail:
+                track.poses_flat.extend((x, y, 0.0))
+                track.rows_flat.extend(reason if name == "reason" else 0 for name in ROW)
+    return trajectory
 
 
 def busy_panel(seed: int) -> Panel:
@@ -51,18 +74,18 @@ def busy_panel(seed: int) -> Panel:
         y = min(2900.0, max(100.0, y + draws.uniform(-20, 20)))
         trail.append((x, y, draws.choice((1, 1, 1, 3, 3, 2, 4, 5, 6))))
     arena = Arena(generate(seed, 1, PARAMS), PARAMS)
-    return panel(trail, (1, 0, 1), 600.0, environment_scene([Begun(seed, 1, 0)], 1, arena))
+    return panel(trail, (1, 0, 1), environment_scene([Begun(seed, 1, 0)], 1, arena))
 
 
 def png(*panels: Panel, memory: Sequence[int] = EMPTY_MEMORY) -> bytes:
     content = BytesIO()
-    draw_run(PARAMS, panels, {1: memory}).save(content, "PNG")
+    draw_run(run(*panels, memories=[memory])).save(content, "PNG")
     return content.getvalue()
 
 
 def picture(*panels: Panel, memory: Sequence[int] = EMPTY_MEMORY) -> NDArray[np.uint8]:
     """Draws, and gives the pixels: shape (height, width, 3)."""
-    return np.asarray(draw_run(PARAMS, panels, {1: memory}).convert("RGB"))
+    return np.asarray(draw_run(run(*panels, memories=[memory])).convert("RGB"))
 
 
 def count(pixels: NDArray[np.uint8], colour: tuple[int, int, int]) -> int:
@@ -136,18 +159,12 @@ def test_left_and_right_arrows_mirror_each_other() -> None:
     assert sides[0] == pytest.approx(-sides[1], rel=0.15)
 
 
-@pytest.mark.parametrize(("environments", "cells"), [(0, 8), (1, 7)])
-def test_a_run_without_environments_or_with_too_few_cells_is_refused(environments: int, cells: int) -> None:
-    with pytest.raises(ValueError, match=f"no picture of {environments} environments"):
-        draw_run(PARAMS, [panel()] * environments, {1: [0] * cells})
-
-
 def test_each_of_several_robots_has_its_path_and_its_memory() -> None:
-    alone = draw_run(PARAMS, [panel()], {1: EMPTY_MEMORY})
-    trail = [(2900.0, 1500.0, 1), (2900.0, 1500.0, 5), (2900.0, 900.0, 1)]
-    two = Panel(SCENE, (0,), 145.0, [(), trail], [START, Pose(2600.0, 1500.0, 0.0)], [1, 2])
+    alone = draw_run(run(panel()))
+    trail = [(2600.0, 1500.0, 1), (2900.0, 1500.0, 1), (2900.0, 1500.0, 5), (2900.0, 900.0, 1)]
+    two = Panel([STAY * len(trail), trail])
 
-    both = draw_run(PARAMS, [two], {1: EMPTY_MEMORY, 2: LEARNED_MEMORY})
+    both = draw_run(run(two, memories=[EMPTY_MEMORY, LEARNED_MEMORY]))
 
     assert both.height > alone.height + 150
     orange = [count(np.asarray(image.convert("RGB")), TRIAL_ORANGE) for image in (alone, both)]
@@ -156,8 +173,10 @@ def test_each_of_several_robots_has_its_path_and_its_memory() -> None:
 
 def test_a_plant_is_drawn_and_news_are_told_below_the_environments():
     scene = EnvironmentScene(**SCENE, plants=[[0, 1000.0, 500.0, 300.0]])
-    bare, planted = (draw_run(PARAMS, [panel(scene=one)], {1: EMPTY_MEMORY}) for one in (SCENE, scene))
-    told = draw_run(PARAMS, [replace(panel(), news=[(20.0, "A plant was put down.")])], {1: EMPTY_MEMORY})
+    bare, planted = (draw_run(run(panel(scene=one))) for one in (SCENE, scene))
+    changed = run(panel())
+    changed.news = [(0, "A plant was put down.")]
+    told = draw_run(changed)
 
     assert np.any(np.asarray(bare.convert("RGB")) != np.asarray(planted.convert("RGB")))
     assert told.height > bare.height
