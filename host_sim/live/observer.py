@@ -12,7 +12,7 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.live.text_picture import View, draw_text
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import CELL_COUNT, MESSAGES, PARAMETERS, Senses
-from host_sim.recording.dead_reckoning import after, record
+from host_sim.recording.dead_reckoning import after
 from host_sim.recording.recording import TickReader
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.transport.buses import open_bus, receive
@@ -79,7 +79,7 @@ class Observer:
                 self._meals.append(self._pose[:2])
             if trajectory.ticks - trajectory.scenes[-1][0] >= _PART_TICKS:
                 recorder.enter({**_NOTHING, "first_tick": trajectory.ticks})
-            record(recorder, tick, self._pose)
+            recorder.add(0, tick, self._pose)
             yield trajectory.at(trajectory.ticks - 1)
 
     def view(self, state: State) -> View:

@@ -1,13 +1,12 @@
 """A robot's path by dead reckoning from its odometers, for logs of real bodies, whose world is not known."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 
 from host_sim.protocol.generated import ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN, Senses
 from host_sim.recording.recording import Recording
 from host_sim.recording.run_recorder import RunRecorder
-from host_sim.recording.tick import Tick
 from host_sim.recording.trajectory import Trajectory
 from host_sim.view.state_types import EnvironmentScene
 from host_sim.world.body import rolled
@@ -15,14 +14,6 @@ from host_sim.world.geometry import Pose
 from host_sim.world.params import SimParams
 
 _MARGIN_MM = 500.0
-
-
-@dataclass(frozen=True)
-class _Body:
-    """A body of which only the pose is known."""
-
-    pose: Pose
-    lifted: bool = False
 
 
 def reckon(recording: Recording, node: int, params: SimParams) -> Trajectory:
@@ -38,15 +29,8 @@ def reckon(recording: Recording, node: int, params: SimParams) -> Trajectory:
     recorder = RunRecorder(params, recording.boredom_limit, {node: recording.first_memory})
     recorder.enter(EnvironmentScene(number=1, of=1, seed=0, first_tick=0, start_tick=0, bars=[], food=[]))
     for tick, pose in zip(recording.ticks, poses, strict=True):
-        record(recorder, tick, pose)
+        recorder.add(0, tick, pose)
     return recorder.trajectory
-
-
-def record(recorder: RunRecorder, tick: Tick, pose: Pose) -> None:
-    """Adds a tick of the only robot, of whose body only the pose is known."""
-    recorder.between(0, tick.started, tick.written)
-    recorder.histories[0].frozen = tick.frozen
-    recorder.add(0, _Body(pose), tick.senses, tick.drive, tick.memory)
 
 
 def _poses(senses: Sequence[Senses], params: SimParams) -> list[Pose]:

@@ -9,7 +9,7 @@ from host_sim.protocol.codec import UNSAID, DecodedFrame, Frame, Protocol
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS, Drive, Opcode, Senses
 from host_sim.protocol.memory_report import MemoryReport
 from host_sim.recording.log_reader import LogReader, check_protocol, first_memory, frames_of
-from host_sim.recording.tick import Tick
+from host_sim.recording.run_recorder import Tick
 
 
 @dataclass

@@ -11,8 +11,7 @@ from host_sim.protocol.generated import Senses
 from host_sim.recording.dead_reckoning import reckon
 from host_sim.recording.log_reader import LogReader, nodes_in, read_log
 from host_sim.recording.recording import Recording, read_recording
-from host_sim.recording.run_recorder import RunRecorder
-from host_sim.recording.tick import Tick
+from host_sim.recording.run_recorder import RunRecorder, Tick
 from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import read_world, world_path
 from host_sim.sim.world_record import Begun, WorldRecord
@@ -124,9 +123,7 @@ class _Resimulator:
             ate |= robot.drive.eat and body.eat()
             body.move(robot.drive.left_mm_s, robot.drive.right_mm_s)
         for i, robot in enumerate(robots):
-            self._recorder.between(i, robot.started, robot.written)
-            self._recorder.histories[i].frozen = robot.frozen
-            self._recorder.add(i, arena.bodies[i], robot.senses, robot.drive, robot.memory)
+            self._recorder.add(i, robot, arena.bodies[i].pose, lifted=arena.bodies[i].lifted)
         if ate:
             self._recorder.eaten(arena.food.eaten, [robot.drive for robot in robots])
 

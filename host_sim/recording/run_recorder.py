@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from operator import attrgetter
 from struct import Struct
-from typing import Any, Protocol, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from host_sim.protocol.generated import ROW, Drive, Reason, Senses
 from host_sim.recording.trajectory import NEW_CELLS, Changes, RobotTrack, Trajectory, since
@@ -29,16 +29,24 @@ _EVENTS = (Reason.TRIAL, Reason.BOREDOM)
 _PACKED = Struct(f"={len(ROW)}h")
 
 
-class BodyState(Protocol):
-    """The recorded part of a body's state."""
+class Tick(NamedTuple):
+    """One control tick.
 
-    @property
-    def pose(self) -> Pose:
-        """The robot's position and heading."""
+    Attributes:
+        senses: The body's senses.
+        drive: The drive that the body applied: the robot's answer, or an earlier one that was still held.
+        memory: The robot's eight cells when it answered.
+        frozen: Whether learning was frozen.
+        started: The robot's eight cells when it was started again since the tick before; None if it was not.
+        written: Its eight cells after each report between the two ticks, since it was started if it was.
+    """
 
-    @property
-    def lifted(self) -> bool:
-        """Whether a person holds the robot in the air."""
+    senses: Senses
+    drive: Drive
+    memory: tuple[int, ...]
+    frozen: bool
+    started: tuple[int, ...] | None = None
+    written: tuple[tuple[int, ...], ...] = ()
 
 
 class RunRecorder:
@@ -81,7 +89,9 @@ class RunRecorder:
             self.enter(environment_scene(record.begun, record.environments, arena))
         for i, client in enumerate(simulation.clients):
             if simulation.loop is None:
-                self.add(i, arena.bodies[i], simulation.senses[i], simulation.drives[i], client.memory)
+                body, frozen = arena.bodies[i], self.histories[i].frozen
+                tick = Tick(simulation.senses[i], simulation.drives[i], client.memory, frozen)
+                self.add(i, tick, body.pose, lifted=body.lifted)
             else:
                 self.add_block(i, simulation.loop.block(i), client.memory)
         if sum(map(_FOOD_EATEN, simulation.episode.robots)) != self.trajectory.meals[-1][1].count(1):
@@ -98,19 +108,20 @@ class RunRecorder:
             begun = [scene["first_tick"] for _, scene in trajectory.scenes]
             self._forget(next((first for first in begun if trajectory.ticks - first <= TICKS_MAX), begun[-1]))
 
-    def add(self, robot: int, body: BodyState, senses: Senses, drive: Drive, memory: Memory) -> None:
+    def add(self, robot: int, tick: Tick, pose: Pose, *, lifted: bool = False) -> None:
         """Adds one robot's tick.
 
         Args:
             robot: Index of the robot; each robot is added once per tick.
-            body: Its body, after its move.
-            senses: Its senses.
-            drive: Its drive.
-            memory: Its eight cells after its answer.
+            tick: The tick.
+            pose: Pose of its body, after its move.
+            lifted: Whether a person holds it in the air.
         """
-        row = bytearray(_PACKED.pack(*senses, *drive, 0, body.lifted, 0))
-        self._take(robot, row, memory)
-        self.trajectory.tracks[robot].poses_flat.extend(body.pose)
+        self.between(robot, tick.started, tick.written)
+        self.histories[robot].frozen = tick.frozen
+        row = bytearray(_PACKED.pack(*tick.senses, *tick.drive, 0, lifted, 0))
+        self._take(robot, row, tick.memory)
+        self.trajectory.tracks[robot].poses_flat.extend(pose)
 
     def between(self, robot: int, started: Memory | None, written: Sequence[Memory]) -> None:
         """Records starts and memory changes of one robot between the last tick and the next one.
