@@ -35,7 +35,7 @@ def conduct_fleet(options: RunOptions) -> Summary:
     results: list[FleetResult] = []
     film = FleetFilm()
     run = run_fleet(config, _progress_shown(line, config, results), film)
-    with run_folder(options.out):
+    with run_folder(options.out), line:
         if options.talks:
             what = f"{counted(config.robots, 'robot')}, {_WHERE[config.worlds]}, profile {config.profile}"
             print(f"fleet     {what}, seeds from {config.seed}")

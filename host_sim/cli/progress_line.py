@@ -11,7 +11,7 @@ _EVERY_S = 0.25
 
 
 class ProgressLine:
-    """One line on stderr, rewritten now and then; nothing if stderr is not a terminal."""
+    """One line on stderr, rewritten now and then and removed on leaving a `with` block; none without a terminal."""
 
     def __init__(self, total: int | None = None, *, shown: bool = True) -> None:
         """Creates the line.
@@ -22,6 +22,12 @@ class ProgressLine:
         """
         self._then = 0.0
         self._progress = _progress(total) if shown and sys.stderr.isatty() else None
+
+    def __enter__(self) -> "ProgressLine":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.clear()
 
     def is_due(self) -> bool:
         """Whether it is time to show something new."""

@@ -47,10 +47,9 @@ def run_through(outputs: Outputs, listener: "Listener | None") -> None:
 def _run_unwatched(outputs: Outputs) -> None:
     """Runs all environments, as fast as possible or in real time."""
     simulation, talks = outputs.simulation, outputs.options.talks
-    progress = ProgressLine(shown=talks)
-    _say_refused(simulation, progress.clear)
-    simulation.watch = each(simulation.watch, _progress_shown(progress))
-    try:
+    with ProgressLine(shown=talks) as progress:
+        _say_refused(simulation, progress.clear)
+        simulation.watch = each(simulation.watch, _progress_shown(progress))
         with interrupted_between_ticks(simulation):
             for episode in simulation.run():
                 outputs.episodes.append(episode)
@@ -59,9 +58,6 @@ def _run_unwatched(outputs: Outputs) -> None:
                     print(environment_line(len(outputs.episodes), episode))
                 if outputs.options.real_time and len(outputs.episodes) < simulation.environments:
                     _pause(simulation)
-    except BaseException:
-        progress.clear()
-        raise
 
 
 def _progress_shown(line: ProgressLine) -> Callable[[Simulation], object]:

@@ -135,4 +135,4 @@ def _check_same(folder: StudyFolder, about: dict[str, Any]) -> None:
 def _schema(name: str) -> Any:
     pyarrow = library("pyarrow", "study")
     kinds = {str: pyarrow.string(), int: pyarrow.int64(), float: pyarrow.float64(), bool: pyarrow.bool_()}
-    return pyarrow.schema([(column, kinds[it.kind]) for column, it in COLUMNS[name].items()])
+    return pyarrow.schema([(column, kinds[kind]) for column, kind in COLUMNS[name].items()])

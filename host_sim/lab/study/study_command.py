@@ -4,7 +4,7 @@ import argparse
 import os
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -94,9 +94,11 @@ def run_study(path: Path, out: Path, workers: "Workers", chunk: int = 0) -> str:
         write_bytes(out / PLAN_FILE, path.read_bytes())
         done = folder.done()
         trials = [trial for trial in plan.trials() if trial.key not in done]
-        with _kept(folder) as keep:
+        with ExitStack() as stack:
+            keeper = _Keeper(folder)
+            stack.callback(keeper.write)  # however the study ends
             for runs in with_progress(trials, workers, chunk):
-                keep.extend(runs)
+                keeper.extend(runs)
     return f"{len(trials)} runs, {len(plan.trials()) - len(trials)} were there" if done else f"{len(trials)} runs"
 
 
@@ -105,15 +107,13 @@ def with_progress(trials: "Sequence[Trial]", workers: "Workers", chunk: int = 0)
     from host_sim.cli.progress_line import ProgressLine
     from host_sim.lab.study.workers import run_all
 
-    line, done = ProgressLine(len(trials)), 0
-    try:
+    done = 0
+    with ProgressLine(len(trials)) as line:
         for runs in run_all(trials, workers, chunk):
             done += len(runs)
             if line.is_due():
                 line.show("runs", done)
             yield runs
-    finally:
-        line.clear()
 
 
 class _Keeper:
@@ -132,13 +132,3 @@ class _Keeper:
         if runs:
             self._folder.add(runs)
         self._written = time.monotonic()
-
-
-@contextmanager
-def _kept(folder: "StudyFolder") -> Iterator[_Keeper]:
-    """Writes the completed runs, however the study ends."""
-    keeper = _Keeper(folder)
-    try:
-        yield keeper
-    finally:
-        keeper.write()

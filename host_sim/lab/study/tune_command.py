@@ -85,11 +85,8 @@ def _tune(arguments: argparse.Namespace) -> int:
 
     with run_folder(a.out):
         search = Search(Wanted(config, a.goal, names, a.seeds), run, a.out / f"{a.profile}.jsonl")
-        line = ProgressLine(a.trials)
-        try:
+        with ProgressLine(a.trials) as line:
             search.go(a.trials, lambda done: line.show("settings", done))
-        finally:
-            line.clear()
         first, last = search.seeds
         print(f"searched  {len(names)} parameters of {a.profile} on seeds {first}..{last}")
         if not search.best:

@@ -1,7 +1,6 @@
 """Makes the runs of a study in other processes, all with the same version of robot and world."""
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 from host_sim.base.errors import OctetError
 from host_sim.lab import workers as of_lab
@@ -9,16 +8,9 @@ from host_sim.lab.study.trial import Run, Trial, run_trial
 from host_sim.lab.study.version import code_version
 
 
-class Chunk(NamedTuple):
-    """The results of some trials, and the version of the sources used."""
-
-    runs: Sequence[Run]
-    code: str
-
-
-def run_chunk(trials: Sequence[Trial]) -> Chunk:
-    """Makes runs in this process."""
-    return Chunk([run_trial(trial) for trial in trials], code_version())
+def run_chunk(trials: Sequence[Trial]) -> tuple[list[Run], str]:
+    """Makes runs in this process; returns them, and the version of the sources used."""
+    return [run_trial(trial) for trial in trials], code_version()
 
 
 def run_all(trials: Sequence[Trial], workers: of_lab.Workers, chunk: int = 0) -> Iterator[Sequence[Run]]:

@@ -177,7 +177,7 @@ def die_once(trials):
     if not mark.exists():
         mark.touch()
         os.kill(os.getpid(), signal.SIGKILL)
-    return workers.Chunk([run_trial(trial) for trial in trials], workers.code_version())
+    return [run_trial(trial) for trial in trials], workers.code_version()
 
 
 def test_the_runs_of_a_dead_worker_are_made_again(tmp_path, monkeypatch):
@@ -204,7 +204,7 @@ def test_workers_that_die_each_time_are_given_up(plan, capsys, monkeypatch):
 
 
 def of_another_version(trials):
-    return workers.Chunk([run_trial(trial) for trial in trials], "another")
+    return [run_trial(trial) for trial in trials], "another"
 
 
 def test_rows_of_a_worker_of_another_version_are_not_taken(plan, tmp_path, capsys, monkeypatch):
