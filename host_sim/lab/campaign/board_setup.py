@@ -1,6 +1,6 @@
 """The flash image on an emulated board, with all hardware faults that its models support."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 
 from host_sim.client.robot_client import RobotClient
@@ -8,7 +8,7 @@ from host_sim.emulator.board import EmulatedBoard
 from host_sim.emulator.can import CanFrame
 from host_sim.emulator.clock import NEVER, SECOND, Clock
 from host_sim.faults.faulty_link import FaultyLink
-from host_sim.lab.campaign.setup import Happen
+from host_sim.lab.campaign.setup import Setup
 from host_sim.sim.run_config import RunConfig
 
 MS = SECOND // 1000
@@ -21,18 +21,13 @@ _BABBLE_US = 222
 """Time of a full frame without stuff bits, at 500 kbit/s."""
 
 
-class Board:
-    """As in `Setup`."""
+class Board(Setup):
+    """The setup of a robot on an emulated board, which the run creates."""
 
     def __init__(self, name: str) -> None:
-        """Prepares the setup; the board is created by the run.
-
-        Args:
-            name: Name of the board, one of `BOARDS`.
-        """
         self._name = name
         self.board: EmulatedBoard
-        self.events: Mapping[str, Happen] = {
+        self.events = {
             "reset": lambda _: self.board.restart("software"),
             "power": lambda _: self.board.cut_power(),
             "watchdog": lambda _: self.board.hardware.clock.skip(_WATCHDOG_S * SECOND),

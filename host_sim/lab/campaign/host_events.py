@@ -14,11 +14,7 @@ from host_sim.lab.campaign.setup import Happen
 
 
 def process_events(pid: Callable[[], int]) -> Mapping[str, Callable[[int], None]]:
-    """The events of a process on this host.
-
-    Args:
-        pid: Returns the process ID.
-    """
+    """The events of a process on this host, given by a function that returns its process ID."""
     return {
         "kill": lambda _: os.kill(pid(), signal.SIGKILL),
         "crash": lambda _: os.kill(pid(), signal.SIGSEGV),
@@ -52,11 +48,7 @@ CLOCK_EVENTS = frozenset({"clock-ahead", "clock-back"})
 
 
 def clock_events(undo: ExitStack) -> Mapping[str, Happen]:
-    """Sets the clock ahead or back by some seconds.
-
-    Args:
-        undo: Restores the clock.
-    """
+    """Events that set the clock ahead or back by some seconds; `undo` restores it."""
     return {"clock-ahead": lambda span_s: _step(span_s, undo), "clock-back": lambda span_s: _step(-span_s, undo)}
 
 

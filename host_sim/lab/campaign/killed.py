@@ -17,9 +17,6 @@ def before_each_instruction(happen: Callable[[], None]) -> None:
     """Calls a function before each Python instruction of this package, from now on and in this thread.
 
     Functions already running are not traced, but those that they call are. `sys.settrace(None)` ends tracing.
-
-    Args:
-        happen: The function to call.
     """
 
     def trace(frame: FrameType, event: str, _: Any) -> Any:
@@ -39,11 +36,7 @@ Tell = Callable[..., None]
 
 
 def kill_at(number: int) -> None:
-    """Sends SIGKILL to this process before one of its Python instructions.
-
-    Args:
-        number: Number of that instruction, counted from 1.
-    """
+    """Sends SIGKILL to this process before the nth of its Python instructions from now on, counted from 1."""
     left = number
 
     def count() -> None:
@@ -56,14 +49,7 @@ def kill_at(number: int) -> None:
 
 
 def run_to_be_killed(run: Callable[[Tell], None]) -> tuple[bool, list[list[Any]]]:
-    """Runs a function in a process of its own.
-
-    Args:
-        run: The function, whose process may be killed.
-
-    Returns:
-        Whether it was killed, and all that it reported.
-    """
+    """Runs a function in a process of its own; returns whether it was killed, and all that it reported."""
     ours, its = os.pipe()
     child = os.fork()
     if child == 0:

@@ -10,26 +10,18 @@ from tempfile import TemporaryDirectory
 
 from host_sim.backends.robot_process import RobotProcess
 from host_sim.base.errors import UsageError
-from host_sim.client.robot_client import RobotClient
 from host_sim.faults.cable import Cable, Socket
 from host_sim.lab.campaign.host_events import process_events
-from host_sim.lab.campaign.setup import Happen
+from host_sim.lab.campaign.setup import Happen, Setup
 from host_sim.sim.run_config import RunConfig
 
 _BUS = "vcan0"
 
 
-class OnLine:
-    """As in `Setup`."""
+class OnLine(Setup):
+    """The setup of a robot at one end of a line, `link`; the simulator is at the other end, `bus`."""
 
     def __init__(self, link: str, bus: str, events: Mapping[str, Happen]) -> None:
-        """Starts the robot.
-
-        Args:
-            link: The robot's end of the line.
-            bus: The simulator's end.
-            events: The events of the line.
-        """
         self._link, self._bus = link, bus
         self.robot = RobotProcess(link, 1)
         own: Mapping[str, Happen] = {"reset": lambda _: self._restart()}
@@ -38,9 +30,6 @@ class OnLine:
     def configured(self, config: RunConfig) -> RunConfig:
         """As in `Setup`."""
         return replace(config, bus=self._bus, robot="external")
-
-    def found(self, client: RobotClient) -> None:
-        """As in `Setup`."""
 
     def _restart(self) -> None:
         self.robot.close()

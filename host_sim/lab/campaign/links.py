@@ -1,31 +1,13 @@
 """The links of cells: places of a robot, and the events possible there."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, field, replace
 
 from host_sim.backends.images import BOARDS
 from host_sim.base.errors import UsageError
-from host_sim.client.robot_client import RobotClient
 from host_sim.faults.event import Event
 from host_sim.lab.campaign.cell import PINS_LINK
-from host_sim.lab.campaign.setup import Happen, Setup
-from host_sim.sim.run_config import RunConfig
-
-
-@dataclass
-class InProcess:
-    """A robot in this process: only its frames and its body can be faulty."""
-
-    events: Mapping[str, Happen] = field(default_factory=dict)
-
-    def configured(self, config: RunConfig) -> RunConfig:
-        """As in `Setup`."""
-        return replace(config, bus="none")
-
-    def found(self, client: RobotClient) -> None:
-        """As in `Setup`."""
-
+from host_sim.lab.campaign.setup import Setup
 
 LINKS = ("none", "fd", "external", "slcan", "vcan", *BOARDS, PINS_LINK)
 """In this process, on a socket pair, a custom robot on one, on a serial line, on vcan0, on a board, on its pins."""
@@ -43,7 +25,7 @@ def open_setup(link: str, command: str = "") -> AbstractContextManager[Setup]:
         OctetError: Something that must be built or installed is missing.
     """
     if link == "none":
-        return nullcontext(InProcess())
+        return nullcontext(Setup())
     if link == "fd":
         from host_sim.lab.campaign.socket_pair_setup import SocketPair  # noqa: PLC0415 - each loads what it needs
 
@@ -68,12 +50,7 @@ def open_setup(link: str, command: str = "") -> AbstractContextManager[Setup]:
 
 
 def check_events(possible: Collection[str], link: str, events: tuple[Event, ...]) -> None:
-    """Checks that events are possible.
-
-    Args:
-        possible: Names of the possible events.
-        link: One of `LINKS`.
-        events: The events to check.
+    """Checks that events are among the possible ones of a link.
 
     Raises:
         UsageError: An event is not possible.

@@ -14,12 +14,7 @@ _DENIALS = ("denied", "contradictions")
 
 
 def unreached(outcomes: Iterable["Outcome"], ways: Collection[str] = ("refused", "never came")) -> list[str]:
-    """The faults, in words, that reached their receiver in no run: those runs test little.
-
-    Args:
-        outcomes: Outcomes of the runs.
-        ways: Values of `reach` that count as not reached.
-    """
+    """The faults, in words, whose `reach` is one of `ways` in every run: those runs test little."""
     reaches: dict[str, set[str]] = {}
     for each in outcomes:
         if each.cell.fault:

@@ -1,6 +1,5 @@
 """A robot with a body on emulated pins, whose wires, motors and sensors can fail."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 
 from host_sim.client.robot_client import RobotClient
@@ -14,14 +13,9 @@ _BOUNCE_MS = 3
 
 
 class PinsRobot(Board):
-    """As in `Setup`."""
+    """The setup of a stand-alone robot."""
 
     def __init__(self, name: str) -> None:
-        """Prepares the setup; the board is created by the run.
-
-        Args:
-            name: Name of the board.
-        """
         super().__init__(name)
         on_pins: tuple[Happen, ...] = (
             lambda sensor: self._robot.wiring.rewire(SENSORS[sensor]),
@@ -34,10 +28,7 @@ class PinsRobot(Board):
             lambda _: setattr(self._robot, "converts", False),
             self._bounce,
         )
-        self.events: Mapping[str, Happen] = {
-            **dict(zip(PIN_EVENTS, on_pins, strict=True)),
-            "flash-cut": self.events["flash-cut"],
-        }
+        self.events = {**dict(zip(PIN_EVENTS, on_pins, strict=True)), "flash-cut": self.events["flash-cut"]}
 
     def configured(self, config: RunConfig) -> RunConfig:
         """As in `Setup`."""

@@ -27,7 +27,6 @@ class CourseLog(FrameLog):
     """A log that also computes the course of its run."""
 
     def __init__(self, path: Path | None = None) -> None:
-        """As in `FrameLog`."""
         self._course = hashlib.sha256()
         super().__init__(path)
 
@@ -50,11 +49,7 @@ _OVERRIDE = 1 << 1
 
 
 def obey_permissions(undo: ExitStack) -> None:
-    """Makes this thread obey file permissions, even as root.
-
-    Args:
-        undo: Reverts this.
-    """
+    """Makes this thread obey file permissions, even as root, until `undo` is closed."""
     header, data = (ctypes.c_uint32 * 2)(_VERSION, 0), (ctypes.c_uint32 * _WORDS)()
     libc = ctypes.CDLL(None, use_errno=True)
     _check(libc.capget(header, data))
@@ -70,7 +65,7 @@ def _check(result: int) -> None:
 
 
 _READ_ONLY = 0o555
-_MEMORY = "robot.mem"
+_LOG, _MEMORY = "run.log", "robot.mem"
 
 
 def _ignore(*_: object) -> None:
@@ -93,7 +88,6 @@ class NoFiles:
     note: Tell = staticmethod(_ignore)
 
     def __init__(self, log: CourseLog | None = None) -> None:
-        """Starts with nothing written."""
         self.log = log or CourseLog()
         self.events: Mapping[str, Happen] = {}
         self.struck = False
@@ -131,7 +125,12 @@ class NoFiles:
 
 
 class RunFiles(NoFiles):
-    """A log and a memory file in a folder of their own, kept as `tools/run` keeps them."""
+    """A log and a memory file in a folder of their own, kept as `tools/run` keeps them.
+
+    Attributes:
+        folder: The folder.
+        killed_in_save: Number of the Python instruction of the next save at which this process is killed; 0 for none.
+    """
 
     def __init__(self, folder: Path, undo: ExitStack, tell: Tell = _ignore) -> None:
         """Opens the files.
@@ -141,8 +140,8 @@ class RunFiles(NoFiles):
             undo: Reverts the file faults.
             tell: Called with each memory before it is saved, and with everything passed to `note`.
         """
-        self._folder, self._undo, self.note = folder, undo, tell
-        self._log_path, self._memory_path = folder / "run.log", folder / _MEMORY
+        self.folder, self._undo, self.note = folder, undo, tell
+        self._log_path, self._memory_path = folder / _LOG, folder / _MEMORY
         super().__init__(CourseLog(self._log_path))
         self.events = {name: partial(self._strike, happen) for name, happen in _EVENTS.items()}
         self.memory = load_memory(self._memory_path)
@@ -150,14 +149,14 @@ class RunFiles(NoFiles):
             self._memory_path, self.memory, lambda line: self.told.append(self.without_folder(line))
         )
         self._saved = None if self.memory is None else bytes(self.memory)
-        self._finished, self._killed_in_save = False, 0
+        self._finished, self.killed_in_save = False, 0
 
     def save(self, memory: Sequence[int]) -> None:
         """As in `NoFiles`."""
         if bytes(memory) != self._saved:
             self.note("saving", bytes(memory).hex())
-            if self._killed_in_save:
-                kill_at(self._killed_in_save)
+            if self.killed_in_save:
+                kill_at(self.killed_in_save)
         self._saver.save(memory)
         self._saved = bytes(memory)
 
@@ -178,7 +177,7 @@ class RunFiles(NoFiles):
 
     def without_folder(self, text: str) -> str:
         """As in `NoFiles`."""
-        return text.replace(f"{self._folder}/", "")
+        return text.replace(f"{self.folder}/", "")
 
     def _strike(self, happen: Callable[["RunFiles", int], None], size: int) -> None:
         self.struck = True
@@ -192,39 +191,19 @@ class RunFiles(NoFiles):
 
     def forbid(self, _: int) -> None:
         """Makes the folder read-only, for root too."""
-        self._undo.callback(self._folder.chmod, self._folder.stat().st_mode)
-        self._folder.chmod(_READ_ONLY)
+        self._undo.callback(self.folder.chmod, self.folder.stat().st_mode)
+        self.folder.chmod(_READ_ONLY)
         obey_permissions(self._undo)
-
-    def remove_folder(self, _: int) -> None:
-        """Removes the folder with all its contents."""
-        shutil.rmtree(self._folder)
-
-    def remove_log(self, _: int) -> None:
-        """Removes the log while it is being written."""
-        self._log_path.with_name(self._log_path.name + ".part").unlink()
-
-    def remove_memory(self, _: int) -> None:
-        """Removes the memory file."""
-        self._memory_path.unlink()
-
-    def kill(self, number: int) -> None:
-        """Sends SIGKILL to this process at one of its next Python instructions."""
-        kill_at(number)
-
-    def kill_in_save(self, number: int) -> None:
-        """Sends SIGKILL to this process at one of the Python instructions that save the next memory."""
-        self._killed_in_save = number
 
 
 _EVENTS: Mapping[str, Callable[[RunFiles, int], None]] = {
     "disk-full": RunFiles.fill_disk,
     "read-only": RunFiles.forbid,
-    "folder-gone": RunFiles.remove_folder,
-    "log-gone": RunFiles.remove_log,
-    "memory-gone": RunFiles.remove_memory,
-    "kill-simulator": RunFiles.kill,
-    "kill-saving": RunFiles.kill_in_save,
+    "folder-gone": lambda files, _: shutil.rmtree(files.folder),
+    "log-gone": lambda files, _: (files.folder / f"{_LOG}.part").unlink(),
+    "memory-gone": lambda files, _: (files.folder / _MEMORY).unlink(),
+    "kill-simulator": lambda _, number: kill_at(number),
+    "kill-saving": lambda files, number: setattr(files, "killed_in_save", number),
 }
 
 KILL_EVENTS = frozenset({"kill-simulator", "kill-saving"})
@@ -235,12 +214,7 @@ FILE_EVENTS = frozenset(_EVENTS)
 
 
 def make_folder(events: Iterable[Event], undo: ExitStack) -> Path | None:
-    """Creates a folder for the files of a run; None for a run without file faults.
-
-    Args:
-        events: All events of the run.
-        undo: Removes the folder.
-    """
+    """Creates a folder for the files of a run, which `undo` removes; None for a run without file faults."""
     if FILE_EVENTS.isdisjoint(event.name for event in events):
         return None
     folder = Path(undo.enter_context(TemporaryDirectory())) / "out"
@@ -249,13 +223,7 @@ def make_folder(events: Iterable[Event], undo: ExitStack) -> Path | None:
 
 
 def open_files(folder: Path | None, undo: ExitStack, tell: Tell = _ignore) -> NoFiles:
-    """Opens the files of a run.
-
-    Args:
-        folder: As returned by `make_folder`.
-        undo: Reverts the file faults, and closes the files.
-        tell: As in `RunFiles`.
-    """
+    """Opens the files of a run in the folder of `make_folder`; `undo` reverts their faults and closes them."""
     files = NoFiles() if folder is None else RunFiles(folder, undo, tell)
     undo.callback(files.close)
     return files

@@ -1,7 +1,7 @@
-"""The interface between the campaign and the setup of a robot."""
+"""The setup of a robot, into which a campaign injects faults."""
 
 from collections.abc import Callable, Mapping
-from typing import Protocol
+from dataclasses import replace
 
 from host_sim.client.robot_client import RobotClient
 from host_sim.sim.run_config import RunConfig
@@ -10,19 +10,18 @@ Happen = Callable[[int], None]
 """Triggers an event of a given size."""
 
 
-class Setup(Protocol):
-    """A robot and its line, into which faults can be injected.
+class Setup:
+    """A robot and its line: here one in this process, of which only the frames and the body can be faulty.
 
     Attributes:
         events: The possible events by name.
     """
 
-    @property
-    def events(self) -> Mapping[str, Happen]:
-        """The possible events by name."""
+    events: Mapping[str, Happen] = {}
 
     def configured(self, config: RunConfig) -> RunConfig:
         """The configuration of a run with this robot."""
+        return replace(config, bus="none")
 
     def found(self, client: RobotClient) -> None:
         """Called with the robot's client, once the robot has answered."""

@@ -17,10 +17,6 @@ _LIMIT_S = 0.5
 def shrink(cell: Cell, attempt: Attempt) -> Iterator[Outcome]:
     """Removes what is not needed: whole items, then single strikes of a random fault, then time at the end.
 
-    Args:
-        cell: A run with faults.
-        attempt: Runs a cell.
-
     Yields:
         The outcome of the whole cell, then of each smaller one of the same kind; the last is the smallest.
     """

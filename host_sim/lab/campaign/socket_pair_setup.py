@@ -2,25 +2,23 @@
 
 import os
 import threading
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
 from host_sim.base.errors import UsageError
 from host_sim.client.robot_client import RobotClient
 from host_sim.lab.campaign.host_events import process_events
-from host_sim.lab.campaign.setup import Happen
+from host_sim.lab.campaign.setup import Setup
 from host_sim.sim.run_config import RunConfig
 
 
-class SocketPair:
-    """As in `Setup`."""
+class SocketPair(Setup):
+    """The setup of the firmware in a process of its own, which the run starts."""
 
     def __init__(self) -> None:
-        """Prepares the setup; the robot is started by the run."""
         self._before = _children()
         self._pid = 0
-        self.events: Mapping[str, Happen] = process_events(lambda: self._pid)
+        self.events = process_events(lambda: self._pid)
 
     def configured(self, config: RunConfig) -> RunConfig:
         """As in `Setup`."""
@@ -36,13 +34,10 @@ class SocketPair:
 
 
 class OwnProgram(SocketPair):
-    """As in `Setup`."""
+    """The setup of a custom program."""
 
     def __init__(self, command: str) -> None:
-        """Prepares the setup; the robot is started by the run.
-
-        Args:
-            command: The program.
+        """Takes the program, which the run starts.
 
         Raises:
             UsageError: The command is empty.
@@ -53,7 +48,7 @@ class OwnProgram(SocketPair):
         self._command = command
         # The whole process group, since a shell may have started the program; it changes with each restart.
         events = process_events(lambda: -self._only_child())
-        self.events: Mapping[str, Happen] = {**events, "reset": events["kill"]}
+        self.events = {**events, "reset": events["kill"]}
 
     def configured(self, config: RunConfig) -> RunConfig:
         """As in `Setup`."""
