@@ -32,14 +32,7 @@ class Verdict(NamedTuple):
 
 
 def record(where: str, seed: int, ticks: int, log: Path, profile: str = "article") -> None:
-    """Records a run.
-
-    Args:
-        where: `REFERENCE`, or one of `IMAGES`.
-        seed: Seed for environments and random turns.
-        ticks: Number of ticks.
-        log: File for the frames.
-        profile: Name of the robot's behaviour.
+    """Records the frames of a run on the `REFERENCE`, or on one of the `IMAGES`.
 
     Raises:
         OctetError: The robot cannot be started there, or it fails.
@@ -62,16 +55,9 @@ def first_difference(reference: Path, other: Path) -> str | None:
 
 
 def compare(seeds: Sequence[int], ticks: int, folder: Path, images: Sequence[str] = IMAGES) -> Iterator[Verdict]:
-    """Compares runs on the host and on images.
+    """Compares runs on the host and on images; yields a verdict for each seed and image.
 
-    Args:
-        seeds: Seeds of the runs.
-        ticks: Number of ticks of each run.
-        folder: Folder for the logs; those of the reference and of runs that differ stay there.
-        images: The images to compare, from `IMAGES`.
-
-    Yields:
-        A verdict for each seed and image.
+    The logs of the reference, and of runs that differ, stay in the folder.
 
     Raises:
         OctetError: As for `record`.

@@ -40,7 +40,11 @@ def lockstep_figures() -> list[Figure]:
         most_figure("the core's tick, in C", _core_tick_ns(), "ns", 100, "the processor"),
         most_figure("tools/run, one robot second, to its end", _start_s(), "s", 2, "importing Python's packages"),
         most_figure(
-            "tools/setup with nothing to do", _setup_s(), "s", 0.3, "asking ninja, and hashes of a few files"
+            "tools/setup with nothing to do",
+            _shortest_s(f"{ROOT}/tools/setup"),
+            "s",
+            0.3,
+            "asking ninja, and hashes of a few files",
         ),
     ]
 
@@ -183,25 +187,18 @@ def _core_tick_ns() -> float:
     return float(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
 
 
-def _setup_s() -> float:
-    """Wall-clock time of the fastest of several calls of `tools/setup`, s."""
-    return min(_one_setup_s() for _ in range(ROUNDS))
-
-
-def _one_setup_s() -> float:
-    began = time.perf_counter()
-    subprocess.run([ROOT / "tools" / "setup"], check=True)
-    return time.perf_counter() - began
-
-
 def _start_s() -> float:
-    """Time of the shortest of `ROUNDS` whole runs of `tools/run` with one second of robot time."""
-    return min(_one_start_s() for _ in range(ROUNDS))
-
-
-def _one_start_s() -> float:
+    """Wall-clock time of a whole run of `tools/run` with one second of robot time, s."""
     with TemporaryDirectory() as folder:
-        command = [f"{ROOT}/tools/run", "--environments", "1", "--limit-s", "1", "--quiet", "--out", folder]
+        words = ("--environments", "1", "--limit-s", "1", "--quiet", "--out")
+        return _shortest_s(f"{ROOT}/tools/run", *words, f"{folder}/out")
+
+
+def _shortest_s(*command: str) -> float:
+    """Wall-clock time of the fastest of `ROUNDS` calls of a command, s."""
+    times_s = []
+    for _ in range(ROUNDS):
         began = time.perf_counter()
         subprocess.run(command, check=True)
-        return time.perf_counter() - began
+        times_s.append(time.perf_counter() - began)
+    return min(times_s)

@@ -9,12 +9,7 @@ from host_sim.sim.simulation import Simulation
 
 
 def run_ticks(config: RunConfig, ticks: int, log: FrameLog) -> RobotClient:
-    """Runs a robot in one environment after the other for a number of ticks.
-
-    Args:
-        config: The configuration; its number of environments is ignored.
-        ticks: Number of ticks.
-        log: Log for the frames; closed at the end.
+    """Runs a robot in one environment after the other for a number of ticks, and closes the log.
 
     Returns:
         The robot's client, at the end of the run.
@@ -31,11 +26,7 @@ def run_ticks(config: RunConfig, ticks: int, log: FrameLog) -> RobotClient:
 
 
 def step_through(simulation: Simulation, ticks: int) -> None:
-    """Steps through one environment after the other for a number of ticks, then stops the robot.
-
-    Args:
-        simulation: The simulation, before its first environment.
-        ticks: Number of ticks.
+    """Steps through one environment after the other, from the first, for a number of ticks, then stops the robot.
 
     Raises:
         RobotError: The robot has ended or does not answer.

@@ -63,11 +63,6 @@ class TickCost:
     """
 
     def __init__(self, board: EmulatedBoard) -> None:
-        """Starts watching.
-
-        Args:
-            board: The board to watch.
-        """
         protocol = Protocol()
         self._senses, self._drive = protocol.id_of("SENSES"), protocol.id_of("DRIVE")
         self._core, self._registers = board.hardware.core, board.hardware.can.registers
@@ -127,11 +122,6 @@ def _watch(register: Register, on_read: Callable[[int], None], on_write: Callabl
 
 def count_ticks(name: str, seed: int, ticks: int) -> list[int]:
     """The number of instructions of each tick of a run on an emulated board.
-
-    Args:
-        name: Name of the board.
-        seed: Seed for environments and random turns.
-        ticks: Number of ticks.
 
     Raises:
         OctetError: The board's image is not built, or the board fails.
