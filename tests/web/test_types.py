@@ -68,6 +68,14 @@ def test_no_module_suppresses_a_finding():
     assert [path.name for path in WEB.rglob("*.js") if said.search(path.read_text())] == []
 
 
+def test_every_type_begins_its_line():
+    """The compiler takes a tag behind a text for a part of the text, and the type is any."""
+    behind_text = re.compile(r"(?:/\*\*|\n *\*) [^@\n]*[^@\n`]@(?:type|param|returns)\b")
+
+    assert behind_text.search("/** The last one. @type {number} */")
+    assert [path.name for path in WEB.rglob("*.js") if behind_text.search(path.read_text())] == []
+
+
 def typedefs(text: str) -> dict[str, dict[str, str]]:
     """For each object type of a module its properties and their types; optional ones end with a question mark."""
     found = {}

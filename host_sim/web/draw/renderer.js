@@ -29,7 +29,7 @@ export class Renderer {
     this.canvas = canvas;
     this.lens = lens;
     lens?.watch(this);
-    /** The scene that was drawn last. @type {Scene | undefined} */
+    /** @type {Scene | undefined} - The scene that was drawn last. */
     this.scene = undefined;
     /** The upper left corner of what is in view, and its middle, mm. */
     this.corner = { x: -MARGIN_MM, y: -MARGIN_MM };

@@ -53,9 +53,9 @@ export class Scene {
     this.news = [];
     /** @type {Item | undefined} */
     this.item = undefined;
-    /** What an answer speaks of, and is lit up. @type {Meant | undefined} */
+    /** @type {Meant | undefined} - What an answer speaks of, and is lit up. */
     this.meant = undefined;
-    /** What each robot wears in place of its number, in the order of the states; empty where none does. @type {Tag[]} */
+    /** @type {Tag[]} - What each robot wears in place of its number, in the order of the states; or empty. */
     this.tags = [];
     /** @type {Map<number, Ghost>} */
     this.ghosts = new Map();

@@ -19,7 +19,7 @@ import { settingsOf } from "../sim/arena.js";
 
 const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 let lanes = 0;
-/** When each change was made: a later one has a higher number. @type {WeakMap<Change, number>} */
+/** @type {WeakMap<Change, number>} - When each change was made: a later one has a higher number. */
 const made = new WeakMap();
 let changesMade = 0;
 

@@ -41,7 +41,7 @@ export class TalkBox {
      * @type {Exchange[]}
      */
     this.history = [];
-    /** What speakers were taught to say. @type {Set<string>} */
+    /** @type {Set<string>} - What speakers were taught to say. */
     this.taught = new Set();
     this.who = made("select", Object.keys(SPEAKERS).map((value) => made("option", [], { value })), { id: "talk-who" });
     this.who.addEventListener("change", () => this.mean(undefined));
