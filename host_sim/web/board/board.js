@@ -15,9 +15,6 @@ import { showMessage } from "../live/message_scene.js";
 import { showFacts } from "../panel/panel.js";
 
 /**
- * @typedef {import("../types.js").Command} Command
- * @typedef {import("../types.js").Play} Play
- *
  * What a board is told besides; see host_sim/live/board_feed.py.
  * @typedef {Object} Class
  * @property {{urls: string[], modules: string[]}} [join]
@@ -25,7 +22,7 @@ import { showFacts } from "../panel/panel.js";
  * @property {{name: string, page: boolean}[] | null} robots
  * @property {import("./board_curves.js").NewSamples} curves
  *
- * @typedef {import("../types.js").Message & {board: Class}} BoardMessage
+ * @typedef {Message & {board: Class}} BoardMessage
  */
 
 const BORDER = 2;
@@ -120,7 +117,7 @@ class Board {
 
   /**
    * @param {Play} play
-   * @param {import("../types.js").EnvironmentScene} environment
+   * @param {EnvironmentScene} environment
    */
   showPlay(play, { number, of }) {
     setText(byId("play"), say(play.waits ? "begin" : play.playing ? "pause" : "play"));

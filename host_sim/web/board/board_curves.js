@@ -45,7 +45,7 @@ export class BoardCurves {
   }
 
   /**
-   * @param {import("../draw/scene.js").Scene} scene
+   * @param {Scene} scene
    * @param {string[]} colours - That tell robots apart.
    */
   draw(scene, colours) {

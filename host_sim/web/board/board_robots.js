@@ -9,8 +9,6 @@ import { PATTERNS, SIDES } from "../generated.js";
 import { pictureOf } from "../panel/cells_view.js";
 
 /**
- * @typedef {import("../draw/scene.js").Scene} Scene
- *
  * A robot in the table: `page`, whether one of its own is open; `meals`, the pieces of food that it has eaten.
  * @typedef {{node: number, name: string, colour: string, page: boolean, memory: number[], meals: number}} Row
  */

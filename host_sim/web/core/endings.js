@@ -21,8 +21,8 @@ export function ending(ended, done) {
 
 /**
  * What "start over" has done.
- * @param {import("../types.js").EnvironmentScene} environment
- * @param {import("../types.js").State[]} states
+ * @param {EnvironmentScene} environment
+ * @param {State[]} states
  */
 export function restarted({ seed }, states) {
   const isEmpty = states.every(({ memory }) => memory.every((side) => side === SIDE.NOTHING));

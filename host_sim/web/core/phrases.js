@@ -5,12 +5,6 @@ import { BODY_SENTENCES, PATTERNS, REASON, SENTENCES, SIDE, SIDES } from "../gen
 import { REASON_KEYS } from "./palette.js";
 
 /**
- * @typedef {import("../types.js").Lesson} Lesson
- * @typedef {import("../types.js").Measures} Measures
- * @typedef {import("../types.js").State} State
- */
-
-/**
  * The words of a language: see Words in host_sim/view/phrases.py.
  * @typedef {{sentences: Record<string, string>, patterns: string[], sides: string[], point: string, many: string}} Words
  */

@@ -4,17 +4,6 @@
 import { CELL_COUNT } from "../generated.js";
 import { unpackColumns } from "./packed_columns.js";
 
-/**
- * @typedef {import("./packed_columns.js").Columns} Columns
- * @typedef {import("../draw/trail.js").Trail} Trail
- * @typedef {import("../types.js").EnvironmentScene} EnvironmentScene
- * @typedef {import("../types.js").EventKind} EventKind
- * @typedef {import("../types.js").Lesson} Lesson
- * @typedef {import("../types.js").RobotRun} RobotRun
- * @typedef {import("../types.js").Run} Run
- * @typedef {import("../types.js").State} State
- */
-
 const VERSION = 3;
 const TRAIL_TICKS = 6000;
 const PLACES_PER_MM = 10;

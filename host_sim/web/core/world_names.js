@@ -3,7 +3,7 @@
 
 export const RANDOM = "random";
 
-/** @param {string | import("../types.js").WrittenWorld} world */
+/** @param {string | WrittenWorld} world */
 export function nameOf(world) {
   return typeof world === "string" ? world : world.name;
 }

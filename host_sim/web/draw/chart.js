@@ -53,7 +53,7 @@ export function drawChart(canvas, lines, { last, most, time }) {
 
 /**
  * @param {CanvasRenderingContext2D} context
- * @param {import("../core/palette.js").Palette} palette
+ * @param {Palette} palette
  * @param {Scale} scale
  * @param {{last: number, most: number, time: string}} ends
  */

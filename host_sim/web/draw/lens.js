@@ -4,12 +4,6 @@
 import { byId, isForPage, typedById } from "../core/elements.js";
 import { itemAt } from "../edit/hit_testing.js";
 
-/**
- * @typedef {import("./renderer.js").Renderer} Renderer
- * @typedef {import("./scene.js").Scene} Scene
- * @typedef {import("../types.js").Place} Place
- */
-
 const ZOOM_MAX = 10;
 const ZOOM_STEP = 1.5;
 /** The zoom in which a robot is followed, if there was none. */

@@ -2,8 +2,8 @@
 /* Fills a scene with a tick of a recorded run. */
 
 /**
- * @param {import("./scene.js").Scene} scene
- * @param {import("../core/run_data.js").RunData} data
+ * @param {Scene} scene
+ * @param {RunData} data
  * @param {number} tick - One beyond the end shows the end.
  * @param {boolean} anew - Whether the run is another than before, and the trails begin anew.
  */

@@ -7,13 +7,6 @@ import { drawLook, drawRobot, drawTag } from "./robot_view.js";
 import { circle, drawPlant } from "./shapes.js";
 import { TrailLayer } from "./trail_layer.js";
 
-/**
- * @typedef {import("./scene.js").Item} Item
- * @typedef {import("./scene.js").Scene} Scene
- * @typedef {import("../types.js").Measures} Measures
- * @typedef {import("../types.js").Place} Place
- */
-
 /** Room around the arena, for its walls. */
 const MARGIN_MM = 40;
 const GRID_MM = 500;
@@ -23,7 +16,7 @@ const FOOD_MM = 50;
 export class Renderer {
   /**
    * @param {HTMLCanvasElement} canvas
-   * @param {import("./lens.js").Lens} [lens] - Says which part of the arena to show; without one, all of it.
+   * @param {Lens} [lens] - Says which part of the arena to show; without one, all of it.
    */
   constructor(canvas, lens) {
     this.canvas = canvas;
@@ -149,7 +142,7 @@ export class Renderer {
 
   /**
    * Rings around what an answer speaks of.
-   * @param {import("./scene.js").Meant} meant
+   * @param {Meant} meant
    * @param {Scene} scene
    */
   drawMeant({ food, places }, { environment, measures }) {

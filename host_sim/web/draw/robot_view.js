@@ -5,13 +5,6 @@ import { REASON } from "../generated.js";
 import { CONES } from "../core/sensors.js";
 import { circle, drawDisc, drawRing, drawText, textWidth } from "./shapes.js";
 
-/**
- * @typedef {import("../core/palette.js").Palette} Palette
- * @typedef {import("./scene.js").Scene} Scene
- * @typedef {import("../types.js").Measures} Measures
- * @typedef {import("../types.js").State} State
- */
-
 const CONE_HALF = Math.PI / 8;
 const GLANCE_MM = 700;
 const VERDICT_MS = 1200;

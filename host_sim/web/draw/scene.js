@@ -6,13 +6,6 @@ import { clock } from "../core/phrases.js";
 import { trailsFor } from "./trail.js";
 
 /**
- * @typedef {import("../types.js").Measures} Measures
- * @typedef {import("../types.js").News} News
- * @typedef {import("../types.js").EnvironmentScene} EnvironmentScene
- * @typedef {import("../types.js").State} State
- */
-
-/**
  * What a person can select or drag. id: a robot's node, a food's index, a bar's or plant's id. part: "a" or "b" for one end of a
  * bar, else "whole".
  * @typedef {{kind: "robot" | "food" | "bar" | "plant", id: number, part: "a" | "b" | "whole"}} Item
@@ -20,7 +13,7 @@ import { trailsFor } from "./trail.js";
 
 /**
  * Cells; and, in the environment that begins with a tick, pieces of food by their index, and places in mm.
- * @typedef {{cells: number[], first_tick: number, food: number[], places: import("../types.js").WirePlace[]}} Meant
+ * @typedef {{cells: number[], first_tick: number, food: number[], places: WirePlace[]}} Meant
  */
 
 /**

@@ -5,8 +5,6 @@ import { contextOf } from "../core/elements.js";
 import { REASON } from "../generated.js";
 import { PATHS } from "./trail.js";
 
-/** @typedef {import("./trail.js").Trail} Trail */
-
 const AGES = 6;
 const FAINTEST = 0.16;
 /** The trails of the robots that are not selected are this much fainter. */

@@ -6,13 +6,7 @@ import { say } from "../core/language.js";
 import { allItems, whole } from "./hit_testing.js";
 import { endsOf, insideWalls, movedBar, plantOf, turnedBar, wirePlace } from "./placement.js";
 
-/**
- * @typedef {import("../draw/scene.js").Ghost} Ghost
- * @typedef {import("../draw/scene.js").Item} Item
- * @typedef {import("../draw/scene.js").Scene} Scene
- * @typedef {import("../types.js").Command} Command
- * @typedef {import("../types.js").Place} Place
- */
+/** @typedef {import("../draw/scene.js").Ghost} Ghost */
 
 const NEW_BAR_MM = 250;
 /** A new obstacle lies in the middle, or higher up if the robot is about there. */

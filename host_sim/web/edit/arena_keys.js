@@ -3,8 +3,6 @@
 
 import { isForPage } from "../core/elements.js";
 
-/** @typedef {import("./arena_editor.js").ArenaEditor} ArenaEditor */
-
 const NUDGE_MM = 50;
 const SMALL_NUDGE_MM = 10;
 const TURN = Math.PI / 12;

@@ -5,12 +5,7 @@ import { distance, itemAt } from "./hit_testing.js";
 import { endsOf, movedBar, wirePlace } from "./placement.js";
 
 /**
- * @typedef {import("./arena_editor.js").ArenaEditor} ArenaEditor
  * @typedef {import("./placement.js").Ends} Ends
- * @typedef {import("../draw/renderer.js").Renderer} Renderer
- * @typedef {import("../draw/scene.js").Item} Item
- * @typedef {import("../types.js").Command} Command
- * @typedef {import("../types.js").Place} Place
  *
  * What is dragged, from where, and for a bar its ends then.
  * @typedef {{item: Item, from: Place, ends: Ends | undefined}} Drag

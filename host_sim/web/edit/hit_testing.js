@@ -1,12 +1,6 @@
 // @ts-check
 /* Finds what lies at a place in the arena, and the order in which the keyboard visits all items. */
 
-/**
- * @typedef {import("../draw/scene.js").Item} Item
- * @typedef {import("../draw/scene.js").Scene} Scene
- * @typedef {import("../types.js").Place} Place
- */
-
 const BAR_END_MM = 70;
 const BAR_SIDE_MM = 60;
 const FOOD_REACH_MM = 90;

@@ -2,12 +2,6 @@
 /* Places items at whole mm within the walls. */
 
 /**
- * @typedef {import("../draw/scene.js").Item} Item
- * @typedef {import("../types.js").EnvironmentScene} EnvironmentScene
- * @typedef {import("../types.js").Measures} Measures
- * @typedef {import("../types.js").Place} Place
- * @typedef {import("../types.js").WirePlace} WirePlace
- *
  * The two ends of a bar.
  * @typedef {{a: Place, b: Place}} Ends
  */

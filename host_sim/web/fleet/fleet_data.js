@@ -47,7 +47,7 @@ export async function fleetData(fleet) {
 export class FleetData {
   /**
    * @param {Fleet} fleet
-   * @param {import("../core/packed_columns.js").Columns} columns
+   * @param {Columns} columns
    * @param {Int32Array} scenes
    */
   constructor(fleet, columns, scenes) {

@@ -8,7 +8,6 @@ import { drawChart, strokeOf } from "../draw/chart.js";
 import { NAMES, growthOf, rowsOf } from "./results.js";
 
 /**
- * @typedef {import("./shown_run.js").ShownRun} ShownRun
  * @typedef {import("./results.js").Curve} Curve
  * @typedef {import("./results.js").Growth} Growth
  */
@@ -18,7 +17,7 @@ export class Curves {
   constructor() {
     this.canvas = typedById("chart", HTMLCanvasElement);
     this.select = typedById("curve", HTMLSelectElement);
-    /** @type {WeakMap<import("../core/run_data.js").RobotData, Map<Curve, Growth>>} */
+    /** @type {WeakMap<RobotData, Map<Curve, Growth>>} */
     this.grown = new WeakMap();
     this.key = "";
     inEachLanguage(() => {
@@ -65,7 +64,7 @@ export class Curves {
   }
 
   /**
-   * @param {import("../core/run_data.js").RobotData} robot
+   * @param {RobotData} robot
    * @param {ShownRun} lane
    */
   growth(robot, { data }) {

@@ -8,14 +8,7 @@ import { byId, typedById } from "../core/elements.js";
 import { isInside, plantOf, wirePlace } from "../edit/placement.js";
 import { EDITS, PLANT_GROWTH_MM, PLANT_RADIUS_MM } from "../generated.js";
 
-/**
- * @typedef {import("./shown_run.js").ShownRun} ShownRun
- * @typedef {import("../draw/scene.js").Scene} Scene
- * @typedef {import("../types.js").Change} Change
- * @typedef {import("../types.js").Command} Command
- *
- * @typedef {{lane: ShownRun, stale: boolean, change: (change: Change) => void}} Lab
- */
+/** @typedef {{lane: ShownRun, stale: boolean, change: (change: Change) => void}} Lab */
 
 /** Beyond the reach of the robot's sensors. */
 const PLANT_GAP_MM = 20;
@@ -110,7 +103,7 @@ export class LabEditor extends ArenaEditor {
 
 /**
  * @param {Command} command
- * @returns {command is Command & import("../types.js").WorldEdit}
+ * @returns {command is Command & WorldEdit}
  */
 function isWorldEdit(command) {
   return Object.hasOwn(EDITS, command.do);

@@ -9,11 +9,8 @@ import { PlayingPage } from "../replay/playing_page.js";
 import { Simulator } from "./simulator.js";
 
 /**
- * @typedef {import("../types.js").Change} Change
- * @typedef {import("../types.js").Experiment} Experiment
- *
  * What the page has in it: page.wasm and the worker's script, packed, the worlds, and the programs to choose from.
- * @typedef {{wasm: string, worker: string, worlds: import("../sim/worlds.js").Worlds, programs: Record<string, string>}} Parts
+ * @typedef {{wasm: string, worker: string, worlds: Worlds, programs: Record<string, string>}} Parts
  */
 
 const LANES_MAX = 4;

@@ -20,7 +20,7 @@ import { TalkBox } from "../talk/talk_box.js";
 
 /**
  * A recorded run that the page begins with: the tick and the robot that are shown.
- * @typedef {{recorded: import("../sim/log_opening.js").RecordedRun, tick: number, node: number}} Begin
+ * @typedef {{recorded: RecordedRun, tick: number, node: number}} Begin
  */
 
 /** Shows the laboratory's runs, and what belongs to the one that is selected. */

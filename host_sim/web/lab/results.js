@@ -4,9 +4,6 @@
 import { PARAMETERS, REASON } from "../generated.js";
 
 /**
- * @typedef {import("./shown_run.js").ShownRun} ShownRun
- * @typedef {import("../core/run_data.js").RobotData} RobotData
- *
  * @typedef {"trials" | "blocked" | "meals"} Curve
  *
  * A count that grows: the ticks in which it does, and what it is from then on.

@@ -2,11 +2,6 @@
 /* The ticks of a run that one can go to. */
 
 /**
- * @typedef {import("../core/run_data.js").RobotData} RobotData
- * @typedef {import("../types.js").EventKind} EventKind
- */
-
-/**
  * The tick of the next event of a kind after a tick, or of the one before it; undefined if there is none.
  * @param {RobotData} robot
  * @param {string} kind - An EventKind, "decision" or "obstacle".

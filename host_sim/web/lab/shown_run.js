@@ -11,12 +11,6 @@ import { Scene } from "../draw/scene.js";
 import { RANDOM, nameOf } from "../core/world_names.js";
 import { settingsOf } from "../sim/arena.js";
 
-/**
- * @typedef {import("../types.js").Change} Change
- * @typedef {import("../types.js").Experiment} Experiment
- * @typedef {import("../types.js").RobotSetup} RobotSetup
- */
-
 const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 let lanes = 0;
 /** @type {WeakMap<Change, number>} - When each change was made: a later one has a higher number. */
@@ -33,7 +27,7 @@ export class ShownRun {
   /**
    * @param {Experiment} experiment
    * @param {HTMLElement} parent - Where its arena goes.
-   * @param {import("../draw/lens.js").Lens} lens - Says which part of the arena to show.
+   * @param {Lens} lens - Says which part of the arena to show.
    */
   constructor(experiment, parent, lens) {
     this.experiment = experiment;
@@ -98,7 +92,7 @@ export class ShownRun {
 
   /**
    * Simulates it anew; what could not be changed goes from its experiment.
-   * @param {import("./simulator.js").Simulator} simulator
+   * @param {Simulator} simulator
    * @param {import("./simulator.js").OnAnswer} onAnswer - Called when there is a run, and at its end.
    */
   simulate(simulator, onAnswer) {

@@ -17,10 +17,6 @@ import { ListingView } from "../panel/listing_view.js";
 import { RANDOM, nameOf } from "../core/world_names.js";
 
 /**
- * @typedef {import("./shown_run.js").ShownRun} ShownRun
- * @typedef {import("../types.js").Change} Change
- * @typedef {import("../types.js").Experiment} Experiment
- *
  * @typedef {NonNullable<Experiment["world"]>} World
  *
  * The page, as far as the desk knows it.
@@ -28,9 +24,9 @@ import { RANDOM, nameOf } from "../core/world_names.js";
  * @property {ShownRun} lane
  * @property {ShownRun[]} lanes
  * @property {number} tick
- * @property {import("../sim/worlds.js").Worlds} worlds
- * @property {import("../types.js").SimParams} params
- * @property {import("./simulator.js").Simulator} simulator
+ * @property {Worlds} worlds
+ * @property {SimParams} params
+ * @property {Simulator} simulator
  * @property {() => void} lightUp
  * @property {(change: Change) => void} change
  * @property {(lane: ShownRun) => void} simulate

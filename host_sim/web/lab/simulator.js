@@ -6,7 +6,6 @@ import { inflate } from "../core/packed_columns.js";
 /**
  * @typedef {import("../sim/page_worker.js").Answer} Answer
  * @typedef {import("../sim/page_worker.js").Request} Request
- * @typedef {import("../types.js").Experiment} Experiment
  *
  * @typedef {(answer: Answer) => void} OnAnswer
  */
@@ -107,7 +106,7 @@ export class Simulator {
 
   /**
    * The experiment that a recorded run is of.
-   * @param {import("../sim/log_opening.js").RecordedRun} recorded
+   * @param {RecordedRun} recorded
    */
   async repeat(recorded) {
     const { experiment } = await this.ask({ do: "repeat", id: this.newId(), recorded });

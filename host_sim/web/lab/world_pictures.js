@@ -12,13 +12,13 @@ import { PROFILES } from "../generated.js";
 import { experimentOf } from "./shown_run.js";
 
 /**
- * @typedef {NonNullable<import("../types.js").Experiment["world"]>} World
+ * @typedef {NonNullable<Experiment["world"]>} World
  * @typedef {{world: World, renderer: Renderer, scene: Scene | undefined, drawn: string}} Picture
  */
 
 /** Fills the element worlds; the environments are those of the seed in the field seed. */
 export class WorldPictures {
-  /** @param {import("./simulator.js").Simulator} simulator */
+  /** @param {Simulator} simulator */
   constructor(simulator) {
     this.simulator = simulator;
     /** @type {Picture[]} */

@@ -9,10 +9,6 @@ import { PLANS } from "./plans.js";
 import { Worksheet } from "./worksheet.js";
 
 /**
- * @typedef {import("../lab/shown_run.js").ShownRun} ShownRun
- * @typedef {import("../types.js").Change} Change
- * @typedef {import("../types.js").Experiment} Experiment
- *
  * The page, as far as the course knows it.
  * @typedef {Object} Lab
  * @property {ShownRun} lane
@@ -23,7 +19,7 @@ import { Worksheet } from "./worksheet.js";
  * @property {(experiment: Experiment) => void} begin
  * @property {(experiment: Experiment) => ShownRun} addLane
  * @property {(lane: ShownRun) => void} select
- * @property {import("../talk/talk_box.js").TalkBox} talk
+ * @property {TalkBox} talk
  * @property {(who: string, word: string, answer: string) => void} teach
  * @property {() => void} restartTalk
  */

@@ -4,10 +4,6 @@
 import { PARAMETERS, REASON } from "../generated.js";
 
 /**
- * @typedef {import("../lab/shown_run.js").ShownRun} ShownRun
- * @typedef {import("../core/run_data.js").RobotData} RobotData
- * @typedef {import("../core/run_data.js").RunData} RunData
- *
  * Ticks, both ends included.
  * @typedef {{first: number, last: number}} Stretch
  */

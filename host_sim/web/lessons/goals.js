@@ -6,9 +6,6 @@ import { hasEatenAll, hasEnded, isProgrammed, longestStretch, settingAt, stretch
 import { meetingsOf } from "./plant_meetings.js";
 
 /**
- * @typedef {import("../lab/shown_run.js").ShownRun} ShownRun
- * @typedef {import("../core/run_data.js").RunData} RunData
- *
  * A run whose first environments are there to be looked at.
  * @typedef {{lane: ShownRun, data: RunData}} Shown
  */

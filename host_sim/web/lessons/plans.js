@@ -10,11 +10,10 @@ import { isStuckBySensor, knowSooner, wasStuck } from "./goals.js";
 import { changedAnswer, repeatsWhatItWasTaught, tellsKnowingFromSaying } from "./talk_goals.js";
 
 /**
- * @typedef {import("../types.js").Experiment} Experiment
  * @typedef {import("./goals.js").Shown} Shown
  *
  * Whether a goal is reached, by what these runs show up to a tick, and by what was said.
- * @typedef {(runs: Shown[], tick: number, talk: import("../talk/talk_box.js").TalkBox) => boolean} Goal
+ * @typedef {(runs: Shown[], tick: number, talk: TalkBox) => boolean} Goal
  *
  * `begin` are the runs that a lesson begins with; the last one is selected. `tool` is what it needs beside the rest of
  * the page.

@@ -5,11 +5,6 @@ import { REASON } from "../generated.js";
 import { stretchesOf } from "./evidence.js";
 
 /**
- * @typedef {import("../core/run_data.js").RobotData} RobotData
- * @typedef {import("../core/run_data.js").RunData} RunData
- * @typedef {import("../types.js").EnvironmentScene} EnvironmentScene
- * @typedef {import("../types.js").Place} Place
- *
  * What was put there: a thick line, or a point.
  * @typedef {{a: Place, b: Place, radius: number}} Thing
  *

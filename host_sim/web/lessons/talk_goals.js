@@ -1,10 +1,7 @@
 // @ts-check
 /* Checks of the last lesson's goals on the conversation. */
 
-/**
- * @typedef {import("../talk/talk_box.js").Exchange} Exchange
- * @typedef {import("../talk/talk_box.js").TalkBox} TalkBox
- */
+/** @typedef {import("../talk/talk_box.js").Exchange} Exchange */
 
 const SOON_TICKS = 50;
 

@@ -4,8 +4,6 @@
 import { byId, setText } from "../core/elements.js";
 import { say } from "../core/language.js";
 
-/** @typedef {import("../types.js").Command} Command */
-
 const RECONNECT_MS = 1000;
 const GOING_AWAY = 1001;
 

@@ -6,12 +6,6 @@ import { ending } from "../core/endings.js";
 import { inEachLanguage, robotWords, say } from "../core/language.js";
 import { decimal } from "../core/phrases.js";
 
-/**
- * @typedef {import("../draw/scene.js").Scene} Scene
- * @typedef {import("../types.js").Command} Command
- * @typedef {import("../types.js").Play} Play
- */
-
 /** @type {Record<string, string>} */
 const KEYS = { " ": "play", ".": "decision", n: "next" };
 /** The controls without effect once the run is over. */

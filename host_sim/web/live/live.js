@@ -11,11 +11,6 @@ import { Toast } from "../core/toast.js";
 import { Scene } from "../draw/scene.js";
 import { TalkBox } from "../talk/talk_box.js";
 
-/**
- * @typedef {import("../types.js").Command} Command
- * @typedef {import("../types.js").Message} Message
- */
-
 /** Draws at most once per screen frame. */
 class LivePage {
   constructor() {

@@ -6,7 +6,6 @@ import { inEachLanguage, say } from "../core/language.js";
 
 /**
  * @typedef {import("./live_view.js").LiveView} LiveView
- * @typedef {import("../types.js").Command} Command
  * @typedef {import("../types.js").Seat} Seat
  */
 

@@ -14,13 +14,6 @@ import { RobotPicker } from "../panel/robot_picker.js";
 import { robotWords, say } from "../core/language.js";
 import { showMessage } from "./message_scene.js";
 
-/**
- * @typedef {import("../types.js").Command} Command
- * @typedef {import("../types.js").Lesson} Lesson
- * @typedef {import("../types.js").Message} Message
- * @typedef {import("../draw/scene.js").Scene} Scene
- */
-
 const LESSONS_SHOWN = 30;
 
 /** A message changes its scene, `draw` shows it. */

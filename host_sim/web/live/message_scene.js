@@ -5,7 +5,7 @@ import { Scene } from "../draw/scene.js";
 
 /**
  * @param {Scene} scene
- * @param {import("../types.js").Message} message
+ * @param {Message} message
  */
 export function showMessage(scene, { measures, environment, states, trails, news }) {
   if (measures && environment) restart(scene, new Scene(measures, environment, states));
@@ -30,7 +30,7 @@ function restart(scene, anew) {
 
 /**
  * @param {Scene} scene
- * @param {import("../types.js").EnvironmentScene} environment
+ * @param {EnvironmentScene} environment
  */
 function enter(scene, environment) {
   if (environment.first_tick !== scene.environment.first_tick) scene.trails.forEach((trail) => trail.clear());

@@ -7,8 +7,6 @@ import { binary } from "../core/phrases.js";
 import { CONES, patternBit } from "../core/sensors.js";
 
 /**
- * @typedef {import("../draw/scene.js").Scene} Scene
- *
  * What a cell shows; `then` is what it held at another time,
  * or in another run.
  * @typedef {{cell: number, side: number, when: string, byHand: boolean, uses: number, inUse: boolean, trying: number, meant: boolean,

@@ -6,12 +6,6 @@ import { CELL_COUNT } from "../generated.js";
 import { languageCode, robotWords, say } from "../core/language.js";
 import { sentence } from "../core/phrases.js";
 
-/**
- * @typedef {import("../lab/shown_run.js").ShownRun} ShownRun
- * @typedef {import("../core/run_data.js").RunData} RunData
- * @typedef {import("../types.js").State} State
- */
-
 const DRIVE = ["left", "right", "reason", "repeat_count", "action"];
 
 /** Fills the element parting. */
@@ -57,8 +51,8 @@ export function partingOf(one, other, columns = DRIVE) {
 }
 
 /**
- * @param {import("../core/packed_columns.js").Columns} one
- * @param {import("../core/packed_columns.js").Columns} other
+ * @param {Columns} one
+ * @param {Columns} other
  * @param {number} ticks
  * @param {string[]} names
  */

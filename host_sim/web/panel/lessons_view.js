@@ -6,11 +6,6 @@ import { byId } from "../core/elements.js";
 import { languageCode, robotWords, say } from "../core/language.js";
 import { lessonSentence } from "../core/phrases.js";
 
-/**
- * @typedef {import("../draw/scene.js").Scene} Scene
- * @typedef {import("../types.js").Lesson} Lesson
- */
-
 /** Fills the element `lessons`. */
 export class LessonsView {
   constructor() {

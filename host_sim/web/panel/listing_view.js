@@ -7,8 +7,6 @@ import { inEachLanguage, robotWords, say } from "../core/language.js";
 import { REASON, SIDE } from "../generated.js";
 import { binary } from "../core/phrases.js";
 
-/** @typedef {import("../types.js").State} State */
-
 /** Figure 4 of the article, line by line; a step of the robot is named before its line. */
 const LISTING = /** @type {const} */ ([
   ["", "while FoodCnt"],

@@ -10,12 +10,6 @@ import { inEachLanguage, nameIn, robotWords, say } from "../core/language.js";
 import { sentence, verdict } from "../core/phrases.js";
 
 /**
- * @typedef {import("../draw/scene.js").Scene} Scene
- * @typedef {import("../types.js").Measures} Measures
- * @typedef {import("../types.js").State} State
- */
-
-/**
  * What else is drawn in the arena, by its name in the style sheet.
  * @type {[string, import("../core/language.js").Key][]}
  */

@@ -4,8 +4,6 @@
 import { byId, isForPage } from "../core/elements.js";
 import { inEachLanguage, say } from "../core/language.js";
 
-/** @typedef {import("../draw/scene.js").Scene} Scene */
-
 const FIELDS = "select, summary, textarea, input:not([type=range])";
 
 /** Fills the element `robots`. Keys: 1..9 for the robot of that number, [ and ] for the one before and after. */

@@ -3,8 +3,6 @@
 
 import { REASON } from "../generated.js";
 
-/** @typedef {import("../types.js").State} State */
-
 /** How long a state stays before a less important one replaces it, so that nothing flickers. */
 const HOLD_MS = 700;
 const LIFTED_WEIGHT = 9;

@@ -8,11 +8,6 @@ import { REASON } from "../generated.js";
 import { paletteOf, REASON_KEYS } from "../core/palette.js";
 
 /**
- * @typedef {import("../core/run_data.js").RobotData} RobotData
- * @typedef {import("../types.js").EventKind} EventKind
- */
-
-/**
  * The reason whose colour an event's mark has, and the mark's height as a share of the strip.
  * @type {Record<EventKind, [number, number]>}
  */

@@ -1,17 +1,12 @@
 // @ts-check
 /* Where a program is: the single steps of the decision in progress at a tick, and its variables. */
 
-/**
- * @typedef {import("../lab/shown_run.js").ShownRun} ShownRun
- * @typedef {import("../sim/native_program.js").ProgramState} ProgramState
- */
-
 const CELLS_SHOWN = 16;   // of an array
 const DECIMALS = 1000;
 
 /** `state` is the last known one. */
 export class ProgramSteps {
-  /** @param {import("../lab/simulator.js").Simulator} simulator */
+  /** @param {Simulator} simulator */
   constructor(simulator) {
     this.simulator = simulator;
     /** @type {ProgramState | undefined} */

@@ -14,9 +14,6 @@ import { linkOf, linkedIn, tellFound } from "./link.js";
 import { ProgramSteps } from "./program_steps.js";
 
 /**
- * @typedef {import("../lab/shown_run.js").ShownRun} ShownRun
- * @typedef {import("../types.js").Experiment} Experiment
- *
  * The page, as far as the tab knows it.
  * @typedef {Object} Lab
  * @property {ShownRun} lane
@@ -25,8 +22,8 @@ import { ProgramSteps } from "./program_steps.js";
  * @property {number} tick
  * @property {boolean} playing
  * @property {Record<string, string>} programs
- * @property {import("../sim/worlds.js").Worlds} worlds
- * @property {import("../lab/simulator.js").Simulator} simulator
+ * @property {Worlds} worlds
+ * @property {Simulator} simulator
  * @property {(lane: ShownRun) => void} simulate
  * @property {(experiment: Experiment) => void} begin
  * @property {(experiment: Experiment) => ShownRun} addLane
@@ -203,7 +200,7 @@ export class ProgramTab {
     this.showParting();
   }
 
-  /** @param {import("../sim/native_program.js").ProgramState | undefined} state */
+  /** @param {ProgramState | undefined} state */
   showNews(state) {
     const { texts } = this;
     const mistake = state?.mistake;

@@ -17,8 +17,6 @@ import { drawMarks } from "../panel/timeline.js";
 import { Conversations } from "../talk/conversation.js";
 import { TalkBox } from "../talk/talk_box.js";
 
-/** @typedef {import("../types.js").EventKind} EventKind */
-
 /** Shows one run. */
 class Player extends PlayingPage {
   /** @param {RunData} data */

@@ -8,10 +8,8 @@ import { decimal } from "../core/phrases.js";
 import { partingOf } from "../panel/divergence.js";
 
 /**
- * @typedef {import("../core/run_data.js").RunData} RunData
- *
  * What host_sim/report/laboratory.py has put into the page: octet.html, packed, and the run for it; or why it has not.
- * @typedef {{page: string, run: import("../sim/log_opening.js").RecordedRun} | {why: string}} Laboratory
+ * @typedef {{page: string, run: RecordedRun} | {why: string}} Laboratory
  *
  * The laboratory's page, as far as this one knows it.
  * @typedef {Window & {octet?: {repeated: Promise<void>, lanes: {data?: RunData}[]}}} LabWindow

@@ -4,8 +4,6 @@
 import { EDITS, KIT_SETTINGS } from "../generated.js";
 
 /**
- * @typedef {import("../types.js").SimParams} SimParams
- * @typedef {import("../types.js").WorldEdit} WorldEdit
  * @typedef {import("../types.js").Traits} Traits
  *
  * What the bodies are like, and the seed that they are drawn from.
@@ -40,7 +38,7 @@ const PLACES = ["a", "b", "at"];
 /** What stands in the arena of a run. Bars and plants come with their ids, pieces of food with a 1 if they are eaten. */
 export class Arena {
   /**
-   * @param {import("./native_run.js").NativeRun} native
+   * @param {NativeRun} native
    * @param {SimParams} params
    * @param {Bodies} bodies
    */

@@ -3,7 +3,7 @@
 
 import { EditError } from "./arena.js";
 
-/** @typedef {import("../types.js").Change & {tick: number}} TimedChange */
+/** @typedef {Change & {tick: number}} TimedChange */
 
 /** `refusals` has the reason for each change that could not be made, by its index among the changes. */
 export class DueChanges {

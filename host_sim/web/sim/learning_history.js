@@ -4,11 +4,10 @@
 import { CELL_COUNT, REASON } from "../generated.js";
 
 /**
- * @typedef {import("../types.js").Lesson} Lesson
  * @typedef {import("../types.js").Trial} Trial
  *
  * What is known of a cell from a tick on: tick, cell, uses, learned, by_hand.
- * @typedef {import("../types.js").RobotRun["cells"][number]} Cell
+ * @typedef {RobotRun["cells"][number]} Cell
  *
  * A turn or a trial that began, or a trial that ended; `trial` is the last one, after it.
  * @typedef {{tick: number, reason: number, cell: Cell, trial: Trial | null}} Note
@@ -21,7 +20,7 @@ const LESSON_NUMBERS = 4;
 /** Built from the blocks of a run, in order. */
 export class LearningHistory {
   /**
-   * @param {import("./native_run.js").NativeRun} native
+   * @param {NativeRun} native
    * @param {number} robot
    */
   constructor(native, robot) {

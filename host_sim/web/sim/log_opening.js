@@ -9,12 +9,6 @@ import { NativeRun } from "./native_run.js";
 import { Simulation } from "./simulation.js";
 
 /**
- * @typedef {import("../types.js").Change} Change
- * @typedef {import("../types.js").Experiment} Experiment
- * @typedef {import("../types.js").RobotSetup} RobotSetup
- * @typedef {import("../types.js").WorldEdit} WorldEdit
- * @typedef {import("./worlds.js").Worlds} Worlds
- *
  * @typedef {{experiment: Experiment, news: string}} Opened
  *
  * A recorded run, from host_sim/report/laboratory.py.

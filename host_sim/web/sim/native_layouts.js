@@ -7,8 +7,6 @@ import { NativeRun } from "./native_run.js";
  * @typedef {import("../types.js").Bar} Bar
  * @typedef {import("../types.js").Layout} Layout
  * @typedef {import("../types.js").Pose} Pose
- * @typedef {import("../types.js").SimParams} SimParams
- * @typedef {import("../types.js").WrittenWorld} WrittenWorld
  */
 
 /** In the order of native/page.h. */

@@ -8,8 +8,6 @@ import { openWorld } from "./world_opening.js";
 
 /**
  * @typedef {ReturnType<Simulation["result"]>} Recorded
- * @typedef {import("../types.js").Experiment} Experiment
- * @typedef {import("./worlds.js").Worlds} Worlds
  *
  * What the worker is asked for. `begin` comes first and once.
  * @typedef {{do: "begin", wasm: ArrayBuffer, worlds: Worlds}
@@ -19,12 +17,12 @@ import { openWorld } from "./world_opening.js";
  *   | {do: "program", id: number, experiment: Experiment, robot: number}
  *   | {do: "world", id: number, file: {name: string, text: string}, base: Experiment}
  *   | {do: "open", id: number, text: string, world: string}
- *   | {do: "repeat", id: number, recorded: import("./log_opening.js").RecordedRun}} Request
+ *   | {do: "repeat", id: number, recorded: RecordedRun}} Request
  *
  * What it answers: a run, after its first environment and at its end, with the changes that were refused; the whole log; the
  * eight bytes of a robot at the end, or what its program is doing then; or the experiment that a world file, a log, or a recorded run, is of.
  * @typedef {{id: number, run?: Recorded, refusals?: [number, string][], done: boolean, log?: Uint8Array[],
- *   memory?: number[], program?: import("./native_program.js").ProgramState, opened?: import("./log_opening.js").Opened, experiment?: Experiment, error?: string}} Answer
+ *   memory?: number[], program?: ProgramState, opened?: import("./log_opening.js").Opened, experiment?: Experiment, error?: string}} Answer
  */
 
 /** @type {{module: WebAssembly.Module, worlds: Worlds} | undefined} */

@@ -3,11 +3,6 @@
 
 import { ANSWER_WANTS_RANGES, CELL_COUNT, OPCODE, PARAMETERS, PROFILES } from "../generated.js";
 
-/**
- * @typedef {import("../types.js").Experiment} Experiment
- * @typedef {import("../types.js").RobotChange} RobotChange
- */
-
 const HALF = CELL_COUNT / 2;
 const UPPER_HALF = 1 << HALF;
 const ALL_CELLS = Array.from({ length: CELL_COUNT }, (_, cell) => cell);
@@ -15,7 +10,7 @@ const ALL_CELLS = Array.from({ length: CELL_COUNT }, (_, cell) => cell);
 /** `wantsRanges` tells for each robot whether its behaviour asks for distances. */
 export class RobotCommands {
   /**
-   * @param {import("./native_run.js").NativeRun} native
+   * @param {NativeRun} native
    * @param {Experiment} experiment - How the robots are set up.
    */
   constructor(native, { robots, seed }) {

@@ -7,13 +7,6 @@ import { AXES } from "./native_run.js";
 import { newsOf } from "./world_news.js";
 
 /**
- * @typedef {import("../core/packed_columns.js").Columns} Columns
- * @typedef {import("../types.js").EnvironmentScene} EnvironmentScene
- * @typedef {import("../types.js").EventKind} EventKind
- * @typedef {import("../types.js").Measures} Measures
- * @typedef {import("../types.js").RobotRun} RobotRun
- * @typedef {import("../types.js").Run} Run
- *
  * A block of one robot's ticks, in the order of native/page.h.
  * @typedef {{ticks: number, rows: Int16Array, poses: Float64Array}} Block
  *
@@ -31,7 +24,7 @@ const FIRST_ROOM = 1 << 13;
 export class RunRecorder {
   /**
    * @param {Measures} measures
-   * @param {import("./native_run.js").NativeRun} native
+   * @param {NativeRun} native
    * @param {number[]} robots
    */
   constructor(measures, native, robots) {
@@ -92,7 +85,7 @@ export class RunRecorder {
 /** One robot's part of it. */
 class Track {
   /**
-   * @param {import("./native_run.js").NativeRun} native
+   * @param {NativeRun} native
    * @param {number} robot
    */
   constructor(native, robot) {

@@ -12,11 +12,6 @@ import { RANDOM } from "../core/world_names.js";
 import { EDITS } from "../generated.js";
 import { worldOf } from "./worlds.js";
 
-/**
- * @typedef {import("../types.js").Change} Change
- * @typedef {import("../types.js").Experiment} Experiment
- */
-
 const BLOCK_TICKS = 256;
 
 /** Takes robots through their environments. */
@@ -24,7 +19,7 @@ export class Simulation {
   /**
    * @param {WebAssembly.Module} module - page.wasm, compiled.
    * @param {Experiment} experiment
-   * @param {import("./worlds.js").Worlds} worlds
+   * @param {Worlds} worlds
    * @param {boolean} [keepsLog] - Whether to record every frame.
    */
   constructor(module, experiment, worlds, keepsLog = false) {
@@ -43,7 +38,7 @@ export class Simulation {
     this.tours = [];
     /** @type {Uint8Array[] | undefined} */
     this.log = keepsLog ? [] : undefined;
-    /** @type {import("../types.js").EnvironmentScene} */
+    /** @type {EnvironmentScene} */
     this.scene = { number: 0, of: environments, seed, first_tick: 0, start_tick: 0, bars: [], food: [] };
     this.stopAll(); // as in the handshake of tools/run
     this.commands.startAll();
@@ -151,14 +146,14 @@ export class Simulation {
     else this.changeRobot(change);
   }
 
-  /** @param {import("../types.js").WorldEdit} edit */
+  /** @param {WorldEdit} edit */
   changeWorld(edit) {
     this.arena.edit(edit);
     this.recorder.edits.push({ ...edit, tick: this.tick });
     this.show();
   }
 
-  /** @param {import("../types.js").RobotChange} change */
+  /** @param {RobotChange} change */
   changeRobot(change) {
     const { robot } = change;
     const track = this.recorder.tracks[robot];
@@ -183,7 +178,7 @@ export class Simulation {
 /**
  * Whether it changes the world or the bodies in it; all else is said to a robot.
  * @param {Change} change
- * @returns {change is import("../types.js").WorldEdit}
+ * @returns {change is WorldEdit}
  */
 function isWorldEdit(change) {
   return Object.hasOwn(EDITS, change.do);

@@ -4,10 +4,7 @@
 import { bodySentence } from "../core/phrases.js";
 import { SENTENCES } from "../generated.js";
 
-/**
- * @typedef {import("../types.js").News} News
- * @typedef {import("../types.js").WorldEdit & {tick: number}} Edited
- */
+/** @typedef {WorldEdit & {tick: number}} Edited */
 
 /** @type {Record<string, string>} */
 const SAID = SENTENCES;

@@ -8,11 +8,6 @@ import { WrittenError, checkedWorld } from "./native_layouts.js";
 import { LineError, parseToml } from "./toml.js";
 
 /**
- * @typedef {import("../types.js").Experiment} Experiment
- * @typedef {import("./worlds.js").Worlds} Worlds
- */
-
-/**
  * @param {{module: WebAssembly.Module, worlds: Worlds}} parts - The module is page.wasm, compiled.
  * @param {{name: string, text: string}} file
  * @param {Experiment} base - Says what the file does not.
@@ -29,9 +24,9 @@ export function openWorld({ module, worlds }, { name, text }, base) {
 /**
  * The world in a file.
  * @param {WebAssembly.Module} module
- * @param {import("../types.js").SimParams} params - Of the random world.
+ * @param {SimParams} params - Of the random world.
  * @param {{name: string, text: string}} file
- * @returns {import("../types.js").WrittenWorld}
+ * @returns {WrittenWorld}
  */
 function writtenWorld(module, params, { name, text }) {
   /** @type {import("./toml.js").Toml["lines"]} */

@@ -2,9 +2,6 @@
 /* The worlds of runs: named ones and written ones. */
 
 /**
- * @typedef {import("../types.js").SimParams} SimParams
- * @typedef {import("../types.js").WrittenWorld} WrittenWorld
- *
  * The dimensions of each world with a name.
  * @typedef {Record<string, SimParams>} Worlds
  */

@@ -9,7 +9,6 @@ import { POINT, RobotFacts, inOrder } from "./facts.js";
 /**
  * One who talks: a script and, for its facts, the words of its language.
  * @typedef {{script: import("./eliza.js").Script, texts: import("./facts.js").Texts}} Speaker
- * @typedef {import("../types.js").Said} Said
  * @typedef {ConstructorParameters<typeof RobotFacts>[0]} About
  */
 
@@ -76,7 +75,7 @@ export class Conversations {
     const said = (await this.all)[who].answer(sentence, about);
     const { x, y } = data.robots[robot].columns;
     const here = said.ticks.filter((it) => it >= data.sceneAt(tick).first_tick).slice(-PLACES_MAX);
-    /** @type {import("../types.js").WirePlace[]} */
+    /** @type {WirePlace[]} */
     const places = here.map((it) => [x[it - data.first] / 10, y[it - data.first] / 10]);
     return /** @type {const} */ ([{ who, sentence, said, tick }, places]);
   }

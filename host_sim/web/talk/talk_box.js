@@ -6,9 +6,6 @@ import { setText } from "../core/elements.js";
 import { inEachLanguage, LANGUAGES, languageCode, say } from "../core/language.js";
 
 /**
- * @typedef {import("../types.js").WirePlace} WirePlace
- * @typedef {import("../types.js").Said} Said
- *
  * What was asked, and the answer; and of a page that has the whole run, the tick that was asked about, and how often
  * people had changed the run before.
  * @typedef {{who: string, sentence: string, said: Said, tick?: number, changes?: number}} Exchange
@@ -16,7 +13,7 @@ import { inEachLanguage, LANGUAGES, languageCode, say } from "../core/language.j
  * The page, as far as the box knows it: `ask` has a sentence answered, now or later, by `TalkBox.answer`; `seek` shows a
  * tick, where the page can; `lightUp` draws the scene anew, with what is meant.
  * @typedef {Object} Page
- * @property {import("../draw/scene.js").Scene | undefined} scene
+ * @property {Scene | undefined} scene
  * @property {(who: string, sentence: string) => void} ask
  * @property {(tick: number) => void} [seek]
  * @property {() => void} lightUp
@@ -110,7 +107,7 @@ export class TalkBox {
     this.mean(said.mark === "log" ? { ...said, places, first_tick } : undefined);
   }
 
-  /** @param {import("../draw/scene.js").Meant | undefined} meant */
+  /** @param {Meant | undefined} meant */
   mean(meant) {
     if (this.page.scene) this.page.scene.meant = meant;
     this.page.lightUp();
