@@ -17,16 +17,10 @@ import { ENGLISH, filled } from "./phrases.js";
 const FALLBACK = "en";
 const CHANGED = "octet-language";
 
-/**
- * The languages of the page, by code.
- * @type {Record<string, Texts>}
- */
+/** @type {Record<string, Texts>} - The languages of the page, by code. */
 const ALL = JSON.parse(byId("texts").textContent ?? "");
 
-/**
- * The codes and the names of all languages.
- * @type {[string, string][]}
- */
+/** @type {[string, string][]} - The codes and the names of all languages. */
 export const LANGUAGES = Object.entries(ALL).map(([code, { language }]) => [code, language]);
 
 let spoken = [kept("language"), ...navigator.languages.map((tag) => tag.split("-")[0])].find((code) => code in ALL) ?? FALLBACK;

@@ -1,10 +1,7 @@
 // @ts-check
 /* Unpacks the columns of numbers that host_sim/report/replay_page.py packed. */
 
-/**
- * Columns by their names, one number for each tick.
- * @typedef {Record<string, Int32Array>} Columns
- */
+/** @typedef {Record<string, Int32Array>} Columns - Columns by their names, one number for each tick. */
 
 /**
  * The bytes of a zlib stream in base64.

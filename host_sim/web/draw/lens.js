@@ -21,15 +21,9 @@ export class Lens {
     this.onChange = onChange;
     this.zoom = 1;
     this.follows = false;
-    /**
-     * The middle of what is in view, mm; undefined for that of the arena.
-     * @type {Place | undefined}
-     */
+    /** @type {Place | undefined} - The middle of what is in view, mm; undefined for that of the arena. */
     this.middle = undefined;
-    /**
-     * Where each finger is, by the number of its pointer.
-     * @type {Map<number, PointerEvent>}
-     */
+    /** @type {Map<number, PointerEvent>} - Where each finger is, by the number of its pointer. */
     this.fingers = new Map();
     byId("zoom-in").addEventListener("click", () => this.magnify(ZOOM_STEP));
     byId("zoom-out").addEventListener("click", () => this.magnify(1 / ZOOM_STEP));

@@ -20,10 +20,7 @@ import { trailsFor } from "./trail.js";
  * @typedef {{name: string, colour: string}} Tag
  */
 
-/**
- * Where a person holds a robot: mm and mrad.
- * @typedef {{x: number, y: number, heading: number}} Ghost
- */
+/** @typedef {{x: number, y: number, heading: number}} Ghost - Where a person holds a robot: mm and mrad. */
 
 /**
  * `states` and `trails` have one entry per robot, in the same order; `node` is the robot that the panel shows,

@@ -25,10 +25,7 @@ export class ArenaEditor {
     this.onChange = onChange;
     this.barPending = false;
     this.plantPending = false;
-    /**
-     * Robots that we asked to be lifted, and that are not yet.
-     * @type {Set<number>}
-     */
+    /** @type {Set<number>} - Robots that we asked to be lifted, and that are not yet. */
     this.lifting = new Set();
     byId("lift").addEventListener("click", () => this.liftOrPut());
     byId("add-bar").addEventListener("click", () => this.addBar());

@@ -1,10 +1,7 @@
 // @ts-check
 /* Places items at whole mm within the walls. */
 
-/**
- * The two ends of a bar.
- * @typedef {{a: Place, b: Place}} Ends
- */
+/** @typedef {{a: Place, b: Place}} Ends - The two ends of a bar. */
 
 const WALL_GAP_MM = 2;
 

@@ -45,18 +45,12 @@ export class ShownRun {
     this.data = undefined;
     /** @type {Scene | undefined} */
     this.scene = undefined;
-    /**
-     * Of each environment so far, the length of the shortest tour, mm.
-     * @type {number[]}
-     */
+    /** @type {number[]} - Of each environment so far, the length of the shortest tour, mm. */
     this.tours = [];
     /** How often it was asked to simulate, and whether the last time is over. */
     this.asked = 0;
     this.isRunning = false;
-    /**
-     * Settled when what was asked for last is simulated to its end.
-     * @type {Promise<void>}
-     */
+    /** @type {Promise<void>} - Settled when what was asked for last is simulated to its end. */
     this.done = Promise.resolve();
   }
 

@@ -17,15 +17,9 @@ export class Simulator {
     this.nextId = 0;
     /** @type {Map<number, OnAnswer>} */
     this.waiting = new Map();
-    /**
-     * What is to be run next, by who asks.
-     * @type {Map<object, [Experiment, OnAnswer]>}
-     */
+    /** @type {Map<object, [Experiment, OnAnswer]>} - What is to be run next, by who asks. */
     this.queued = new Map();
-    /**
-     * The run that is simulated now.
-     * @type {number | undefined}
-     */
+    /** @type {number | undefined} - The run that is simulated now. */
     this.running = undefined;
     /** The worker, when it has what it needs. */
     this.worker = this.begin(parts);

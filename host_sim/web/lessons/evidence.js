@@ -3,10 +3,7 @@
 
 import { PARAMETERS, REASON } from "../generated.js";
 
-/**
- * Ticks, both ends included.
- * @typedef {{first: number, last: number}} Stretch
- */
+/** @typedef {{first: number, last: number}} Stretch - Ticks, both ends included. */
 
 const AVOIDING = [REASON.REMEMBERED, REASON.TRIAL, REASON.BOREDOM];
 

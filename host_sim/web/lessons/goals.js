@@ -5,10 +5,7 @@ import { PARAMETERS, PATTERNS, SIDE } from "../generated.js";
 import { hasEatenAll, hasEnded, isProgrammed, longestStretch, settingAt, stretchesOf, ticksPerObstacle } from "./evidence.js";
 import { meetingsOf } from "./plant_meetings.js";
 
-/**
- * A run whose first environments are there to be looked at.
- * @typedef {{lane: ShownRun, data: RunData}} Shown
- */
+/** @typedef {{lane: ShownRun, data: RunData}} Shown - A run whose first environments are there to be looked at. */
 
 const FRONT_RIGHT = PATTERNS.indexOf("front-right");
 const FRONT_LEFT = PATTERNS.indexOf("front-left");

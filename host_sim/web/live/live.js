@@ -16,10 +16,7 @@ class LivePage {
   constructor() {
     /** @type {LiveView | undefined} */
     this.view = undefined;
-    /**
-     * The last message.
-     * @type {Message | undefined}
-     */
+    /** @type {Message | undefined} - The last message. */
     this.message = undefined;
     this.isNew = false;
     /** How old the state was when it was last drawn, for measurements. */

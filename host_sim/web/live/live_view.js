@@ -32,10 +32,7 @@ export class LiveView {
     this.controls = new Controls(send);
     this.picker = new RobotPicker(scene, (node) => this.editor.pick(node));
     this.lessonsView = new LessonsView();
-    /**
-     * The last lessons of each robot, by node.
-     * @type {Map<number, Lesson[]>}
-     */
+    /** @type {Map<number, Lesson[]>} - The last lessons of each robot, by node. */
     this.lessons = new Map();
     bindArenaKeys(this.renderer.canvas, this.editor);
   }

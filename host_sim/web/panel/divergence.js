@@ -11,10 +11,7 @@ const DRIVE = ["left", "right", "reason", "repeat_count", "action"];
 /** Fills the element parting. */
 export class DivergenceView {
   constructor() {
-    /**
-     * What the words are of.
-     * @type {unknown[]}
-     */
+    /** @type {unknown[]} - What the words are of. */
     this.compared = [];
   }
 

@@ -11,15 +11,9 @@ export class ProgramSteps {
     this.simulator = simulator;
     /** @type {ProgramState | undefined} */
     this.state = undefined;
-    /**
-     * The step that is shown; undefined for the last one.
-     * @type {number | undefined}
-     */
+    /** @type {number | undefined} - The step that is shown; undefined for the last one. */
     this.place = undefined;
-    /**
-     * Of what the state is: a run, its experiment and a tick.
-     * @type {unknown[]}
-     */
+    /** @type {unknown[]} - Of what the state is: a run, its experiment and a tick. */
     this.of = [];
     this.isAsking = false;
     this.stepsAt = -1;

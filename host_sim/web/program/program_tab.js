@@ -47,10 +47,7 @@ export class ProgramTab {
     this.parting = made("p", [], { id: "program-parting", role: "status" });
     this.variables = made("dl", [], { id: "program-variables" });
     this.choice = made("select", []);
-    /**
-     * The runs whose parting is shown.
-     * @type {unknown[]}
-     */
+    /** @type {unknown[]} - The runs whose parting is shown. */
     this.compared = [];
     /** What is told of a link, in the language of the page. */
     this.note = () => "";

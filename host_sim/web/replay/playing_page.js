@@ -19,10 +19,7 @@ export class PlayingPage {
     /** The same with a fraction, while it plays. */
     this.exactTick = first;
     this.playing = false;
-    /**
-     * When the last frame was drawn, ms.
-     * @type {number | undefined}
-     */
+    /** @type {number | undefined} - When the last frame was drawn, ms. */
     this.frameAt = undefined;
     /** Whether there is anything new to draw. */
     this.stale = true;

@@ -23,10 +23,7 @@ class Player extends PlayingPage {
   constructor(data) {
     super(data.first);
     this.data = data;
-    /**
-     * The tick that the memory is compared with.
-     * @type {number | undefined}
-     */
+    /** @type {number | undefined} - The tick that the memory is compared with. */
     this.pinned = undefined;
     this.renderer = new Renderer(typedById("arena", HTMLCanvasElement), this.lens);
     this.panel = new Panel();

@@ -1,10 +1,7 @@
 // @ts-check
 /* The worlds of runs: named ones and written ones. */
 
-/**
- * The dimensions of each world with a name.
- * @typedef {Record<string, SimParams>} Worlds
- */
+/** @typedef {Record<string, SimParams>} Worlds - The dimensions of each world with a name. */
 
 /**
  * What a run's world is drawn from.

@@ -33,10 +33,7 @@ export class TalkBox {
    */
   constructor(parent, page) {
     this.page = page;
-    /**
-     * The oldest first.
-     * @type {Exchange[]}
-     */
+    /** @type {Exchange[]} - The oldest first. */
     this.history = [];
     /** @type {Set<string>} - What speakers were taught to say. */
     this.taught = new Set();
