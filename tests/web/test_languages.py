@@ -30,8 +30,6 @@ SAID_IN_ENGLISH = {
     "host_sim/live/seats.py": r'(?:_THE_BOARDS =|_ONLY_WATCHING =|Error\() ?f?("[^"]+")',
 }
 """Where sentences come from that a page hears in English, and how they stand there."""
-INSIDE = re.compile("the worker has|no program")
-"""What is wrong with the page itself."""
 
 
 def code() -> str:
@@ -118,7 +116,7 @@ def said_in_english() -> set[str]:
         place = ROOT / where
         for path in sorted(place.rglob("*.js")) if place.is_dir() else [place]:
             said |= {numbered(it.strip('`"')) for it in re.findall(how, path.read_text())}
-    return {it for it in said if " " in it and not INSIDE.search(it)} | {*STILL_WORLDS, *PROFILES}
+    return {it for it in said if " " in it} | {*STILL_WORLDS, *PROFILES}
 
 
 def numbered(text: str) -> str:

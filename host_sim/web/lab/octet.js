@@ -54,7 +54,7 @@ class LabPage extends Laboratory {
    * @param {Begin} begin
    */
   async repeat({ recorded, tick, node }) {
-    this.begin(await this.simulator.repeat(recorded));
+    this.begin(await this.simulator.ask("repeat", { recorded }));
     await this.lane.done;
     this.go(tick);
     this.whatIf();

@@ -122,14 +122,15 @@ export class SidePanel {
     const on = (/** @type {string} */ id, /** @type {() => Promise<void>} */ action) =>
       byId(id).addEventListener("click", () => this.tell(action()));
     on("save-csv", async () => save("octet.csv", [csvOf(this.lab.lanes)]));
-    on("save-log", async () => save("run.log", await this.lab.simulator.log(this.lab.lane.experiment)));
+    on("save-log", async () => save("run.log", await this.lab.simulator.ask("log", { experiment: this.lab.lane.experiment })));
     on("save-world", async () => {
       const { experiment, data } = this.lab.lane;
       if (data) save("run.world.json", [worldText(experiment, data, this.lab.params.front_extra_mm)]);
     });
     on("save-memory", async () => {
       const { lane, simulator, tick } = this.lab;
-      save("robot.mem", [await simulator.memory(lane.experiment, lane.robot, Math.min(tick, lane.last))]);
+      const { experiment, robot, last } = lane;
+      save("robot.mem", [Uint8Array.from(await simulator.ask("memory", { experiment, robot, tick: Math.min(tick, last) }))]);
     });
     const input = typedById("open", HTMLInputElement);
     input.addEventListener("change", () => {
@@ -231,7 +232,8 @@ export class SidePanel {
     const { lane, simulator } = this.lab;
     const memory = await memoryIn(file);
     const robots = lane.experiment.robots.map((it, robot) => (robot === lane.robot ? { ...it, memory } : it));
-    await simulator.memory({ ...lane.experiment, robots }, lane.robot, 0); // it throws if they are not a memory
+    const experiment = { ...lane.experiment, robots };
+    await simulator.ask("memory", { experiment, robot: lane.robot, tick: 0 }); // it throws if they are not a memory
     lane.setUp({ memory });
     this.lab.simulate(lane);
     this.report(() => say("memoryBegins", { file: file.name }));
@@ -239,7 +241,7 @@ export class SidePanel {
 
   /** @param {File} file */
   async openWorld(file) {
-    this.begin(await this.lab.simulator.world({ name: file.name, text: await file.text() }, this.wanted));
+    this.begin(await this.lab.simulator.ask("world", { file: { name: file.name, text: await file.text() }, base: this.wanted }));
     this.report(() => say("worldBegins", { file: file.name }));
   }
 
@@ -249,10 +251,10 @@ export class SidePanel {
    */
   async openLog(log, world) {
     this.report(() => say("reading", { file: log.name }));
-    const opened = await this.lab.simulator.open(await log.text(), world ? await world.text() : "");
-    if (!opened) return;
-    this.begin(opened.experiment);
-    this.report(() => heard(opened.news));
+    const files = { text: await log.text(), world: world ? await world.text() : "" };
+    const { experiment, news } = await this.lab.simulator.ask("open", files);
+    this.begin(experiment);
+    this.report(() => heard(news));
   }
 
   show() {

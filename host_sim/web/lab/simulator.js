@@ -5,7 +5,7 @@ import { inflate } from "../core/packed_columns.js";
 
 /**
  * @typedef {import("../sim/page_worker.js").Answer} Answer
- * @typedef {import("../sim/page_worker.js").Request} Request
+ * @typedef {import("../sim/page_worker.js").Answers} Answers
  *
  * @typedef {(answer: Answer) => void} OnAnswer
  */
@@ -14,7 +14,7 @@ import { inflate } from "../core/packed_columns.js";
 export class Simulator {
   /** @param {import("./laboratory.js").Parts} parts */
   constructor(parts) {
-    this.nextId = 0;
+    this.lastId = 0;
     /** @type {Map<number, OnAnswer>} */
     this.waiting = new Map();
     /** @type {Map<object, [Experiment, OnAnswer]>} - What is to be run next, by who asks. */
@@ -46,84 +46,29 @@ export class Simulator {
   }
 
   /**
-   * The whole log of an experiment.
-   * @param {Experiment} experiment
-   * @returns {Promise<Uint8Array[]>}
+   * Asks for something else than a run.
+   * @template {keyof Answers} K
+   * @param {K} what
+   * @param {Parameters<Answers[K]>[0]} asked
+   * @returns {Promise<ReturnType<Answers[K]>>}
    */
-  async log(experiment) {
-    const { log } = await this.ask({ do: "log", id: this.newId(), experiment });
-    return log ?? [];
-  }
-
-  /**
-   * A robot's eight bytes at a tick, with whatever its behaviour keeps in them.
-   * @param {Experiment} experiment
-   * @param {number} robot
-   * @param {number} tick
-   */
-  async memory(experiment, robot, tick) {
-    const { memory } = await this.ask({ do: "memory", id: this.newId(), experiment: upTo(experiment, tick), robot });
-    return Uint8Array.from(memory ?? []);
-  }
-
-  /**
-   * What a robot's program is doing at a tick.
-   * @param {Experiment} experiment
-   * @param {number} robot
-   * @param {number} tick
-   */
-  async program(experiment, robot, tick) {
-    const { program } = await this.ask({ do: "program", id: this.newId(), experiment: upTo(experiment, tick), robot });
-    if (!program) throw new Error("the worker has no program");
-    return program;
-  }
-
-  /**
-   * The experiment that a world file is of.
-   * @param {{name: string, text: string}} file
-   * @param {Experiment} base - Says what the file does not.
-   */
-  async world(file, base) {
-    const { experiment } = await this.ask({ do: "world", id: this.newId(), file, base });
-    return experiment ?? base;
-  }
-
-  /**
-   * The experiment that a recorded log is of.
-   * @param {string} text
-   * @param {string} world - The text of its world file; empty if there is none.
-   */
-  async open(text, world) {
-    const { opened } = await this.ask({ do: "open", id: this.newId(), text, world });
-    return opened;
-  }
-
-  /**
-   * The experiment that a recorded run is of.
-   * @param {RecordedRun} recorded
-   */
-  async repeat(recorded) {
-    const { experiment } = await this.ask({ do: "repeat", id: this.newId(), recorded });
-    if (!experiment) throw new Error("the worker has no experiment");
-    return experiment;
-  }
-
-  /** @param {Exclude<Request, {do: "begin"}>} request */
-  ask(request) {
-    return new Promise((/** @type {OnAnswer} */ resolve, reject) => {
-      this.waiting.set(request.id, (answer) => (answer.error ? reject(new Error(answer.error)) : resolve(answer)));
-      this.post(request);
+  ask(what, asked) {
+    return new Promise((resolve, reject) => {
+      this.post(what, asked, ({ answer, error }) => (error ? reject(new Error(error)) : resolve(answer)));
     });
   }
 
-  /** @param {Request} request */
-  post(request) {
-    this.worker.then((worker) => worker.postMessage(request));
-  }
-
-  newId() {
-    this.nextId += 1;
-    return this.nextId;
+  /**
+   * @param {"run" | keyof Answers} what
+   * @param {object} asked
+   * @param {OnAnswer} onAnswer
+   */
+  post(what, asked, onAnswer) {
+    this.lastId += 1;
+    const id = this.lastId;
+    this.waiting.set(id, onAnswer);
+    this.worker.then((worker) => worker.postMessage({ do: what, id, asked }));
+    return id;
   }
 
   next() {
@@ -131,10 +76,7 @@ export class Simulator {
     const asked = who && this.queued.get(who);
     if (this.running !== undefined || !asked) return;
     this.queued.delete(who);
-    const id = this.newId();
-    this.running = id;
-    this.waiting.set(id, asked[1]);
-    this.post({ do: "run", id, experiment: asked[0] });
+    this.running = this.post("run", ...asked);
   }
 
   /** @param {Answer} answer */
@@ -145,14 +87,4 @@ export class Simulator {
     if (answer.id === this.running) this.running = undefined;
     this.next();
   }
-}
-
-/**
- * An experiment that ends after a tick.
- * @param {Experiment} experiment
- * @param {number} tick
- * @returns {Experiment}
- */
-function upTo(experiment, tick) {
-  return { ...experiment, changes: experiment.changes.filter((change) => change.tick <= tick), ticks_max: tick + 1 };
 }

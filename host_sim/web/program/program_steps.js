@@ -26,10 +26,11 @@ export class ProgramSteps {
    * @param {() => void} onChange
    */
   look(lane, tick, onChange) {
-    const of = [lane.data, lane.experiment, Math.min(tick, lane.last)];
+    const asked = { experiment: lane.experiment, robot: 0, tick: Math.min(tick, lane.last) };
+    const of = [lane.data, asked.experiment, asked.tick];
     if (this.isAsking || !lane.data || of.every((it, i) => it === this.of[i])) return;
     this.isAsking = true;
-    this.simulator.program(lane.experiment, 0, Math.min(tick, lane.last)).then((state) => {
+    this.simulator.ask("program", asked).then((state) => {
       this.state = state;
       this.place = tick === this.stepsAt ? 0 : undefined;
     }, () => {

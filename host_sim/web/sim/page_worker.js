@@ -9,86 +9,84 @@ import { openWorld } from "./world_opening.js";
 /**
  * @typedef {ReturnType<Simulation["result"]>} Recorded
  *
- * What the worker is asked for. `begin` comes first and once.
- * @typedef {{do: "begin", wasm: ArrayBuffer, worlds: Worlds}
- *   | {do: "run", id: number, experiment: Experiment}
- *   | {do: "log", id: number, experiment: Experiment}
- *   | {do: "memory", id: number, experiment: Experiment, robot: number}
- *   | {do: "program", id: number, experiment: Experiment, robot: number}
- *   | {do: "world", id: number, file: {name: string, text: string}, base: Experiment}
- *   | {do: "open", id: number, text: string, world: string}
- *   | {do: "repeat", id: number, recorded: RecordedRun}} Request
+ * What else the worker is asked for, and answers: the whole log of an experiment; a robot's eight bytes after a tick, with
+ * whatever its behaviour keeps in them; what its program is doing then; and the experiment that a world file is of, where
+ * `base` says what the file does not, or a log with its world file, of which the text may be empty, or a recorded run.
+ * @typedef {Object} Answers
+ * @property {(asked: {experiment: Experiment}) => Uint8Array[]} log
+ * @property {(asked: {experiment: Experiment, robot: number, tick: number}) => number[]} memory
+ * @property {(asked: {experiment: Experiment, robot: number, tick: number}) => ProgramState} program
+ * @property {(asked: {file: {name: string, text: string}, base: Experiment}) => Experiment} world
+ * @property {(asked: {text: string, world: string}) => import("./log_opening.js").Opened} open
+ * @property {(asked: {recorded: RecordedRun}) => Experiment} repeat
  *
- * What it answers: a run, after its first environment and at its end, with the changes that were refused; the whole log; the
- * eight bytes of a robot at the end, or what its program is doing then; or the experiment that a world file, a log, or a recorded run, is of.
- * @typedef {{id: number, run?: Recorded, refusals?: [number, string][], done: boolean, log?: Uint8Array[],
- *   memory?: number[], program?: ProgramState, opened?: import("./log_opening.js").Opened, experiment?: Experiment, error?: string}} Answer
+ * What it sends: an answer; or of an experiment that it is to run the run after its first environment, and `done` at its
+ * end, with the changes that were refused, by their places, and why.
+ * @typedef {{id: number, done: boolean, run?: Recorded, refusals?: [number, string][], answer?: any, error?: string}} Answer
  */
 
-/** @type {{module: WebAssembly.Module, worlds: Worlds} | undefined} */
+/** @type {{module: WebAssembly.Module, worlds: Worlds}} - From the first message. */
 let parts;
 
-/**
- * @param {Answer} answer
- */
-function say(answer) {
-  postMessage(answer);
+/** @type {Answers} */
+const ANSWERS = {
+  log: ({ experiment }) => finished(experiment).log ?? [],
+  memory: ({ experiment, robot, tick }) => finishedAt(experiment, tick).memory(robot),
+  program: ({ experiment, robot, tick }) =>
+    programState(finishedAt(experiment, tick), robot, experiment.robots[robot].program ?? ""),
+  world: ({ file, base }) => openWorld(parts, file, base),
+  open: ({ text, world }) => openLog(parts.module, parts.worlds, text, world),
+  repeat: ({ recorded }) => recordedExperiment(parts.module, parts.worlds, recorded),
+};
+
+/** @param {Experiment} experiment */
+function finished(experiment) {
+  const simulation = new Simulation(parts.module, experiment, parts.worlds, true);
+  simulation.finish();
+  return simulation;
 }
 
-/** @param {Exclude<Request, {do: "begin"}>} request */
-function answer(request) {
-  if (!parts) throw new Error("the worker has not begun");
-  const { id } = request;
-  if (request.do === "open") say({ id, done: true, opened: openLog(parts.module, parts.worlds, request.text, request.world) });
-  else if (request.do === "repeat") say({ id, done: true, experiment: recordedExperiment(parts.module, parts.worlds, request.recorded) });
-  else if (request.do === "log") say({ id, done: true, log: finished(request.experiment, parts).log });
-  else if (request.do === "world") say({ id, done: true, experiment: openWorld(parts, request.file, request.base) });
-  else if (request.do === "memory") say({ id, done: true, memory: finished(request.experiment, parts).native.memory(request.robot) });
-  else if (request.do === "program") say({ id, done: true, program: program(request.experiment, request.robot, parts) });
-  else run(id, request.experiment, parts);
+/**
+ * What is there after a tick.
+ * @param {Experiment} experiment
+ * @param {number} tick
+ */
+function finishedAt(experiment, tick) {
+  const changes = experiment.changes.filter((change) => change.tick <= tick);
+  return finished({ ...experiment, changes, ticks_max: tick + 1 }).native;
+}
+
+/** @param {Answer} answer */
+function say(answer) {
+  postMessage(answer);
 }
 
 /**
  * @param {number} id
  * @param {Experiment} experiment
- * @param {NonNullable<typeof parts>} made
  */
-function run(id, experiment, { module, worlds }) {
-  const simulation = new Simulation(module, experiment, worlds);
+function run(id, experiment) {
+  const simulation = new Simulation(parts.module, experiment, parts.worlds);
   for (const number of simulation.run()) {
-    if (number === 1) say({ id, done: false, run: simulation.result(), refusals: [] });
+    if (number === 1) say({ id, done: false, run: simulation.result() });
   }
   say({ id, done: true, run: simulation.result(), refusals: [...simulation.changes.refusals] });
 }
 
-/**
- * @param {Experiment} experiment
- * @param {number} robot
- * @param {NonNullable<typeof parts>} made
- */
-function program(experiment, robot, made) {
-  return programState(finished(experiment, made).native, robot, experiment.robots[robot].program ?? "");
-}
-
-/**
- * @param {Experiment} experiment
- * @param {NonNullable<typeof parts>} made
- */
-function finished(experiment, { module, worlds }) {
-  const simulation = new Simulation(module, experiment, worlds, true);
-  simulation.finish();
-  return simulation;
+/** @param {{do: "run" | keyof Answers, id: number, asked: any}} request */
+function answer({ do: what, id, asked }) {
+  if (what === "run") run(id, asked);
+  else say({ id, done: true, answer: ANSWERS[what](asked) });
 }
 
 addEventListener("message", ({ data }) => {
-  const request = /** @type {Request} */ (data);
-  if (request.do === "begin") {
-    parts = { module: new WebAssembly.Module(request.wasm), worlds: request.worlds };
+  if (data.do === "begin") {
+    parts = { module: new WebAssembly.Module(data.wasm), worlds: data.worlds };
     return;
   }
   try {
-    answer(request);
+    answer(data);
   } catch (error) {
-    say({ id: request.id, done: true, error: error instanceof Error ? error.message : `${error}` });
+    say({ id: data.id, done: true, error: error instanceof Error ? error.message : `${error}` });
   }
 });

@@ -37,7 +37,7 @@ def test_a_file_that_is_no_log_is_told(page, tmp_path):
 
 
 def test_what_cannot_be_saved_is_told(page):
-    page.evaluate("void (octet.simulator.log = () => Promise.reject(new Error('no memory left')))")
+    page.evaluate("void (octet.simulator.ask = () => Promise.reject(new Error('no memory left')))")
     page.click("#tab-files")
 
     page.click("#save-log")

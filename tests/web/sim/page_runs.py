@@ -24,7 +24,7 @@ return experiments.map((experiment) => {
 LOGS = """async (experiments) => {
   const logs = [];
   for (const experiment of experiments) {
-    const parts = await octet.simulator.log(experiment);
+    const parts = await octet.simulator.ask("log", { experiment });
     logs.push(await new Blob(parts).text());
   }
   return logs;
