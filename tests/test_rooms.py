@@ -19,7 +19,6 @@ FILES_MAX, LINES_MIN, LINE_MAX = 30, 40, 118
 STAND_ALONE = {
     "host_sim/web/sim/due_changes.js": "the schedule of changes, apart from what they do",
     "host_sim/web/sim/world_news.js": "the sentences of changes, apart from the rows of a run",
-    "host_sim/web/sim/worlds.js": "a type that six modules share",
     "host_sim/world/obstacles.py": "a view of one struct, as body.py is",
 }
 PYTHON = re.compile(r"^\s*(?:from ([\w.]+) import ([\w, ]+|\()|import ([\w.]+))", re.MULTILINE)

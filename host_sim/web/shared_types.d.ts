@@ -37,5 +37,5 @@ type Simulator = import("./lab/simulator.js").Simulator;
 type RecordedRun = import("./sim/log_opening.js").RecordedRun;
 type ProgramState = import("./sim/native_program.js").ProgramState;
 type NativeRun = import("./sim/native_run.js").NativeRun;
-type Worlds = import("./sim/worlds.js").Worlds;
+type Worlds = import("./sim/simulation.js").Worlds;
 type TalkBox = import("./talk/talk_box.js").TalkBox;

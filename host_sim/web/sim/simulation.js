@@ -10,7 +10,8 @@ import { RobotCommands } from "./robot_commands.js";
 import { RunRecorder } from "./run_recorder.js";
 import { RANDOM } from "../core/world_names.js";
 import { EDITS } from "../generated.js";
-import { worldOf } from "./worlds.js";
+
+/** @typedef {Record<string, SimParams>} Worlds - The dimensions of each world with a name. */
 
 const BLOCK_TICKS = 256;
 
@@ -173,6 +174,18 @@ export class Simulation {
     const lines = this.native.takeLog();
     if (lines.length) this.log?.push(lines);
   }
+}
+
+/**
+ * What the environments of a world are drawn from.
+ * @param {string | WrittenWorld} world
+ * @param {Worlds} worlds
+ * @returns {{params: SimParams, written?: WrittenWorld}}
+ */
+export function worldOf(world, worlds) {
+  if (typeof world === "string") return { params: worlds[world] };
+  const [width_mm, height_mm] = world.size ?? [worlds.random.width_mm, worlds.random.height_mm];
+  return { params: { ...worlds.random, width_mm, height_mm }, written: world };
 }
 
 /**

@@ -21,7 +21,7 @@ from tests.world.golden_layouts import WANTED as WANTED_LAYOUTS
 
 LAYOUTS = """
 const [{ worlds, layouts }] = texts.map((text) => JSON.parse(text));
-const { "sim/native_layouts.js": { drawFrom, drawLayout }, "sim/worlds.js": { worldOf } } = modules;
+const { "sim/native_layouts.js": { drawFrom, drawLayout }, "sim/simulation.js": { worldOf } } = modules;
 const { NativeRun } = modules["sim/native_run.js"];
 const native = new NativeRun(page, 4);
 return layouts.map(({ world, ...which }) => {
@@ -44,7 +44,7 @@ def test_the_layouts_of_a_world_stay_the_same_for_ever(tmp_path, name):
 
 TOURS = """
 const [{ worlds, seeds }] = texts.map((text) => JSON.parse(text));
-const { "sim/native_layouts.js": { drawFrom, drawLayout }, "sim/worlds.js": { worldOf } } = modules;
+const { "sim/native_layouts.js": { drawFrom, drawLayout }, "sim/simulation.js": { worldOf } } = modules;
 const { NativeRun } = modules["sim/native_run.js"];
 const native = new NativeRun(page, 1);
 drawFrom(native, worldOf("crowded", worlds).params);
