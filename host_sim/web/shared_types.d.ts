@@ -32,6 +32,7 @@ type Meant = import("./draw/scene.js").Meant;
 type Scene = import("./draw/scene.js").Scene;
 type Trail = import("./draw/trail.js").Trail;
 type ArenaEditor = import("./edit/arena_editor.js").ArenaEditor;
+type Laboratory = import("./lab/laboratory.js").Laboratory;
 type ShownRun = import("./lab/shown_run.js").ShownRun;
 type Simulator = import("./lab/simulator.js").Simulator;
 type RecordedRun = import("./sim/log_opening.js").RecordedRun;

@@ -8,8 +8,6 @@ import { byId, typedById } from "../core/elements.js";
 import { isInside, plantOf, wirePlace } from "../edit/placement.js";
 import { EDITS, PLANT_GROWTH_MM, PLANT_RADIUS_MM } from "../generated.js";
 
-/** @typedef {{lane: ShownRun, stale: boolean, change: (change: Change) => void}} Lab */
-
 /** Beyond the reach of the robot's sensors. */
 const PLANT_GAP_MM = 20;
 /** Ahead, right, left, behind. */
@@ -18,7 +16,7 @@ const BEARINGS = [0, 0.5, -0.5, 1].map((half) => half * Math.PI);
 /** An editor whose commands are changes of the selected run. */
 export class LabEditor extends ArenaEditor {
   /**
-   * @param {Lab} lab
+   * @param {Laboratory} lab
    * @param {Scene} scene
    */
   constructor(lab, scene) {

@@ -16,23 +16,7 @@ import { LessonsView } from "../panel/lessons_view.js";
 import { ListingView } from "../panel/listing_view.js";
 import { RANDOM, nameOf } from "../core/world_names.js";
 
-/**
- * @typedef {NonNullable<Experiment["world"]>} World
- *
- * The page, as far as the desk knows it.
- * @typedef {Object} Lab
- * @property {ShownRun} lane
- * @property {ShownRun[]} lanes
- * @property {number} tick
- * @property {Worlds} worlds
- * @property {SimParams} params
- * @property {Simulator} simulator
- * @property {() => void} lightUp
- * @property {(change: Change) => void} change
- * @property {(lane: ShownRun) => void} simulate
- * @property {(lane: ShownRun) => void} removeLane
- * @property {(experiment: Experiment) => void} begin
- */
+/** @typedef {NonNullable<Experiment["world"]>} World */
 
 /** The changes of a body that the page offers, as for `tools/run --change`; docs/worlds.md explains each. */
 const FAULTS = [
@@ -45,7 +29,7 @@ const TABS = ["run", "parameters", "listing", "program", "curves", "files", "tal
 
 /** Shows and changes the selected run. */
 export class SidePanel {
-  /** @param {Lab} lab */
+  /** @param {Laboratory} lab */
   constructor(lab) {
     this.lab = lab;
     this.tab = TABS[0];

@@ -9,19 +9,9 @@ import { PLANS } from "./plans.js";
 import { Worksheet } from "./worksheet.js";
 
 /**
- * The page, as far as the course knows it.
- * @typedef {Object} Lab
- * @property {ShownRun} lane
- * @property {ShownRun[]} lanes
- * @property {number} tick
- * @property {(change: Change) => void} change
- * @property {(lane: ShownRun) => void} simulate
- * @property {(experiment: Experiment) => void} begin
- * @property {(experiment: Experiment) => ShownRun} addLane
- * @property {(lane: ShownRun) => void} select
- * @property {TalkBox} talk
- * @property {(who: string, word: string, answer: string) => void} teach
- * @property {() => void} restartTalk
+ * The page, with its conversations.
+ * @typedef {Laboratory & {
+ *   talk: TalkBox, teach: (who: string, word: string, answer: string) => void, restartTalk: () => void}} Lab
  */
 
 /** Shows lessons in the element panel-lessons. The part of the address behind # may name the one to open. */

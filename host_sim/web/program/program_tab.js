@@ -13,31 +13,12 @@ import { Editor } from "./editor.js";
 import { linkOf, linkedIn, tellFound } from "./link.js";
 import { ProgramSteps } from "./program_steps.js";
 
-/**
- * The page, as far as the tab knows it.
- * @typedef {Object} Lab
- * @property {ShownRun} lane
- * @property {ShownRun[]} lanes
- * @property {boolean} isFull
- * @property {number} tick
- * @property {boolean} playing
- * @property {Record<string, string>} programs
- * @property {Worlds} worlds
- * @property {Simulator} simulator
- * @property {(lane: ShownRun) => void} simulate
- * @property {(experiment: Experiment) => void} begin
- * @property {(experiment: Experiment) => ShownRun} addLane
- * @property {(lane: ShownRun) => void} select
- * @property {(tick: number) => void} go
- * @property {(playing: boolean) => void} setPlaying
- */
-
 const FIRST = "article";
 const WHEELS = ["left", "right"];
 
 /** Fills the element panel-program. The part of the address behind # may have an experiment. */
 export class ProgramTab {
-  /** @param {Lab} lab */
+  /** @param {Laboratory} lab */
   constructor(lab) {
     this.lab = lab;
     this.steps = new ProgramSteps(lab.simulator);
