@@ -124,16 +124,6 @@ class LabPage extends Laboratory {
     this.talk.forget();
   }
 
-  /** @param {number} tick */
-  seek(tick) {
-    this.setPlaying(false);
-    this.go(tick);
-  }
-
-  lightUp() {
-    this.stale = true;
-  }
-
   /** @param {number} node */
   pick(node) {
     if (this.scene) this.scene.node = node;
@@ -155,12 +145,8 @@ class LabPage extends Laboratory {
     if (!data) return;
     const kind = typedById("kind", HTMLSelectElement).value;
     const tick = nextTick(data.robots[robot], kind, this.tick, step);
-    if (tick === undefined) {
-      this.note.show(say(step > 0 ? "noLater" : "noEarlier", { kind: nameIn("kinds", kind) }));
-      return;
-    }
-    this.setPlaying(false);
-    this.go(tick);
+    if (tick === undefined) this.note.show(say(step > 0 ? "noLater" : "noEarlier", { kind: nameIn("kinds", kind) }));
+    else this.seek(tick);
   }
 
   /** @override */

@@ -91,6 +91,17 @@ export class PlayingPage {
     this.stale = true;
   }
 
+  /** @param {number} tick - To stay at. */
+  seek(tick) {
+    this.setPlaying(false);
+    this.go(tick);
+  }
+
+  /** Something else is to be drawn at the same tick. */
+  lightUp() {
+    this.stale = true;
+  }
+
   /** @param {boolean} playing */
   setPlaying(playing) {
     if (playing && this.tick >= this.last) this.go(this.first);

@@ -83,9 +83,7 @@ class Player extends PlayingPage {
     const tick = this.robot.eventFrom(kind, this.tick, step);
     const none = say(step > 0 ? "noLater" : "noEarlier", { kind: nameIn("kinds", kind) });
     setText(byId("status"), tick === undefined ? none : heard(this.data.run.title));
-    if (tick === undefined) return;
-    this.setPlaying(false);
-    this.go(tick);
+    if (tick !== undefined) this.seek(tick);
   }
 
   /** Begins to compare the present memory with that of other times; called again, ends it. */
@@ -129,16 +127,6 @@ class Player extends PlayingPage {
   async ask(who, sentence) {
     const about = { data: this.data, robot: this.scene.index, tick: this.tick, told: { starts: [], health: [] } };
     this.talk.answer(...(await this.conversations.ask(who, sentence, about)));
-  }
-
-  /** @param {number} tick */
-  seek(tick) {
-    this.setPlaying(false);
-    this.go(tick);
-  }
-
-  lightUp() {
-    this.stale = true;
   }
 
   /** @param {MouseEvent} event */
