@@ -1,7 +1,8 @@
 // @ts-check
 /* The curves of the runs over time, and the table of their results. */
 
-import { byId, setText, typedById } from "../core/elements.js";
+import { made } from "../core/building.js";
+import { byId, typedById } from "../core/elements.js";
 import { heard, inEachLanguage, nameIn, say, robotWords } from "../core/language.js";
 import { paletteOf } from "../core/palette.js";
 import { drawChart, strokeOf } from "../draw/chart.js";
@@ -22,7 +23,7 @@ export class Curves {
     this.key = "";
     inEachLanguage(() => {
       this.key = "";
-      byId("result-names").replaceChildren(...NAMES.map((name) => cellFor("th", nameIn("columns", name))));
+      byId("result-names").replaceChildren(...NAMES.map((name) => made("th", [nameIn("columns", name)])));
     });
   }
 
@@ -36,7 +37,7 @@ export class Curves {
     const key = JSON.stringify(rows);
     if (key === this.key) return;
     this.key = key;
-    byId("results").replaceChildren(...rows.map((row) => rowFor(row.map(said))));
+    byId("results").replaceChildren(...rows.map((row) => made("tr", row.map((value) => made("td", [said(value)])))));
   }
 
   /**
@@ -93,21 +94,4 @@ export function csvOf(lanes) {
 function said(value) {
   if (typeof value === "number") return `${value}`.replace(".", robotWords().point);
   return value === "yes" || value === "no" ? say(value) : heard(value);
-}
-
-/** @param {string[]} row */
-function rowFor(row) {
-  const element = document.createElement("tr");
-  element.append(...row.map((value) => cellFor("td", value)));
-  return element;
-}
-
-/**
- * @param {"td" | "th"} kind
- * @param {string} text
- */
-function cellFor(kind, text) {
-  const cell = document.createElement(kind);
-  setText(cell, text);
-  return cell;
 }

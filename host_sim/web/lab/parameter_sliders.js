@@ -1,6 +1,7 @@
 // @ts-check
 /* A slider for each parameter of the robot. */
 
+import { buttonOf, made } from "../core/building.js";
 import { byId } from "../core/elements.js";
 import { heard, inEachLanguage, say } from "../core/language.js";
 import { PARAMETERS } from "../generated.js";
@@ -46,19 +47,15 @@ export class ParameterSliders {
   makeSlider(parent, name) {
     const { min, max, default: usual } = PARAMETERS[name];
     const meaning = heard(PARAMETERS[name].meaning);
-    const row = parent.appendChild(document.createElement("div"));
-    row.className = "slider";
-    const label = row.appendChild(document.createElement("label"));
-    label.append(meaning.replace(/\.$/, ""), " ");
-    const output = label.appendChild(document.createElement("output"));
-    const input = label.appendChild(document.createElement("input"));
-    Object.assign(input, { type: "range", min: `${min}`, max: `${max}`, step: "1", title: name });
-    const reset = row.appendChild(document.createElement("button"));
-    Object.assign(reset, { type: "button", textContent: "↺", title: `${usual}` });
+    const output = made("output", []);
+    const input = made("input", [], { type: "range", min: `${min}`, max: `${max}`, step: "1", title: name });
+    const reset = buttonOf("↺", () => this.onChange(name, usual));
+    reset.title = `${usual}`;
     reset.setAttribute("aria-label", say("backTo", { meaning, value: usual }));
+    const label = made("label", [meaning.replace(/\.$/, ""), " ", output, input]);
+    parent.append(made("div", [label, reset], { class: "slider" }));
     input.addEventListener("input", () => (output.textContent = `${input.value} ${heard(PARAMETERS[name].unit)}`));
     input.addEventListener("change", () => this.onChange(name, Number(input.value)));
-    reset.addEventListener("click", () => this.onChange(name, usual));
     return { input, output, reset };
   }
 }

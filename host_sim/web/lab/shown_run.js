@@ -1,6 +1,7 @@
 // @ts-check
 /* One of the runs shown side by side: its experiment, its results, and its arena. */
 
+import { made } from "../core/building.js";
 import { heard, say } from "../core/language.js";
 import { setText } from "../core/elements.js";
 import { OPCODE, PARAMETERS, PROFILES } from "../generated.js";
@@ -14,7 +15,7 @@ import { settingsOf } from "../sim/arena.js";
 const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 let lanes = 0;
 /** @type {WeakMap<Change, number>} - When each change was made: a later one has a higher number. */
-const made = new WeakMap();
+const madeAt = new WeakMap();
 let changesMade = 0;
 
 /** The next lane is A again. */
@@ -33,13 +34,10 @@ export class ShownRun {
     this.experiment = experiment;
     this.name = LETTERS[lanes % LETTERS.length];
     lanes += 1;
-    this.figure = parent.appendChild(document.createElement("figure"));
-    this.figure.className = "lane";
-    this.canvas = this.figure.appendChild(document.createElement("canvas"));
-    this.caption = this.figure.appendChild(document.createElement("figcaption"));
-    this.canvas.tabIndex = 0;
-    this.canvas.setAttribute("role", "application");
-    this.canvas.setAttribute("aria-describedby", "help");
+    this.canvas = made("canvas", [], { tabindex: "0", role: "application", "aria-describedby": "help" });
+    this.caption = made("figcaption", []);
+    this.figure = made("figure", [this.canvas, this.caption], { class: "lane" });
+    parent.append(this.figure);
     this.renderer = new Renderer(this.canvas, lens);
     /** @type {RunData | undefined} */
     this.data = undefined;
@@ -149,7 +147,7 @@ export class ShownRun {
   change(change) {
     const { changes } = this.experiment;
     const key = draggedKey(change);
-    made.set(change, (changesMade += 1));
+    madeAt.set(change, (changesMade += 1));
     const kept = changes.filter((it) => !key || draggedKey(it) !== key);
     const at = kept.findIndex(({ tick }) => tick > change.tick);
     const place = at < 0 ? kept.length : at;
@@ -164,7 +162,7 @@ export class ShownRun {
 
   /** Undoes the change that was made last; those of a file in the order of their ticks. False if there is none. */
   undo() {
-    const orderOf = (/** @type {Change} */ change) => made.get(change) ?? 0;
+    const orderOf = (/** @type {Change} */ change) => madeAt.get(change) ?? 0;
     const last = [...this.experiment.changes].sort((a, b) => orderOf(a) - orderOf(b)).at(-1);
     this.takeBack(last ? [last] : []);
     return last !== undefined;

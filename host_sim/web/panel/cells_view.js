@@ -1,6 +1,7 @@
 // @ts-check
 /* The eight cells: for each pattern its picture, what was learned, when, and how often it was used. */
 
+import { buttonOf, made } from "../core/building.js";
 import { CELL_COUNT, REASON, SIDE, SIDES } from "../generated.js";
 import { inEachLanguage, robotWords, say } from "../core/language.js";
 import { binary } from "../core/phrases.js";
@@ -125,11 +126,12 @@ function historyOf({ cell, side, when, byHand, uses }) {
  * @returns {Parts}
  */
 function makeCell(list, cell, onPress) {
-  const item = list.appendChild(document.createElement("li"));
-  const button = item.appendChild(onPress ? makeButton(cell, onPress) : makeImage());
+  const parts = ["name", "side", "history", "then"].map((part) => made("span", [], { class: `cell-${part}` }));
+  const [name, side, history, then] = parts;
+  const button = onPress ? makeButton(cell, onPress) : made("div", [], { role: "img" });
   button.classList.add("cell");
-  button.appendChild(pictureOf(cell));
-  const [name, side, history, then] = ["name", "side", "history", "then"].map((part) => addSpan(button, part));
+  button.append(pictureOf(cell), ...parts);
+  list.append(made("li", [button]));
   return { button, name, side, history, then };
 }
 
@@ -138,32 +140,14 @@ function makeCell(list, cell, onPress) {
  * @param {OnPress} onPress
  */
 function makeButton(cell, onPress) {
-  const button = document.createElement("button");
-  button.type = "button";
-  button.disabled = cell === 0;
-  button.addEventListener("click", () => {
+  const button = buttonOf("", () => {
     // A second press before the first one is shown continues from the side that the first one asked for.
     const next = (SIDES.indexOf(button.dataset.wanted ?? button.dataset.side ?? "") + 1) % SIDES.length;
     button.dataset.wanted = SIDES[next];
     onPress(cell, next);
   });
+  button.disabled = cell === 0;
   return button;
-}
-
-function makeImage() {
-  const image = document.createElement("div");
-  image.setAttribute("role", "img");
-  return image;
-}
-
-/**
- * @param {HTMLElement} parent
- * @param {string} name
- */
-function addSpan(parent, name) {
-  const span = parent.appendChild(document.createElement("span"));
-  span.className = `cell-${name}`;
-  return span;
 }
 
 /**

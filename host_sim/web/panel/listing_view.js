@@ -2,6 +2,7 @@
 /* The article's listing, with the line highlighted that the robot executes. */
 
 import { pictureOf } from "./cells_view.js";
+import { made } from "../core/building.js";
 import { byId, setText } from "../core/elements.js";
 import { inEachLanguage, robotWords, say } from "../core/language.js";
 import { REASON, SIDE } from "../generated.js";
@@ -52,8 +53,8 @@ export class ListingView {
     /** @type {Map<string, HTMLElement>} */
     this.lines = new Map();
     for (const [step, text] of LISTING) {
-      const item = list.appendChild(document.createElement("li"));
-      item.appendChild(document.createElement("code")).textContent = text;
+      const item = made("li", [made("code", [text])]);
+      list.append(item);
       if (step) this.lines.set(step, item);
     }
     this.shown = "";

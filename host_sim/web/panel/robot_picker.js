@@ -1,6 +1,7 @@
 // @ts-check
 /* Chooses which of several robots the panel shows: a button for each, and keys. Hidden if there is only one robot. */
 
+import { buttonOf } from "../core/building.js";
 import { byId, isForPage } from "../core/elements.js";
 import { inEachLanguage, say } from "../core/language.js";
 
@@ -38,11 +39,9 @@ export class RobotPicker {
 
   /** @param {number} node */
   makeButton(node) {
-    const button = document.createElement("button");
-    button.type = "button";
-    button.value = button.textContent = `${node}`;
+    const button = buttonOf(`${node}`, () => this.onPick(node));
+    button.value = `${node}`;
     button.setAttribute("aria-label", say("robotNumber", { node }));
-    button.addEventListener("click", () => this.onPick(node));
     return button;
   }
 

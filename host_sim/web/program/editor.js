@@ -1,21 +1,19 @@
 // @ts-check
 /* A field for a program, with line numbers, the current line highlighted and the line of a mistake marked. */
 
+import { made } from "../core/building.js";
+import { setText } from "../core/elements.js";
+
 /** The text is in `field`. */
 export class Editor {
   /** @param {() => void} onInput - Called when a person has changed the text. */
   constructor(onInput) {
-    this.element = document.createElement("div");
-    this.element.className = "editor";
-    this.numbers = this.element.appendChild(document.createElement("pre"));
-    this.numbers.setAttribute("aria-hidden", "true");
-    this.lit = this.mark("lit");
-    this.wrong = this.mark("wrong");
-    this.field = this.element.appendChild(document.createElement("textarea"));
-    this.field.id = "program-text";
-    this.field.spellcheck = false;
-    this.field.setAttribute("autocapitalize", "off");
-    this.field.setAttribute("autocomplete", "off");
+    this.numbers = made("pre", [], { "aria-hidden": "true" });
+    this.lit = made("div", [], { class: "line lit", hidden: "" });
+    this.wrong = made("div", [], { class: "line wrong", hidden: "" });
+    const plain = { spellcheck: "false", autocapitalize: "off", autocomplete: "off" };
+    this.field = made("textarea", [], { id: "program-text", ...plain });
+    this.element = made("div", [this.numbers, this.lit, this.wrong, this.field], { class: "editor" });
     this.field.addEventListener("input", () => {
       this.number();
       onInput();
@@ -34,18 +32,9 @@ export class Editor {
     this.number();
   }
 
-  /** @param {string} name */
-  mark(name) {
-    const mark = this.element.appendChild(document.createElement("div"));
-    mark.className = `line ${name}`;
-    mark.hidden = true;
-    return mark;
-  }
-
   number() {
     const count = this.field.value.split("\n").length;
-    const numbers = Array.from({ length: count }, (_, i) => i + 1).join("\n");
-    if (this.numbers.textContent !== numbers) this.numbers.textContent = numbers;
+    setText(this.numbers, Array.from({ length: count }, (_, i) => i + 1).join("\n"));
     this.place();
   }
 
