@@ -48,10 +48,9 @@ export function choiceOf(label, options, onChange) {
 }
 
 /**
- * Terms and what they mean.
- * @param {{term: string, meaning: string}[]} entries
+ * Terms and what they mean: the rows of a `dl`.
+ * @param {string[][]} entries
  */
-export function glossaryOf(entries) {
-  const rows = entries.map(({ term, meaning }) => made("div", [made("dt", [term]), made("dd", [meaning])]));
-  return made("dl", rows, { class: "glossary" });
+export function termsOf(entries) {
+  return entries.map(([term, meaning]) => made("div", [made("dt", [term]), made("dd", [meaning])]));
 }

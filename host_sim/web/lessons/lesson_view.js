@@ -2,7 +2,7 @@
 /* A lesson in the page: its question, its steps, its goals and what it needs. */
 
 import { byId, setText } from "../core/elements.js";
-import { buttonOf, choiceOf, glossaryOf, made } from "../core/building.js";
+import { buttonOf, choiceOf, made, termsOf } from "../core/building.js";
 import { filled } from "../core/phrases.js";
 import { PLANS } from "./plans.js";
 import { toolOf } from "./tools.js";
@@ -68,7 +68,7 @@ export class LessonView {
     const { words, lessons, glossary } = texts;
     return [
       made("details", [made("summary", [words.notes]), notesOf(words, lessons[plan.id])]),
-      made("details", [made("summary", [words.glossary]), glossaryOf(glossary)]),
+      made("details", [made("summary", [words.glossary]), made("dl", termsOf(glossary))]),
     ];
   }
 

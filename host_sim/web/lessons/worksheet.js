@@ -5,7 +5,7 @@ import { pictureOf } from "../panel/cells_view.js";
 import { byId } from "../core/elements.js";
 import { CELL_COUNT } from "../generated.js";
 import { binary } from "../core/phrases.js";
-import { glossaryOf, listOf, made } from "../core/building.js";
+import { listOf, made, termsOf } from "../core/building.js";
 
 /**
  * @typedef {import("../core/language.js").Texts["lessons"]} Texts
@@ -53,7 +53,7 @@ export class Worksheet {
     const { words, lessons, glossary } = texts;
     this.element.replaceChildren(
       made("h1", [`${lessons[id].title}: ${words.notes}`]), notesOf(words, lessons[id]),
-      made("h2", [words.glossary]), glossaryOf(glossary),
+      made("h2", [words.glossary]), made("dl", termsOf(glossary), { class: "glossary" }),
     );
   }
 }
@@ -69,9 +69,8 @@ export function notesOf(words, { tasks, table, notes }) {
   const asked = tasks.map((task, place) => [task, answers[place]]);
   if (table) asked.push([table, notes.table]);
   const answered = asked.map(([task, answer]) => made("li", [made("em", [task]), ` ${answer}`]));
-  const parts = [[words.aim, aim], [words.time, time], [words.expect, expect]];
-  const rows = parts.map(([name, text]) => made("div", [made("dt", [name]), made("dd", [text])]));
-  return made("div", [made("dl", rows), made("h3", [words.answers]), made("ol", answered)], { class: "notes" });
+  const about = termsOf([[words.aim, aim], [words.time, time], [words.expect, expect]]);
+  return made("div", [made("dl", about), made("h3", [words.answers]), made("ol", answered)], { class: "notes" });
 }
 
 /** @param {Texts["words"]} words */

@@ -1,7 +1,7 @@
 // @ts-check
 /* The tab with a program for a robot, which runs beside the firmware, step by step if desired. */
 
-import { buttonOf, choiceOf, made } from "../core/building.js";
+import { buttonOf, choiceOf, made, termsOf } from "../core/building.js";
 import { byId, setText } from "../core/elements.js";
 import { LANGUAGES, inEachLanguage, languageCode, speak, wordsOf } from "../core/language.js";
 import { filled } from "../core/phrases.js";
@@ -200,7 +200,7 @@ export class ProgramTab {
     const key = JSON.stringify(values);
     if (this.variables.dataset.key === key) return;
     this.variables.dataset.key = key;
-    this.variables.replaceChildren(...values.map(([name, value]) => made("div", [made("dt", [name]), made("dd", [value])])));
+    this.variables.replaceChildren(...termsOf(values));
   }
 
   showParting() {

@@ -161,4 +161,4 @@ def test_the_buttons_print_the_worksheet_and_the_notes(lesson):
     words = page.evaluate("octet.course.texts")
     answers = words["lessons"]["share"]["notes"]["answers"]
     assert [answer for answer in answers if answer in sheet or answer not in notes] == []
-    assert [it["term"] for it in words["glossary"] if it["term"] not in notes] == []
+    assert [term for term, _ in words["glossary"] if term not in notes] == []
