@@ -102,6 +102,15 @@ def test_no_text_is_left_in_english():
     assert same == {"Arena", "Listing", "Name", "Pause", "ideal", "live"}
 
 
+@pytest.mark.parametrize("code", [code for code in TEXTS if code != "en"])
+def test_a_lesson_calls_what_is_on_the_page_as_the_page_does(code):
+    english, shown = {*TEXTS["en"]["page"].values(), *SIDES}, set(TEXTS[code]["page"].values())
+    quoted = {it for _, text in places(TEXTS[code]["lessons"]) for it in re.findall("„([^“]+)“", text)}
+
+    assert quoted & shown != set()
+    assert quoted & english - shown == set()
+
+
 def test_every_text_is_used():
     words = {part: TEXTS["en"][part] for part in ("page", "wall", "lessons")}
 
