@@ -17,7 +17,7 @@ from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX
 from host_sim.live.seats import Seats
 from host_sim.live.visitor import Rights, Visitor
-from host_sim.view.languages import languages, with_languages
+from host_sim.view.languages import languages, template, with_languages
 
 PAGES_MAX = 64
 """Maximum number of open pages: a class, those that have just been reloaded, and the board."""
@@ -221,7 +221,7 @@ def _told(what: str) -> str:
 
 
 def _html(name: str) -> web.Response:
-    return web.Response(text=with_languages((WEB / name).read_text(encoding="utf-8")), content_type="text/html")
+    return web.Response(text=with_languages(template(name)), content_type="text/html")
 
 
 def _file(name: str) -> web.FileResponse:

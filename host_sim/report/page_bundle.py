@@ -1,6 +1,6 @@
 """Pages as single files: a template of `web/` with the files that it refers to inserted.
 
-Templates can be opened as they are; in the bundled page:
+In the page:
 - `<link rel="stylesheet" href="X">` becomes the style sheet;
 - `<script type="module" src="X"></script>` becomes that module, after all modules that it imports, directly or not,
   each in its own function. An import must be one line, `import { a, b } from "./y.js";`, an export the word before a
@@ -18,7 +18,7 @@ from functools import cache
 from pathlib import Path
 
 from host_sim.base.paths import WEB
-from host_sim.view.languages import as_script, with_languages
+from host_sim.view.languages import as_script, template, with_languages
 
 _STYLE = re.compile(r'<link rel="stylesheet" href="([\w./-]+)">')
 _SCRIPT = re.compile(r'<script type="module" src="([\w./-]+)"></script>')
@@ -28,9 +28,9 @@ _NOT_READ = re.compile(r"^\s+|/\*\* @type [^*]*\*/ ?", re.MULTILINE)
 _EXPORT = re.compile(r"^export ((?:async )?(?:function\*?|const|let|class) (\w+))", re.MULTILINE)
 
 
-def page_of(template: str) -> str:
+def page_of(name: str) -> str:
     """A template with its words, its style sheet and its modules inserted."""
-    text = _STYLE.sub(lambda match: f"<style>\n{_read(match[1])}</style>", with_languages(_read(template)))
+    text = _STYLE.sub(lambda match: f"<style>\n{_read(match[1])}</style>", with_languages(_plain(template(name))))
     return _SCRIPT.sub(lambda match: f'<script type="module">\n{bundle(match[1])}</script>', text)
 
 
@@ -87,4 +87,9 @@ def _read(name: str) -> str:
 
 @cache
 def _stripped(path: Path) -> str:
-    return _NOT_READ.sub("", _COMMENT.sub("", path.read_text(encoding="utf-8")))
+    return _plain(path.read_text(encoding="utf-8"))
+
+
+def _plain(text: str) -> str:
+    """A text without what no browser reads."""
+    return _NOT_READ.sub("", _COMMENT.sub("", text))
