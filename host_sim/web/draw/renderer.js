@@ -3,7 +3,7 @@
 
 import { contextOf } from "../core/elements.js";
 import { paletteOf } from "../core/palette.js";
-import { drawLook, drawRobot, drawTag } from "./robot_view.js";
+import { RobotView } from "./robot_view.js";
 import { circle, drawPlant } from "./shapes.js";
 import { TrailLayer } from "./trail_layer.js";
 
@@ -44,17 +44,18 @@ export class Renderer {
   draw(scene) {
     this.useColours();
     const { context, palette } = this;
+    const robots = new RobotView(context, scene, palette);
     const states = [...scene.states].sort((a, b) => Number(a === scene.state) - Number(b === scene.state));
     this.scene = scene;
     this.fit(scene);
     this.drawFloor(scene.measures);
     this.trailLayer.draw(context, scene.trails, palette.reasons, scene.trail);
-    for (const state of states) drawLook(context, scene, state, palette);
+    for (const state of states) robots.drawLook(state);
     this.drawFood(scene);
     this.drawBars(scene);
     this.drawPlants(scene);
-    for (const state of states) drawRobot(context, scene, state, palette);
-    if (scene.tags.length) for (const state of states) drawTag(context, scene, state, palette);
+    for (const state of states) robots.draw(state);
+    if (scene.tags.length) for (const state of states) robots.drawTag(state);
     if (scene.meant?.first_tick === scene.environment.first_tick) this.drawMeant(scene.meant, scene);
   }
 

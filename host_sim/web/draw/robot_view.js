@@ -16,177 +16,153 @@ const TAG_MM = 95;
 const TAG_AT_MM = 200;
 const TAG_ROOM_MM = 280;
 
-/**
- * @param {CanvasRenderingContext2D} context - In mm.
- * @param {Scene} scene
- * @param {State} state - Of the robot to draw.
- * @param {Palette} palette
- */
-export function drawRobot(context, scene, state, palette) {
-  const { measures, item } = scene;
-  const pose = scene.poseOf(state);
-  context.save();
-  context.translate(pose.x, pose.y);
-  context.save();
-  context.rotate(pose.heading / 1000);
-  if (scene.isHeld(state)) drawAir(context, measures, palette);
-  else drawCones(context, state.feel, measures, palette);
-  if (item?.kind === "robot" && item.id === state.node) drawRing(context, measures.body * 1.12, palette.of.select);
-  drawBody(context, palette.reasons[scene.reasonOf(state)], measures, palette);
-  context.restore();
-  if (scene.states.length > 1 && !scene.tags.length) drawNumber(context, scene, state, palette);
-  drawTrial(context, state, measures, palette);
-  context.restore();
-}
+/** Draws the robots of a scene, each by its state. */
+export class RobotView {
+  /**
+   * @param {CanvasRenderingContext2D} context - In mm.
+   * @param {Scene} scene
+   * @param {Palette} palette
+   */
+  constructor(context, scene, palette) {
+    this.context = context;
+    this.scene = scene;
+    this.palette = palette;
+  }
 
-/**
- * A wide broken ring says that it is off the floor.
- * @param {CanvasRenderingContext2D} context
- * @param {Measures} measures
- * @param {Palette} palette
- */
-function drawAir(context, measures, palette) {
-  context.setLineDash([40, 30]);
-  drawRing(context, measures.body * 1.45, palette.of.select);
-  context.setLineDash([]);
-}
+  /** @param {State} state */
+  draw(state) {
+    const { context, scene, palette } = this;
+    const { body } = scene.measures;
+    const pose = scene.poseOf(state);
+    context.save();
+    context.translate(pose.x, pose.y);
+    context.save();
+    context.rotate(pose.heading / 1000);
+    if (scene.isHeld(state)) this.drawAir();
+    else this.drawCones(state);
+    if (scene.item?.kind === "robot" && scene.item.id === state.node) drawRing(context, body * 1.12, palette.of.select);
+    this.drawBody(state);
+    context.restore();
+    if (scene.states.length > 1 && !scene.tags.length) this.drawNumber(state);
+    this.drawTrial(state);
+    context.restore();
+  }
 
-/**
- * The corridor in which a robot sees food, lit as far as the food that it sees; obstacles go over it.
- * @param {CanvasRenderingContext2D} context
- * @param {Scene} scene
- * @param {State} state
- * @param {Palette} palette
- */
-export function drawLook(context, scene, state, palette) {
-  const { measures } = scene;
-  if (scene.isHeld(state)) return;
-  context.save();
-  context.beginPath();
-  context.rect(0, 0, measures.width, measures.height);
-  context.clip();
-  context.translate(state.x, state.y);
-  context.rotate(state.heading / 1000);
-  context.globalAlpha = state.beacon ? 0.4 : 0.13;
-  context.fillStyle = palette.of[state.beacon ? "food" : "beam"];
-  context.fillRect(0, -measures.beam / 2, state.beacon || GLANCE_MM, measures.beam);
-  context.restore();
-}
+  /** A wide broken ring says that it is off the floor. */
+  drawAir() {
+    this.context.setLineDash([40, 30]);
+    drawRing(this.context, this.scene.measures.body * 1.45, this.palette.of.select);
+    this.context.setLineDash([]);
+  }
 
-/**
- * @param {CanvasRenderingContext2D} context
- * @param {number} feel
- * @param {Measures} measures
- * @param {Palette} palette
- */
-function drawCones(context, feel, measures, palette) {
-  for (const { bit, bearing } of CONES) {
-    const middle = (bearing * Math.PI) / 180;
+  /**
+   * The corridor in which a robot sees food, lit as far as the food that it sees; obstacles go over it.
+   * @param {State} state
+   */
+  drawLook(state) {
+    const { context, palette, scene: { measures } } = this;
+    if (this.scene.isHeld(state)) return;
+    context.save();
     context.beginPath();
-    context.moveTo(0, 0);
-    context.arc(0, 0, measures.body + measures.reach, middle - CONE_HALF, middle + CONE_HALF);
-    context.closePath();
-    context.fillStyle = palette.of[feel & bit ? "cone" : "cone-dark"];
-    context.globalAlpha = feel & bit ? 0.9 : 0.55;
+    context.rect(0, 0, measures.width, measures.height);
+    context.clip();
+    context.translate(state.x, state.y);
+    context.rotate(state.heading / 1000);
+    context.globalAlpha = state.beacon ? 0.4 : 0.13;
+    context.fillStyle = palette.of[state.beacon ? "food" : "beam"];
+    context.fillRect(0, -measures.beam / 2, state.beacon || GLANCE_MM, measures.beam);
+    context.restore();
+  }
+
+  /** @param {State} state */
+  drawCones({ feel }) {
+    const { context, palette, scene: { measures } } = this;
+    for (const { bit, bearing } of CONES) {
+      const middle = (bearing * Math.PI) / 180;
+      context.beginPath();
+      context.moveTo(0, 0);
+      context.arc(0, 0, measures.body + measures.reach, middle - CONE_HALF, middle + CONE_HALF);
+      context.closePath();
+      context.fillStyle = palette.of[feel & bit ? "cone" : "cone-dark"];
+      context.globalAlpha = feel & bit ? 0.9 : 0.55;
+      context.fill();
+      context.globalAlpha = 1;
+      context.strokeStyle = palette.of.floor;
+      context.lineWidth = 5;
+      context.stroke();
+    }
+  }
+
+  /** @param {State} state */
+  drawBody(state) {
+    const { context, palette, scene: { measures: { body, track } } } = this;
+    const wheel = { length: 70, width: 24 };
+    context.fillStyle = palette.of.ink;
+    circle(context, 0, 0, body);
     context.fill();
-    context.globalAlpha = 1;
-    context.strokeStyle = palette.of.floor;
-    context.lineWidth = 5;
-    context.stroke();
+    context.fillStyle = palette.reasons[this.scene.reasonOf(state)];
+    circle(context, 0, 0, body * 0.86);
+    context.fill();
+    context.fillStyle = palette.of.ink;
+    for (const side of [-1, 1]) {
+      context.fillRect(-wheel.length / 2, (side * track) / 2 - wheel.width / 2, wheel.length, wheel.width);
+    }
+    context.beginPath();
+    context.moveTo(body * 0.8, 0);
+    context.lineTo(body * 0.12, -body * 0.42);
+    context.lineTo(body * 0.12, body * 0.42);
+    context.closePath();
+    context.fill();
   }
-}
 
-/**
- * @param {CanvasRenderingContext2D} context
- * @param {string} colour
- * @param {Measures} measures
- * @param {Palette} palette
- */
-function drawBody(context, colour, measures, palette) {
-  const wheel = { length: 70, width: 24 };
-  context.fillStyle = palette.of.ink;
-  circle(context, 0, 0, measures.body);
-  context.fill();
-  context.fillStyle = colour;
-  circle(context, 0, 0, measures.body * 0.86);
-  context.fill();
-  context.fillStyle = palette.of.ink;
-  for (const side of [-1, 1]) {
-    context.fillRect(-wheel.length / 2, (side * measures.track) / 2 - wheel.width / 2, wheel.length, wheel.width);
+  /**
+   * The robot's number beside its body; inverted for the robot that the panel shows.
+   * @param {State} state
+   */
+  drawNumber(state) {
+    const { context, scene, palette: { of } } = this;
+    const { x, y } = scene.poseOf(state);
+    const toTheRight = x < scene.measures.width - NUMBER_ROOM_MM;
+    const below = y < scene.measures.height - NUMBER_ROOM_MM;
+    const at = { x: toTheRight ? NUMBER_MM : -NUMBER_MM, y: below ? NUMBER_MM : -NUMBER_MM };
+    const [ground, ink] = state.node === scene.node ? [of.ink, of.paper] : [of.paper, of.ink];
+    drawDisc(context, { ...at, radius: 72, ground, edge: of.ink, width: 10 });
+    drawText(context, `${state.node}`, { ...at, size: state.node < 10 ? 100 : 80, colour: ink });
   }
-  drawNose(context, measures.body, palette);
-}
 
-/**
- * @param {CanvasRenderingContext2D} context
- * @param {number} body
- * @param {Palette} palette
- */
-function drawNose(context, body, palette) {
-  context.fillStyle = palette.of.ink;
-  context.beginPath();
-  context.moveTo(body * 0.8, 0);
-  context.lineTo(body * 0.12, -body * 0.42);
-  context.lineTo(body * 0.12, body * 0.42);
-  context.closePath();
-  context.fill();
-}
+  /**
+   * The robot's name below its body, or above it where there is no room.
+   * @param {State} state
+   */
+  drawTag(state) {
+    const { context, scene } = this;
+    const { x, y } = scene.poseOf(state);
+    const { name, colour } = scene.tags[scene.states.indexOf(state)];
+    const half = textWidth(context, name, TAG_MM) / 2 + TAG_MM / 3;
+    const at = {
+      x: Math.max(half, Math.min(scene.measures.width - half, x)),
+      y: y + (y < scene.measures.height - TAG_ROOM_MM ? TAG_AT_MM : -TAG_AT_MM),
+    };
+    context.fillStyle = colour;
+    context.beginPath();
+    context.roundRect(at.x - half, at.y - 0.65 * TAG_MM, 2 * half, 1.3 * TAG_MM, TAG_MM / 2);
+    context.fill();
+    drawText(context, name, { ...at, size: TAG_MM, colour: this.palette.of.paper });
+  }
 
-/**
- * The robot's number beside its body; inverted for the robot that the panel shows.
- * @param {CanvasRenderingContext2D} context
- * @param {Scene} scene
- * @param {State} state
- * @param {Palette} palette
- */
-function drawNumber(context, scene, state, palette) {
-  const { x, y } = scene.poseOf(state);
-  const shown = state.node === scene.node;
-  const toTheRight = x < scene.measures.width - NUMBER_ROOM_MM;
-  const below = y < scene.measures.height - NUMBER_ROOM_MM;
-  const at = { x: toTheRight ? NUMBER_MM : -NUMBER_MM, y: below ? NUMBER_MM : -NUMBER_MM };
-  const [ground, ink] = shown ? [palette.of.ink, palette.of.paper] : [palette.of.paper, palette.of.ink];
-  drawDisc(context, { ...at, radius: 72, ground, edge: palette.of.ink, width: 10 });
-  drawText(context, `${state.node}`, { ...at, size: state.node < 10 ? 100 : 80, colour: ink });
-}
-
-/**
- * The robot's name below its body, or above it where there is no room.
- * @param {CanvasRenderingContext2D} context
- * @param {Scene} scene
- * @param {State} state
- * @param {Palette} palette
- */
-export function drawTag(context, scene, state, palette) {
-  const { x, y } = scene.poseOf(state);
-  const { name, colour } = scene.tags[scene.states.indexOf(state)];
-  const half = textWidth(context, name, TAG_MM) / 2 + TAG_MM / 3;
-  const at = {
-    x: Math.max(half, Math.min(scene.measures.width - half, x)),
-    y: y + (y < scene.measures.height - TAG_ROOM_MM ? TAG_AT_MM : -TAG_AT_MM),
-  };
-  context.fillStyle = colour;
-  context.beginPath();
-  context.roundRect(at.x - half, at.y - 0.65 * TAG_MM, 2 * half, 1.3 * TAG_MM, TAG_MM / 2);
-  context.fill();
-  drawText(context, name, { ...at, size: TAG_MM, colour: palette.of.paper });
-}
-
-/**
- * A sign above the robot: a question while it tries something, then whether it helped.
- * @param {CanvasRenderingContext2D} context
- * @param {State} state
- * @param {Measures} measures
- * @param {Palette} palette
- */
-function drawTrial(context, state, measures, palette) {
-  const trial = state.trial;
-  if (!trial || (state.tick - trial.tick) * measures.tick_ms > VERDICT_MS) return;
-  const trying = state.reason === REASON.TRIAL && trial.helped === null;
-  if (!trying && trial.helped === null) return;
-  const sign = trying ? "?" : trial.helped ? "✓" : "✗";
-  const edge = trial.helped ? palette.of.food : palette.reasons[REASON.TRIAL];
-  const at = { x: 0, y: state.y < SIGN_ROOM_MM ? SIGN_MM : -SIGN_MM };
-  drawDisc(context, { ...at, radius: 95, ground: palette.of.paper, edge, width: 18 });
-  drawText(context, sign, { ...at, size: 130, colour: palette.of.ink });
+  /**
+   * A sign above the robot: a question while it tries something, then whether it helped.
+   * @param {State} state
+   */
+  drawTrial({ trial, tick, reason, y }) {
+    const { context, scene, palette } = this;
+    if (!trial || (tick - trial.tick) * scene.measures.tick_ms > VERDICT_MS) return;
+    const trying = reason === REASON.TRIAL && trial.helped === null;
+    if (!trying && trial.helped === null) return;
+    const sign = trying ? "?" : trial.helped ? "✓" : "✗";
+    const edge = trial.helped ? palette.of.food : palette.reasons[REASON.TRIAL];
+    const at = { x: 0, y: y < SIGN_ROOM_MM ? SIGN_MM : -SIGN_MM };
+    drawDisc(context, { ...at, radius: 95, ground: palette.of.paper, edge, width: 18 });
+    drawText(context, sign, { ...at, size: 130, colour: palette.of.ink });
+  }
 }
