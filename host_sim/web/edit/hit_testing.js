@@ -128,13 +128,13 @@ function partAt(bar, at) {
 }
 
 /**
- * The nearest point of a bar: how far along it, 0..1, and how far away, mm.
+ * The nearest point of a bar, which may be as short as a point: how far along it, 0..1, and how far away, mm.
  * @param {number[]} bar
  * @param {Place} at
  */
-function besideBar([, ax, ay, bx, by], at) {
+export function besideBar([, ax, ay, bx, by], at) {
   const [dx, dy] = [bx - ax, by - ay];
-  const along = Math.min(1, Math.max(0, ((at.x - ax) * dx + (at.y - ay) * dy) / (dx * dx + dy * dy)));
+  const along = Math.min(1, Math.max(0, ((at.x - ax) * dx + (at.y - ay) * dy) / (dx * dx + dy * dy || 1)));
   return { along, away: distance(at, { x: ax + along * dx, y: ay + along * dy }) };
 }
 

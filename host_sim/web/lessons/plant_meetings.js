@@ -2,11 +2,12 @@
 /* The times at which a robot had to get past something that a person put into its arena. */
 
 import { REASON } from "../generated.js";
+import { besideBar } from "../edit/hit_testing.js";
 import { stretchesOf } from "./evidence.js";
 
 /**
- * What was put there: a thick line, or a point.
- * @typedef {{a: Place, b: Place, radius: number}} Thing
+ * What was put there: a bar, as in a scene, of a point for a plant; and how thick it is.
+ * @typedef {{bar: number[], radius: number}} Thing
  *
  * A meeting: where the thing stood, when the robot was clear again, whether it had to try, and whether it knew nothing.
  * @typedef {{at: Place, last: number, tried: boolean, knewNothing: boolean}} Meeting
@@ -40,11 +41,11 @@ function meetingIn(data, first, last) {
   const { measures } = data;
   const near = measures.body + measures.reach + SLACK_MM;
   const from = robot.stateAt(first, []);
-  const thing = addedThings(data, first).find((it) => distance(from, it) <= near);
+  const thing = addedThings(data, first).find(({ bar, radius }) => besideBar(bar, from).away - radius <= near);
   if (!thing) return [];
   const tried = robot.columns.reason.subarray(first, last + 1).includes(REASON.TRIAL);
   const knewNothing = !robot.memoryAt(first).some(Boolean);
-  return [{ at: middle(thing), last, tried, knewNothing }];
+  return [{ at: middleOf(thing), last, tried, knewNothing }];
 }
 
 /**
@@ -57,25 +58,12 @@ function addedThings(data, tick) {
   const scene = data.sceneAt(tick);
   const begun = data.run.scenes.find(([, it]) => it.number === scene.number)?.[1] ?? scene;
   const ids = begun.bars.map(([id]) => id);
-  const bars = scene.bars.filter(([id]) => !ids.includes(id)).map(([, ax, ay, bx, by]) => (
-    { a: { x: ax, y: ay }, b: { x: bx, y: by }, radius: data.measures.bar / 2 }));
-  const plants = (scene.plants ?? []).map(([, x, y, radius]) => ({ a: { x, y }, b: { x, y }, radius }));
+  const bars = scene.bars.filter(([id]) => !ids.includes(id)).map((bar) => ({ bar, radius: data.measures.bar / 2 }));
+  const plants = (scene.plants ?? []).map(([id, x, y, radius]) => ({ bar: [id, x, y, x, y], radius }));
   return [...bars, ...plants];
 }
 
 /** @param {Thing} thing */
-function middle({ a, b }) {
-  return { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
-}
-
-/**
- * From a place to the rim of a thing.
- * @param {Place} from
- * @param {Thing} thing
- */
-function distance(from, { a, b, radius }) {
-  const [dx, dy] = [b.x - a.x, b.y - a.y];
-  const square = dx * dx + dy * dy;
-  const part = square ? Math.max(0, Math.min(1, ((from.x - a.x) * dx + (from.y - a.y) * dy) / square)) : 0;
-  return Math.hypot(a.x + part * dx - from.x, a.y + part * dy - from.y) - radius;
+function middleOf({ bar: [, ax, ay, bx, by] }) {
+  return { x: (ax + bx) / 2, y: (ay + by) / 2 };
 }
