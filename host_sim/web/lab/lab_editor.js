@@ -6,7 +6,8 @@ import { bindArenaKeys } from "../edit/arena_keys.js";
 import { DragController } from "../edit/drag_controller.js";
 import { byId, typedById } from "../core/elements.js";
 import { isInside, plantOf, wirePlace } from "../edit/placement.js";
-import { EDITS, PLANT_GROWTH_MM, PLANT_RADIUS_MM } from "../generated.js";
+import { PLANT_GROWTH_MM, PLANT_RADIUS_MM } from "../generated.js";
+import { isWorldEdit } from "../sim/arena.js";
 
 /** Beyond the reach of the robot's sensors. */
 const PLANT_GAP_MM = 20;
@@ -97,12 +98,4 @@ export class LabEditor extends ArenaEditor {
     const plant = item?.kind === "plant" && plantOf(environment, item.id);
     if (plant) this.lab.change({ do: "grow_plant", id: item.id, radius: Math.round(plant.radius) + PLANT_GROWTH_MM });
   }
-}
-
-/**
- * @param {Command} command
- * @returns {command is Command & WorldEdit}
- */
-function isWorldEdit(command) {
-  return Object.hasOwn(EDITS, command.do);
 }

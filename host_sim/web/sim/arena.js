@@ -23,6 +23,16 @@ export function settingsOf(body) {
   return body === KIT ? { ...KIT_SETTINGS } : {};
 }
 
+/**
+ * Whether something changes the world or the bodies in it; all else is said to a robot.
+ * @template {{do: string}} T
+ * @param {T} change
+ * @returns {change is T & WorldEdit}
+ */
+export function isWorldEdit(change) {
+  return Object.hasOwn(EDITS, change.do);
+}
+
 /** A change that cannot be made. */
 export class EditError extends Error {}
 

@@ -1,7 +1,7 @@
 // @ts-check
 /* A run in the page: robots in one environment after the other. The same frames as those of tools/run. */
 
-import { Arena } from "./arena.js";
+import { Arena, isWorldEdit } from "./arena.js";
 import { DueChanges } from "./due_changes.js";
 import { drawFrom, drawLayout } from "./native_layouts.js";
 import { loadProgram } from "./native_program.js";
@@ -9,7 +9,6 @@ import { NativeRun } from "./native_run.js";
 import { RobotCommands } from "./robot_commands.js";
 import { RunRecorder } from "./run_recorder.js";
 import { RANDOM } from "../core/world_names.js";
-import { EDITS } from "../generated.js";
 
 /** @typedef {Record<string, SimParams>} Worlds - The dimensions of each world with a name. */
 
@@ -186,13 +185,4 @@ export function worldOf(world, worlds) {
   if (typeof world === "string") return { params: worlds[world] };
   const [width_mm, height_mm] = world.size ?? [worlds.random.width_mm, worlds.random.height_mm];
   return { params: { ...worlds.random, width_mm, height_mm }, written: world };
-}
-
-/**
- * Whether it changes the world or the bodies in it; all else is said to a robot.
- * @param {Change} change
- * @returns {change is WorldEdit}
- */
-function isWorldEdit(change) {
-  return Object.hasOwn(EDITS, change.do);
 }
