@@ -1,7 +1,8 @@
 // @ts-check
 /* The results of a run up to a tick: numbers for curves, for a table and for a file. */
 
-import { PARAMETERS, REASON } from "../generated.js";
+import { PARAMETERS } from "../generated.js";
+import { AVOIDING } from "../lessons/evidence.js";
 
 /**
  * @typedef {"trials" | "blocked" | "meals"} Curve
@@ -12,8 +13,6 @@ import { PARAMETERS, REASON } from "../generated.js";
 
 /** The columns of the table and of the file. */
 export const NAMES = ["run", "robot", "behaviour", "seed", "environment", "finished", "time s", "tour s", "trials", "lessons", "bored", "blocked s", "meals"];
-
-const AVOIDING = [REASON.REMEMBERED, REASON.TRIAL, REASON.BOREDOM];
 
 /**
  * How something grows in a run.
@@ -62,7 +61,7 @@ export function rowsOf(lane, upTo) {
 function numbersOf(robot, first, last, tickMs) {
   const inside = (/** @type {number} */ tick) => tick >= first && tick <= last;
   const count = (/** @type {string} */ kind) => robot.run.events.filter(([tick, what]) => what === kind && inside(tick)).length;
-  const blocked = robot.columns.reason.subarray(first, last + 1).filter((reason) => isAvoiding(reason)).length;
+  const blocked = robot.columns.reason.subarray(first, last + 1).filter((reason) => AVOIDING.includes(reason)).length;
   return [count("trial"), count("lesson"), count("boredom"), seconds(blocked, tickMs), count("eat")];
 }
 
@@ -85,11 +84,6 @@ function tourOf({ tours, experiment }, environment, { speed_mm_s: speed = PARAME
   return isKnown ? Number((tours[environment] / speed).toFixed(2)) : "";
 }
 
-/** @param {number} reason */
-function isAvoiding(reason) {
-  return AVOIDING.includes(reason);
-}
-
 /**
  * @param {Int32Array} reasons
  * @param {number} tickS
@@ -100,7 +94,7 @@ function blockedGrowth(reasons, tickS) {
   const growth = { ticks: [], counts: [] };
   let blocked = 0;
   reasons.forEach((reason, tick) => {
-    if (!isAvoiding(reason)) return;
+    if (!AVOIDING.includes(reason)) return;
     blocked += 1;
     growth.ticks.push(tick);
     growth.counts.push(blocked * tickS);

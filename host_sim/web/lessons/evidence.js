@@ -5,7 +5,8 @@ import { PARAMETERS, REASON } from "../generated.js";
 
 /** @typedef {{first: number, last: number}} Stretch - Ticks, both ends included. */
 
-const AVOIDING = [REASON.REMEMBERED, REASON.TRIAL, REASON.BOREDOM];
+/** The reasons of a robot that has something in its way. */
+export const AVOIDING = [REASON.REMEMBERED, REASON.TRIAL, REASON.BOREDOM];
 
 /** @type {WeakMap<RobotData, Stretch[]>} */
 const known = new WeakMap();
