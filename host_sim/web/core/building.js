@@ -17,15 +17,6 @@ export function made(kind, children, attributes = {}) {
 }
 
 /**
- * A list with a text in each item.
- * @param {"ol" | "ul"} kind
- * @param {string[]} texts
- */
-export function listOf(kind, texts) {
-  return made(kind, texts.map((text) => made("li", [text])));
-}
-
-/**
  * @param {string} text
  * @param {() => void} onClick
  */

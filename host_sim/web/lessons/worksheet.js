@@ -5,7 +5,7 @@ import { pictureOf } from "../panel/cells_view.js";
 import { byId } from "../core/elements.js";
 import { CELL_COUNT } from "../generated.js";
 import { binary } from "../core/phrases.js";
-import { listOf, made, termsOf } from "../core/building.js";
+import { made, termsOf } from "../core/building.js";
 
 /**
  * @typedef {import("../core/language.js").Texts["lessons"]} Texts
@@ -38,7 +38,7 @@ export class Worksheet {
     const { title, question, steps, goals, tasks, table } = lessons[id];
     this.element.replaceChildren(
       made("h1", [title]), headOf(words), made("p", [question], { class: "question" }),
-      made("h2", [words.steps]), listOf("ol", steps),
+      made("h2", [words.steps]), made("ol", steps.map((step) => made("li", [step]))),
       made("h2", [words.goalsPrinted]), made("ul", goals.map((goal) => made("li", [goal])), { class: "boxes" }),
       made("h2", [words.tasks]), made("ol", tasks.map((task) => made("li", [task, linesOf()]))),
       ...(table ? [made("h2", [table]), tableOf(words)] : []),
