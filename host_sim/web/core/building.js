@@ -38,10 +38,7 @@ export function choiceOf(label, options, onChange) {
   return { label: made("label", [`${label} `, select]), select };
 }
 
-/**
- * Terms and what they mean: the rows of a `dl`.
- * @param {string[][]} entries
- */
+/** @param {string[][]} entries - Terms and what they mean; they become the rows of a `dl`. */
 export function termsOf(entries) {
   return entries.map(([term, meaning]) => made("div", [made("dt", [term]), made("dd", [meaning])]));
 }

@@ -3,10 +3,7 @@
 
 /** @typedef {Record<string, Int32Array>} Columns - Columns by their names, one number for each tick. */
 
-/**
- * The bytes of a zlib stream in base64.
- * @param {string} text
- */
+/** @param {string} text - A zlib stream in base64. */
 export async function inflate(text) {
   const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));

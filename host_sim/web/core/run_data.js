@@ -111,10 +111,7 @@ export class RobotData {
     return latest(this.run.memory, tick);
   }
 
-  /**
-   * What is known of each cell after a tick.
-   * @param {number} tick
-   */
+  /** @param {number} tick */
   cellsAt(tick) {
     /** @type {RobotRun["cells"]} */
     const cells = [];

@@ -98,10 +98,7 @@ export class Lens {
     else if (key.toLowerCase() === "f") this.follow(!this.follows);
   }
 
-  /**
-   * Lets an arena be zoomed and moved where it is.
-   * @param {Renderer} renderer
-   */
+  /** @param {Renderer} renderer - Its arena can be zoomed and moved from now on. */
   watch(renderer) {
     const { canvas } = renderer;
     canvas.addEventListener("wheel", (event) => {

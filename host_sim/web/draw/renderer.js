@@ -125,10 +125,7 @@ export class Renderer {
     for (let y = GRID_MM; y < measures.height; y += GRID_MM) context.fillRect(0, y - 2, measures.width, 4);
   }
 
-  /**
-   * A full disc; an empty ring once it is eaten.
-   * @param {Scene} scene
-   */
+  /** @param {Scene} scene - Its food: full discs, and empty rings once they are eaten. */
   drawFood({ environment, state, item }) {
     const { context, palette } = this;
     environment.food.forEach(([x, y], id) => {

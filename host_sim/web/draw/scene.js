@@ -100,10 +100,7 @@ export class Scene {
     return clock(tick - this.environment.start_tick, this.measures, robotWords().point);
   }
 
-  /**
-   * Whether it is off the floor.
-   * @param {State} state
-   */
+  /** @param {State} state - Of a robot that may be off the floor. */
   isHeld(state) {
     return Boolean(state.lifted) || this.ghosts.has(state.node);
   }

@@ -77,10 +77,7 @@ export class ArenaEditor {
     this.onChange();
   }
 
-  /**
-   * Selects the next item.
-   * @param {number} step - 1 forward, -1 back.
-   */
+  /** @param {number} step - 1 forward, -1 back. */
   selectNext(step) {
     const items = allItems(this.scene);
     const { item } = this.scene;
@@ -114,10 +111,7 @@ export class ArenaEditor {
     this.send({ do: "lift", node });
   }
 
-  /**
-   * Puts a robot down where a person holds it.
-   * @param {number} node
-   */
+  /** @param {number} node - Of a robot that a person holds: it is put down there. */
   put(node) {
     const ghost = this.scene.ghosts.get(node);
     if (!ghost) return;
@@ -149,10 +143,7 @@ export class ArenaEditor {
     if (item?.kind === "plant") this.send({ do: "remove_plant", id: item.id });
   }
 
-  /**
-   * Moves the selected item.
-   * @param {Place} by - mm
-   */
+  /** @param {Place} by - mm */
   nudge(by) {
     const { item, environment, measures, ghosts } = this.scene;
     if (!item) return;
@@ -168,10 +159,7 @@ export class ArenaEditor {
     if (plant) this.send({ do: "move_plant", id: item.id, at: wirePlace({ x: plant.x + by.x, y: plant.y + by.y }, measures) });
   }
 
-  /**
-   * Turns the selected item to the right.
-   * @param {number} radians
-   */
+  /** @param {number} radians - To the right. */
   turn(radians) {
     const { item, environment, measures, ghosts } = this.scene;
     const ghost = item?.kind === "robot" && ghosts.get(item.id);
@@ -181,10 +169,7 @@ export class ArenaEditor {
   }
 }
 
-/**
- * An angle in -pi..pi.
- * @param {number} radians
- */
+/** @param {number} radians - The angle that it returns is in -pi..pi. */
 function wrap(radians) {
   return Math.atan2(Math.sin(radians), Math.cos(radians));
 }

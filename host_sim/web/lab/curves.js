@@ -78,10 +78,7 @@ export class Curves {
   }
 }
 
-/**
- * A table as the text of a file.
- * @param {ShownRun[]} lanes
- */
+/** @param {ShownRun[]} lanes */
 export function csvOf(lanes) {
   const rows = [NAMES, ...lanes.flatMap((lane) => rowsOf(lane, lane.last))];
   return rows.map((row) => `${row.join(",")}\n`).join("");

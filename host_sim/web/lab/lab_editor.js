@@ -34,10 +34,7 @@ export class LabEditor extends ArenaEditor {
     byId("grow").addEventListener("click", () => this.grow());
   }
 
-  /**
-   * Lets a lane's arena be touched.
-   * @param {ShownRun} lane
-   */
+  /** @param {ShownRun} lane - Its arena can be touched from now on. */
   watch(lane) {
     if (this.drags.has(lane)) return;
     this.drags.set(lane, new DragController(lane.renderer, this));

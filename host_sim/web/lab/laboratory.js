@@ -74,10 +74,7 @@ export class Laboratory extends PlayingPage {
     for (const lane of this.lanes) lane.go(this.tick, false);
   }
 
-  /**
-   * Adds a run beside the others, and simulates it.
-   * @param {Experiment} experiment
-   */
+  /** @param {Experiment} experiment - Of the run to add and to simulate. */
   addLane(experiment) {
     const lane = new ShownRun(experiment, byId("floors"), this.lens);
     this.lanes.push(lane);
@@ -103,10 +100,7 @@ export class Laboratory extends PlayingPage {
     this.simulator.queued.delete(lane);
   }
 
-  /**
-   * Begins anew with one run.
-   * @param {Experiment} experiment
-   */
+  /** @param {Experiment} experiment - Of the only run from now on. */
   begin(experiment) {
     const old = this.lanes;
     this.lanes = [];

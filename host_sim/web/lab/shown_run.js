@@ -102,10 +102,7 @@ export class ShownRun {
     });
   }
 
-  /**
-   * Takes over what was simulated.
-   * @param {import("../sim/page_worker.js").Recorded} recorded
-   */
+  /** @param {import("../sim/page_worker.js").Recorded} recorded - What was simulated. */
   take({ run, columns, tours }) {
     this.data = new RunData(run, columns);
     this.tours = tours;
@@ -168,10 +165,7 @@ export class ShownRun {
     return last !== undefined;
   }
 
-  /**
-   * Starts the selected robot in another way.
-   * @param {Partial<RobotSetup>} setup
-   */
+  /** @param {Partial<RobotSetup>} setup - How the selected robot starts from now on. */
   setUp(setup) {
     const robots = this.experiment.robots.map((it, robot) => (robot === this.robot ? { ...it, ...setup } : it));
     this.experiment = { ...this.experiment, robots };

@@ -123,10 +123,7 @@ export class SidePanel {
     });
   }
 
-  /**
-   * Tells why something could not be done with a file.
-   * @param {Promise<void>} done
-   */
+  /** @param {Promise<void>} done - If something cannot be done with a file, this tells why. */
   tell(done) {
     done.catch((error) => this.report(() => heard(error instanceof Error ? error.message : `${error}`)));
   }

@@ -19,10 +19,7 @@ const SLACK_MM = 15;
 /** @type {WeakMap<RunData, Meeting[]>} */
 const known = new WeakMap();
 
-/**
- * All meetings of the first robot.
- * @param {RunData} data
- */
+/** @param {RunData} data - Of its first robot. */
 export function meetingsOf(data) {
   const [robot] = data.robots;
   const found = known.get(data) ?? stretchesOf(robot).flatMap(({ first, last }) => meetingIn(data, first, last));

@@ -32,10 +32,7 @@ export function tellsKnowingFromSaying({ history }) {
     isEliza(one) !== isEliza(other) && [one, other].every((it) => (it.said.mark === "words") === isEliza(it)));
 }
 
-/**
- * Whether a speaker has said what it was taught.
- * @param {TalkBox} talk
- */
+/** @param {TalkBox} talk */
 export function repeatsWhatItWasTaught({ history, taught }) {
   return history.some(({ said }) => said.mark === "words" && taught.has(said.text));
 }

@@ -91,10 +91,7 @@ class LivePage {
   }
 }
 
-/**
- * The address's query, with what this page is recognised by.
- * @param {string} key
- */
+/** @param {string} key - By which the page is recognised. */
 function query(key) {
   const fields = new URLSearchParams(location.search);
   fields.set("page", key);

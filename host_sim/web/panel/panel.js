@@ -97,10 +97,7 @@ export class Panel {
   }
 }
 
-/**
- * How the run stands.
- * @param {Scene} scene
- */
+/** @param {Scene} scene */
 export function showFacts(scene) {
   const { environment, state } = scene;
   const left = environment.food.length - state.eaten.reduce((sum, eaten) => sum + eaten, 0);

@@ -146,10 +146,7 @@ export class ProgramTab {
     return { programs: this.lab.programs, worlds: Object.keys(this.lab.worlds), languages: LANGUAGES.map(([code]) => code) };
   }
 
-  /**
-   * Shows what a link has.
-   * @param {string} hash
-   */
+  /** @param {string} hash - Of a link to an experiment, which is shown; or of anything else. */
   follow(hash) {
     const found = linkedIn(hash, this.known);
     if (!found) return;

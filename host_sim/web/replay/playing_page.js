@@ -72,18 +72,12 @@ export class PlayingPage {
     this.stale = true;
   }
 
-  /**
-   * Shows a tick; one beyond the ends shows the end.
-   * @param {number} tick
-   */
+  /** @param {number} tick - One beyond the ends shows the end. */
   go(tick) {
     this.goAhead(Math.min(this.last, Math.max(this.first, tick)));
   }
 
-  /**
-   * Shows a tick that may be there only later.
-   * @param {number} tick
-   */
+  /** @param {number} tick - It may be there only later. */
   goAhead(tick) {
     this.exactTick = tick;
     this.tick = Math.floor(tick);
@@ -150,10 +144,7 @@ export class PlayingPage {
     action();
   }
 
-  /**
-   * Whether a key is meant for the page.
-   * @param {KeyboardEvent} event
-   */
+  /** @param {KeyboardEvent} event - Of a key that may be meant for the page. */
   takesKey(event) {
     return isForPage(event, event.key === " " ? "select, button" : "select");
   }

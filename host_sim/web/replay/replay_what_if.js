@@ -59,10 +59,7 @@ export class ReplayWhatIf {
     }
   }
 
-  /**
-   * Closes the laboratory, and says why.
-   * @param {unknown} error
-   */
+  /** @param {unknown} error - Why the laboratory is closed. */
   giveUp(error) {
     this.view.close();
     setText(byId("no-what-if"), heard(error instanceof Error ? error.message : `${error}`));

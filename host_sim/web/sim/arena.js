@@ -91,10 +91,7 @@ export class Arena {
     return { bars: bars.map(tenths), food: food.map(([x, y]) => tenths([x, y])), plants: plants.map(tenths) };
   }
 
-  /**
-   * Makes a change of it, or of a body.
-   * @param {WorldEdit} edit
-   */
+  /** @param {WorldEdit} edit - Of the arena, or of a body. */
   edit(edit) {
     /** @type {Record<string, any>} */
     const fields = edit;

@@ -154,10 +154,7 @@ function isFault(arena, what) {
   }
 }
 
-/**
- * A whole number, or a place.
- * @param {unknown} value
- */
+/** @param {unknown} value - Either a whole number or a place. */
 function isField(value) {
   return Array.isArray(value) ? value.length === 2 && value.every(Number.isInteger) : Number.isInteger(value);
 }

@@ -64,10 +64,7 @@ function frameOf(line, number) {
   return { robot, base, words: `${id}#${hex}`, data: bytesOf(hex) };
 }
 
-/**
- * The bytes of a frame, from their digits.
- * @param {string} hex
- */
+/** @param {string} hex - Of a frame's bytes. */
 export function bytesOf(hex) {
   return Uint8Array.from(hex.match(/../g) ?? [], (byte) => parseInt(byte, 16));
 }

@@ -52,10 +52,7 @@ export class RobotCommands {
     if (this.native.c.page_has_halted(robot)) this.send(robot, OPCODE.REPORT);
   }
 
-  /**
-   * Carries out a change that a person makes.
-   * @param {RobotChange} change
-   */
+  /** @param {RobotChange} change */
   carryOut(change) {
     const { robot } = change;
     if (change.do === "write") this.writeSide(robot, change.cell, change.side);

@@ -56,10 +56,7 @@ export class RunRecorder {
     this.scenes.push([this.ticks, scene]);
   }
 
-  /**
-   * Food was eaten in the last tick.
-   * @param {number[]} eaten - For each piece, 1 if it is gone.
-   */
+  /** @param {number[]} eaten - After the last tick: for each piece, 1 if it is gone. */
   eat(eaten) {
     if (eaten.join() === this.eaten.at(-1)?.[1].join()) return;
     note(this.eaten, this.ticks - 1, eaten);
