@@ -142,7 +142,6 @@ TWINS = {
     "host_sim/web/native/page_open.c": "tests/web/sim/test_page_runs.py",
     "host_sim/web/talk/eliza.js": "tests/web/talk/test_same_answers.py",
     "host_sim/web/talk/facts.js": "tests/web/talk/test_same_answers.py",
-    "host_sim/web/types.js": "tests/web/sim/test_page_runs.py",
 }
 """What is still written in two languages: each with the test that holds both to the same results."""
 

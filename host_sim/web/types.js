@@ -1,6 +1,6 @@
 // @ts-check
 /* The shapes of what the server sends and takes. What the fields mean stands where they are made: Message in
-   host_sim/live/feed.py, Run in host_sim/report/replay_page.py, the generated ones in host_sim/view/state_types.py. */
+   host_sim/live/feed.py, Run in host_sim/report/replay_page.py, the generated ones where generated_types.js says. */
 
 /**
  * @typedef {import("./generated_types.js").Measures} Measures
@@ -183,24 +183,9 @@
  */
 
 /**
- * The dimensions of a world, as in host_sim/world/params.py, and what its layouts are drawn from: an enum layout_style.
- * @typedef {Object} SimParams
- * @property {number} style
- * @property {number} width_mm
- * @property {number} height_mm
- * @property {number} body_radius_mm
- * @property {number} wheel_track_mm
- * @property {number} sensor_reach_mm
- * @property {number} front_extra_mm
- * @property {number} beam_width_mm
- * @property {number} eat_reach_mm
- * @property {number} bar_count
- * @property {number} bar_thickness_mm
- * @property {[number, number]} bar_length_mm
- * @property {[number, number][]} food_bands_mm
- * @property {number} tick_s
- * @property {number} max_wheel_speed_mm_s
- * @property {Measures} measures - With the default limit of boredom.
+ * The dimensions of a world; what its layouts are drawn from, an enum layout_style; and its measures, with the default
+ * limit of boredom.
+ * @typedef {import("./generated_types.js").SimParams & {style: number, measures: Measures}} SimParams
  *
  * Both ends of an obstacle: ax, ay, bx, by in mm.
  * @typedef {[number, number, number, number]} Bar

@@ -63,6 +63,7 @@ class Tree:
             "tools/robot_words/model.py",
             "tools/cmake/wasm32.cmake",
             "host_sim/view/state_types.py",
+            "host_sim/world/params.py",
         ):
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.folder / name)

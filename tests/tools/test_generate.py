@@ -186,10 +186,13 @@ def test_what_was_generated_is_what_the_files_say_today():
     assert (ROOT / "host_sim/web/generated_types.js").read_text() == to_typedefs.module()
 
 
-def test_a_typedef_is_the_typed_dict():
+def test_a_typedef_is_the_python_type():
     lines = to_typedefs.module().splitlines()
 
-    for line in ("{number} beacon", "{Trial | null} trial", "{number[][]} bars", "{number[][]} [plants]"):
+    for line in (
+        *("{number} beacon", "{Trial | null} trial", "{number[][]} bars", "{number[][]} [plants]"),
+        *("{[number, number]} bar_length_mm", "{[number, number][]} food_bands_mm"),
+    ):
         assert f" * @property {line}" in lines
 
 

@@ -4,10 +4,12 @@ from types import NoneType, UnionType
 from typing import Any, get_args, get_origin, get_type_hints
 
 from host_sim.view.state_types import EnvironmentScene, Lesson, Measures, State, Trial
+from host_sim.world.params import SimParams
 
 _NAMES: dict[object, str] = {int: "number", float: "number", NoneType: "null"}
-_TYPES: tuple[Any, ...] = (Measures, EnvironmentScene, Trial, Lesson, State)
-_HEAD = "// @ts-check\n/* Made by tools/generate; host_sim/view/state_types.py documents the fields. */\n\n"
+_TYPES: tuple[Any, ...] = (Measures, EnvironmentScene, Trial, Lesson, State, SimParams)
+_SOURCES = "host_sim/view/state_types.py and host_sim/world/params.py"
+_HEAD = f"// @ts-check\n/* Made by tools/generate; {_SOURCES} document the fields. */\n\n"
 
 
 def module() -> str:
@@ -18,15 +20,18 @@ def module() -> str:
 def _typedef(kind: Any) -> str:
     lines = [f" * @typedef {{Object}} {kind.__name__}"]
     for name, hint in get_type_hints(kind).items():
-        shown = f"[{name}]" if name in kind.__optional_keys__ else name
+        shown = f"[{name}]" if name in getattr(kind, "__optional_keys__", ()) else name
         lines.append(f" * @property {{{_in_javascript(hint)}}} {shown}")
     return "\n".join(["/**", *lines, " */"]) + "\n"
 
 
 def _in_javascript(kind: Any) -> str:
     """The JSDoc type of a Python type."""
-    if get_origin(kind) is list:
-        return f"{_in_javascript(get_args(kind)[0])}[]"
+    parts = get_args(kind)
+    if get_origin(kind) is list or ... in parts:
+        return f"{_in_javascript(parts[0])}[]"
+    if get_origin(kind) is tuple:
+        return f"[{', '.join(map(_in_javascript, parts))}]"
     if get_origin(kind) is UnionType:
-        return " | ".join(map(_in_javascript, get_args(kind)))
+        return " | ".join(map(_in_javascript, parts))
     return _NAMES.get(kind) or str(kind.__name__)
