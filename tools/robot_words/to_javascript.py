@@ -9,7 +9,7 @@ _HEAD = "/* Made by tools/generate from octet.dbc and robot.toml. */\n"
 
 # The page is small, so it has only those that it uses.
 _NUMBERS = (
-    *("cell_count", "node_max", "range_none", "answer_wants_ranges", "plant_radius_mm", "plant_growth_mm"),
+    *("cell_count", "node_max", "answer_wants_ranges", "plant_radius_mm", "plant_growth_mm"),
     *("page_robots_max", "program_text_max"),
 )
 

@@ -71,12 +71,8 @@ export class Arena {
 
   /** All things. */
   get things() {
-    const at = this.native.c.page_scene();
-    const [bars, plants, food] = this.native.doublesAt(at, 3);
-    const numbers = [...this.native.doublesAt(at, 3 + 5 * bars + 4 * plants + 3 * food).slice(3)];
-    const taken = (/** @type {number} */ count, /** @type {number} */ size) =>
-      Array.from({ length: count }, () => numbers.splice(0, size));
-    return { bars: taken(bars, 5), plants: taken(plants, 4), food: taken(food, 3) };
+    const [bars, plants, food] = this.native.tablesAt(this.native.c.page_scene(), [5, 4, 3]);
+    return { bars, plants, food };
   }
 
   /** For each piece of food, 1 if it was eaten. */

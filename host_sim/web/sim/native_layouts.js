@@ -73,16 +73,13 @@ function write(native, key, value) {
  */
 export function drawLayout(native, { seed, number, robots }) {
   const at = native.c.page_draw(seed, number, robots);
-  const [bars, food, starts] = native.doublesAt(at, 3);
-  if (!starts) throw new Error(`no fair environment in 1000 draws for seed ${seed}, number ${number}`);
-  if (starts < robots) throw new Error(`there is room for ${starts} robots in environment ${number}`);
-  const numbers = [...native.doublesAt(at, 3 + 4 * bars + 2 * food + 3 * starts).slice(3)];
-  const taken = (/** @type {number} */ count, /** @type {number} */ size) =>
-    Array.from({ length: count }, () => numbers.splice(0, size));
+  const [bars, food, starts] = native.tablesAt(at, [4, 2, 3]);
+  if (!starts.length) throw new Error(`no fair environment in 1000 draws for seed ${seed}, number ${number}`);
+  if (starts.length < robots) throw new Error(`there is room for ${starts.length} robots in environment ${number}`);
   return {
-    bars: /** @type {Bar[]} */ (taken(bars, 4)),
-    food: /** @type {[number, number][]} */ (taken(food, 2)),
-    starts: /** @type {Pose[]} */ (taken(starts, 3)),
+    bars: /** @type {Bar[]} */ (bars),
+    food: /** @type {[number, number][]} */ (food),
+    starts: /** @type {Pose[]} */ (starts),
   };
 }
 

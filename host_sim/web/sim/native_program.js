@@ -19,10 +19,8 @@ import { PROGRAM_TEXT_MAX } from "../generated.js";
  * @typedef {{ended: boolean, mistake: Mistake | null, steps: Step[], variables: Variable[], before: number[], shown: string[]}} ProgramState
  */
 
-/** Numbers of page_program_state: the first ones, and those of a step and of a variable. */
-const FIRST = 7;
-const STEP = 3;
-const VARIABLE = 4;
+/** Numbers of page_program_state before its tables. */
+const FIRST = 5;
 
 /**
  * Makes a program a robot's brain, before the robot is started.
@@ -46,37 +44,18 @@ export function loadProgram(native, robot, text) {
 export function programState(native, robot, text) {
   const { c } = native;
   const at = c.page_program_state(robot);
-  const [ended, line, expected, cells, shown, steps, variables] = native.doublesAt(at, FIRST);
-  const numbers = [...native.doublesAt(at, FIRST + STEP * steps + VARIABLE * variables)];
+  const [ended, line, expected, cells, shown] = native.doublesAt(at, FIRST);
+  const [steps, variables] = native.tablesAt(at + FIRST * Float64Array.BYTES_PER_ELEMENT, [3, 4]);
   const bytes = new TextEncoder().encode(text);
-  const mistake = { line, word: textAt(native, c.page_program_word(robot)), expected, words: textAt(native, c.page_program_expected(expected)) };
+  const mistake = { line, word: native.textAt(c.page_program_word(robot)), expected, words: native.textAt(c.page_program_expected(expected)) };
   return {
     ended: ended !== 0,
     mistake: expected ? mistake : null,
-    steps: rowsOf(numbers, FIRST, steps, STEP).map(([row, cell, value]) => ({ line: row, cell, value })),
-    variables: rowsOf(numbers, FIRST + STEP * steps, variables, VARIABLE).map(
+    steps: steps.map(([row, cell, value]) => ({ line: row, cell, value })),
+    variables: variables.map(
       ([cell, size, first, length]) => ({ name: new TextDecoder().decode(bytes.subarray(first, first + length)), cell, size }),
     ),
     before: [...native.doublesAt(c.page_program_cells(robot), cells)],
-    shown: Array.from({ length: shown }, (_, place) => textAt(native, c.page_program_shown(robot, place))),
+    shown: Array.from({ length: shown }, (_, place) => native.textAt(c.page_program_shown(robot, place))),
   };
-}
-
-/**
- * @param {number[]} numbers
- * @param {number} first
- * @param {number} count
- * @param {number} size
- */
-function rowsOf(numbers, first, count, size) {
-  return Array.from({ length: count }, (_, i) => numbers.slice(first + i * size, first + (i + 1) * size));
-}
-
-/**
- * @param {NativeRun} native
- * @param {number} at
- */
-function textAt(native, at) {
-  const bytes = new Uint8Array(native.c.memory.buffer, at);
-  return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
 }

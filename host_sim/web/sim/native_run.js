@@ -124,6 +124,18 @@ export class NativeRun {
   }
 
   /**
+   * Tables in its memory: the number of rows of each, then the numbers of all rows.
+   * @param {number} at
+   * @param {number[]} sizes - Of each table, the numbers of a row.
+   */
+  tablesAt(at, sizes) {
+    const counts = [...this.doublesAt(at, sizes.length)];
+    const end = counts.reduce((sum, count, i) => sum + count * sizes[i], sizes.length);
+    const numbers = [...this.doublesAt(at, end)].slice(sizes.length);
+    return counts.map((count, i) => Array.from({ length: count }, () => numbers.splice(0, sizes[i])));
+  }
+
+  /**
    * Whole numbers in its memory.
    * @param {number} at
    * @param {number} count
@@ -138,7 +150,7 @@ export class NativeRun {
    */
   textAt(at) {
     const bytes = new Uint8Array(this.c.memory.buffer, at);
-    return String.fromCharCode(...bytes.subarray(0, bytes.indexOf(0)));
+    return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
   }
 
   /** What is handed over to C. */
