@@ -58,7 +58,7 @@ class Estimate:
 def estimate(figure: Figure, sample: Sample, level: float = LEVEL, resamples: int = RESAMPLES) -> Estimate:
     """A figure with its interval. Equal samples give equal intervals."""
     if figure.counted:
-        value, low, high = (100 * it for it in wilson(*_counted(figure, sample), level))
+        value, low, high = (100 * it for it in wilson(_counted(figure, sample), level))
         return Estimate(value, low, high, len(sample.seeds))
     return _bootstrap(lambda take: figure.of(sample, take), len(sample.seeds), level, resamples)
 
@@ -87,18 +87,17 @@ def coverage(figure: Figure, sample: Sample, seeds: int, draws: int = _COVERAGE_
     return float(np.mean([it.low <= whole <= it.high for it in found]))
 
 
-def wilson(counted: Floats, each: int = 1, level: float = LEVEL) -> tuple[float, float, float]:
+def wilson(counted: Floats, level: float = LEVEL) -> tuple[float, float, float]:
     """A proportion and its interval.
 
     Args:
-        counted: Shape (seeds, environments), from 0 to 1.
-        each: Number of binary values averaged in each entry.
+        counted: Zeros and ones, shape (seeds, values of each).
         level: Confidence level of the interval.
 
     >>> [round(it, 3) for it in wilson(np.zeros((100, 1)))]
     [0.0, 0.0, 0.037]
     """
-    p, n, z = float(counted.mean()), float(counted.size * each), NormalDist().inv_cdf((1 + level) / 2)
+    p, n, z = float(counted.mean()), float(counted.size), NormalDist().inv_cdf((1 + level) / 2)
     if len(counted) > 1 and (variance := float(counted.mean(-1).var()) / len(counted)) > 0:
         n = min(n, p * (1 - p) / variance)
     middle, half = p + z * z / (2 * n), z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
@@ -106,16 +105,16 @@ def wilson(counted: Floats, each: int = 1, level: float = LEVEL) -> tuple[float,
     return p, low if p > 0 else 0.0, high if p < 1 else 1.0
 
 
-def _counted(figure: Figure, sample: Sample) -> tuple[Floats, int]:
+def _counted(figure: Figure, sample: Sample) -> Floats:
     counted: Floats = getattr(sample, figure.counted)
-    return counted.reshape(len(sample.seeds), -1), sample.robots if figure.counted == "wrong" else 1
+    return counted.reshape(len(sample.seeds), -1)
 
 
 def _difference(figure: Figure, sample: Sample, against: Sample, level: float) -> Estimate:
     """Newcombe's interval of a paired difference, from both intervals and the correlation over seeds."""
     pair = [_counted(figure, it) for it in (sample, against)]
-    (p, low_p, high_p), (q, low_q, high_q) = (wilson(counted, each, level) for counted, each in pair)
-    means = [counted.mean(-1) for counted, _ in pair]
+    (p, low_p, high_p), (q, low_q, high_q) = (wilson(counted, level) for counted in pair)
+    means = [counted.mean(-1) for counted in pair]
     spread = math.sqrt(float(means[0].var() * means[1].var()))
     shared = float(np.mean((means[0] - p) * (means[1] - q))) / spread if spread > 0 else 0.0
 

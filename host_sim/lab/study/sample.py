@@ -28,7 +28,7 @@ class Sample:
         trapped: For each environment, 1 if one of its contacts took more than 60 s, else 0.
         bumped: For each environment, 1 if a body touched something, else 0.
         denied: For each environment, 1 if wheels did not follow the command, else 0.
-        wrong: Share of the robots that know a wrong turn at the end.
+        wrong: For each robot that knows a wrong turn at the end 1, then 0 for each of the others.
         contacts: Number of contacts.
         blocked_s: Robot time of all contacts, s; if one trapped the robot, only its first 60 s.
         turns: Number of turns in all contacts.
@@ -145,14 +145,14 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
     def total(column: Any) -> Floats:
         return np.bincount(index, column, count).astype(np.float64)
 
-    robots = runs["robots"].astype(np.float64)
+    robots = int(np.max(runs["robots"], initial=1))
     trapped = np.zeros((count, len(environments["seed"]) // max(count, 1)))
     long = contacts["blocked_s"] > TRAPPED_S
     trapped[index[long], contacts["environment"][long] - 1] = 1
     recoveries = np.array([_recovery(contacts, environments, seed) for seed in seeds]).reshape(count, 2)
     return Sample(
         name=name,
-        robots=int(np.max(robots, initial=1)),
+        robots=robots,
         seeds=seeds,
         finished=each(environments["finished"]),
         robot_s=each(environments["robot_s"]),
@@ -160,7 +160,7 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
         trapped=trapped,
         bumped=each(environments["collisions"] > 0),
         denied=each(environments["denied"] > 0),
-        wrong=each(environments["wrong"])[:, -1] / robots if count else robots,
+        wrong=(np.arange(robots) < each(environments["wrong"])[:, -1:]).astype(np.float64),
         contacts=total(np.ones(len(index))),
         blocked_s=total(np.minimum(contacts["blocked_s"], TRAPPED_S)),
         turns=total(contacts["trials"] + contacts["remembered"] + contacts["boredoms"]),
