@@ -12,7 +12,7 @@ from host_sim.base.system import NO_WAIT
 Word = TypeVar("Word")
 
 _WORD_MAX = 200
-"""No longer word has a meaning; errors quote it."""
+"""No longer word has a meaning, and no error quotes one."""
 
 
 def open_bytes(path: Path, limit: int) -> BinaryIO:
@@ -80,7 +80,9 @@ def read_words(path: Path, limit: int, parse: Callable[[str], Word]) -> list[Wor
     for number, line in enumerate(lines, 1):
         if word := line.partition("#")[0].strip():
             try:
-                words.append(parse(word[:_WORD_MAX]))
+                if len(word) > _WORD_MAX:
+                    raise UsageError(f"{word[:20]!r} goes on for {len(word)} characters: there is no such word")
+                words.append(parse(word))
             except UsageError as error:
                 raise UsageError(f"{path}:{number}: {error}") from None
     return words

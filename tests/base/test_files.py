@@ -17,7 +17,7 @@ import pytest
 from host_sim.base.atomic_file import replacing, write_bytes
 from host_sim.base.compressed_file import CompressedFile
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.base.regular_file import read_bytes
+from host_sim.base.regular_file import read_bytes, read_words
 from host_sim.base.result_files import Case, write_results
 from host_sim.base.toml_file import parse_toml
 
@@ -250,3 +250,10 @@ def test_a_python_that_cannot_read_toml_says_so(monkeypatch):
 
     with pytest.raises(UsageError, match=r"cannot read TOML: use 3\.11 or newer"):
         parse_toml("a = 1")
+
+
+def test_a_word_that_is_too_long_is_refused_and_not_cut(tmp_path):
+    (tmp_path / "words.txt").write_text(f"one # fine\nturn_deg={'0' * 191}77\n")
+
+    with pytest.raises(UsageError, match=r"words\.txt:2: 'turn_deg=00000000000' goes on for 202 characters"):
+        read_words(tmp_path / "words.txt", 1000, str)
