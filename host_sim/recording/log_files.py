@@ -156,6 +156,8 @@ def _blf(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
             yield _from(message)
     except (BLFParseError, ValueError, struct.error) as error:
         raise UsageError(f"{path} is a damaged BLF file, or one cut short: {error}") from None
+    finally:
+        LOG.removeFilter(_refuse)
 
 
 def _from(message: "Message") -> Recorded | str:
