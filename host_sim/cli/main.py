@@ -97,7 +97,7 @@ def _run(action: Callable[[], int]) -> int:
             _drop_output()
             return 1
         except OSError as error:
-            if error.filename is not None:  # one of the command line: others are caught where they are used
+            if error.filename is not None:  # a path that the system refuses, such as too long a name
                 print(f"octet: cannot use {error.filename}: {error.strerror}", file=sys.stderr)
                 return UsageError.exit_code
             if error.errno not in _FULL:
