@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 static struct test *first;
-static pid_t running;   /* 0: no test is; a child that ends is not the program */
+static pid_t running;   /* the process, during a test, else 0; a child of it may end at any time */
 
 void test_register(struct test *test)
 {

@@ -116,7 +116,7 @@ class _WatchedLink:
             except LinkDownError as error:
                 self.stats.outages, self.stats.reason = self.stats.outages + 1, str(error)
                 self.robot.close()
-                with suppress(LinkDownError):  # as it may be at the next start
+                with suppress(LinkDownError):  # it has ended again or is silent; the next start may succeed
                     self.robot.on_bus(self.bus, self.link)
         return frame
 

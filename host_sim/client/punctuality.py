@@ -9,7 +9,7 @@ class Limits:
 
     Attributes:
         unanswered_percent: Share of the ticks without an answer.
-        gap_s: Longest time without an answer, s.
+        gap_s: Time without an answer that is too long, s; any tick without one if it is 0.
         behind_percent: Share of the wall-clock time by which the world's clock falls behind on this host.
     """
 

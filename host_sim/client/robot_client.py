@@ -209,7 +209,9 @@ class RobotClient:
         self._lossy = self._lossy or (self.inbox.owed > 0 and self._owed_tick < ticks)
 
     def await_memory(self) -> None:
-        """Waits for the memory that the robot reports after a change: one that is not that of the environment's end.
+        """Waits for the memory that the robot reports after a command has changed it.
+
+        It is then no late report of the last memory of an environment.
 
         Raises:
             RobotError: The robot does not report it.

@@ -162,9 +162,7 @@ class Flash(Peripheral):
         if page >= len(self.kind.pages):
             raise BoardError(f"page {page} of the flash was to be erased, of {len(self.kind.pages)}")
         if self._acr.value & self.kind.data_cache:
-            raise BoardError(
-                f"page {page} of the flash was to be erased with the data cache on, which keeps what it had"
-            )
+            raise BoardError(f"page {page} of the flash was to be erased while the data cache would still show it")
         size, offset = self.kind.pages[page], sum(self.kind.pages[:page])
         self._protect(offset)
         self.erasures += 1

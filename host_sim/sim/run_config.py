@@ -180,7 +180,7 @@ class RunConfig:
     )
     gap_max_s: float = option(
         1.0,
-        "real time: longest time without an answer, s; above it, the result is doubtful",
+        "real time: time without an answer from which on the result is doubtful, s",
         limits=(0, 3600),
         metavar="S",
     )

@@ -10,7 +10,7 @@ from host_sim.talk.script import AnyOf, Fact, Part, Pieces, Rule, Script, Tagged
 from host_sim.talk.slip_hash import slip_hash
 
 STEPS_MAX = 100_000
-"""Maximum number of keywords tried for a sentence, and of words added to it; beyond it, a script loops for ever."""
+"""Maximum number of keywords tried for a sentence, and of words added to it. With more, a script loops for ever."""
 
 _LIMIT = 4
 _NOTHING_MATCHES = ("PLEASE CONTINUE", "HMMM", "GO ON , PLEASE", "I SEE")

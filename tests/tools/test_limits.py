@@ -148,5 +148,5 @@ def test_a_second_one_in_the_same_checkout_is_refused_and_the_first_goes_on(proj
     leave.touch()
 
     assert (second.returncode, second.stdout) == (2, "")
-    assert second.stderr.endswith(f"tools/{tool}: error: tools/test or tools/prove runs in this checkout: wait\n")
+    assert second.stderr.endswith(f"tools/{tool}: error: tools/test or tools/prove is running in this checkout\n")
     assert last(first.communicate()[0]) == "1 passed, 0 failed"

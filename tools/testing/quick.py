@@ -76,5 +76,5 @@ def _c_stage(changed: Sequence[str]) -> list[Stage]:
 
 
 def selection(programs: Sequence[str]) -> str:
-    """The pattern of the C tests that these programs run; the name of one with an argument ends with it."""
+    """A pattern for ctest: the tests of these programs. A test that passes an argument is named after it, too."""
     return f"^({'|'.join(programs)})(_[a-z]+)?$"

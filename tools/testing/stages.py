@@ -210,7 +210,7 @@ def be_alone(parser: argparse.ArgumentParser) -> None:
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        parser.error("tools/test or tools/prove runs in this checkout: wait")
+        parser.error("tools/test or tools/prove is running in this checkout")
 
 
 @contextmanager

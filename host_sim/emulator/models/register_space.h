@@ -16,7 +16,7 @@
 enum {
     SPACE_WAITING_READS = 8,    /* reads in a row without news, after which the image counts as waiting */
     SPACE_SKIP_NS = 1000000,    /* longest skip before its next read: it may be waiting for the time itself */
-    SPACE_CAN_WORDS = 0x200,    /* of registers of CAN, with the words of a message RAM in the upper half */
+    SPACE_CAN_WORDS = 0x200,    /* of a CAN controller: registers, then the message RAM in the upper half */
     SPACE_CAN_RAM = 0x4000,     /* offset of that RAM from the registers */
     SPACE_BLOCKS = 12, SPACE_BLOCK_WORDS = 32
 };

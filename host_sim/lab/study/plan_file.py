@@ -211,7 +211,7 @@ def _mistake(read: Callable[[str], object], word: str) -> str:
 
 
 def _seeds_each(conditions: Sequence[Trial]) -> int:
-    """Number of seeds that take the place of one: those of the robots of a fleet, each with a world of its own."""
+    """Number of seeds that a run uses: one for each robot of a fleet in which each has its own world, else one."""
     return max(it.config.robots if it.config.is_fleet else 1 for it in conditions)
 
 

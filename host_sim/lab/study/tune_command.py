@@ -25,7 +25,7 @@ examples:
 Run the same command again to resume a search that was stopped.
 """
 HELD_OUT = 1_000_001
-"""The first of the held-out seeds, unless the search itself needs so many."""
+"""The first of the held-out seeds; a later one if the search itself uses so many."""
 
 
 def add(commands: Subparsers) -> None:

@@ -47,6 +47,6 @@ const char *body_faults_add(struct body_faults *faults, const char *what, uint32
            noise. Returns null, or why the text is refused, such as "write mirror". */
 
 uint64_t body_faults_mix(uint64_t number);
-        /* The SplitMix64 generator's number after this one. */
+        /* The output of the SplitMix64 generator whose state is number. */
 
 #endif
