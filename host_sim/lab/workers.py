@@ -46,10 +46,7 @@ def processes(count: int) -> Workers:
 
 
 def cluster(address: str) -> Workers:
-    """The workers of a Dask cluster.
-
-    Args:
-        address: Address of its scheduler.
+    """The workers of a Dask cluster, by the address of its scheduler.
 
     Raises:
         UsageError: Dask is not installed, or the scheduler does not answer.

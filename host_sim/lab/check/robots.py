@@ -55,12 +55,7 @@ def _hang(pid: int, span_ms: int) -> None:
 
 @contextmanager
 def started(command: str, bus: str, node: int) -> Iterator[Talk]:
-    """Starts a robot.
-
-    Args:
-        command: Program and arguments.
-        bus: `fd` for a socket pair, or python-can's `INTERFACE:CHANNEL`.
-        node: Its node number.
+    """Starts a program as the robot, on a bus of python-can or, for `fd`, on a socket pair.
 
     Raises:
         UsageError: The robot cannot be started, or does not answer.

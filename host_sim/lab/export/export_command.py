@@ -62,7 +62,8 @@ def _check(arguments: argparse.Namespace) -> None:
 def _export(arguments: argparse.Namespace) -> int:
     from host_sim.base.atomic_file import replacing
     from host_sim.base.extra_library import library
-    from host_sim.lab.export.frames import within_limits
+    from host_sim.lab.export import frames, mcap_file
+    from host_sim.recording import frame_table
     from host_sim.recording.log_reader import read_log
 
     wanted = _wanted(arguments)
@@ -72,19 +73,6 @@ def _export(arguments: argparse.Namespace) -> int:
     log = read_log(arguments.log)
     if next(iter(log), None) is None:
         raise UsageError(f"{log.note()}: there is no frame of a robot")
-    for name, path in wanted.items():
-        with replacing(path) as part:
-            _writer(name)(part, within_limits(log, name))
-    if note := log.note():
-        print(f"octet: {note}", file=sys.stderr)
-    print(f"wrote     {', '.join(map(str, wanted.values()))}")
-    return 0
-
-
-def _writer(name: str) -> "Callable[[Path, Iterable[Recorded]], None]":
-    from host_sim.lab.export import frames, mcap_file
-    from host_sim.recording import frame_table
-
     writers: dict[str, Callable[[Path, Iterable[Recorded]], None]] = {
         "csv": frame_table.write_csv,
         "parquet": frame_table.write_parquet,
@@ -93,4 +81,10 @@ def _writer(name: str) -> "Callable[[Path, Iterable[Recorded]], None]":
         "mf4": frames.write_mf4,
         "mcap": mcap_file.write_mcap,
     }
-    return writers[name]
+    for name, path in wanted.items():
+        with replacing(path) as part:
+            writers[name](part, frames.within_limits(log, name))
+    if note := log.note():
+        print(f"octet: {note}", file=sys.stderr)
+    print(f"wrote     {', '.join(map(str, wanted.values()))}")
+    return 0

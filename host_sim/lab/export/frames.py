@@ -24,12 +24,8 @@ LAST_S = {"asc": _YEAR_9999_S, "blf": _YEAR_9999_S, "mf4": _NANOSECONDS_S, "mcap
 def within_limits(frames: Iterable[Recorded], name: str) -> Iterator[Recorded]:
     """Yields the frames, in order.
 
-    Args:
-        frames: The frames.
-        name: The format.
-
     Raises:
-        OctetError: A frame's time exceeds the limit of the format.
+        OctetError: A frame's time exceeds the limit of the named format.
     """
     last_s = LAST_S.get(name)
     for recorded in frames:

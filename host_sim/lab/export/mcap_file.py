@@ -5,7 +5,8 @@ name, and the name of the value if it has one.
 """
 
 import json
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -31,12 +32,12 @@ def write_mcap(path: Path, frames: Iterable[Recorded]) -> None:
     with path.open("wb") as file:
         writer = library("mcap.writer", "export").Writer(file)
         writer.start(profile="", library="octet")
-        topics = _Topics(writer)
+        channel_of = _channels(writer)
         for number, (time_us, frame) in enumerate(frames):
             heard = hear(frame)
             if heard is not None:
                 writer.add_message(
-                    channel_id=topics.channel(heard),
+                    channel_id=channel_of(heard.node, DAMAGED if heard.signals is None else heard.name),
                     log_time=time_us * 1000,
                     publish_time=time_us * 1000,
                     sequence=number,
@@ -45,32 +46,22 @@ def write_mcap(path: Path, frames: Iterable[Recorded]) -> None:
         writer.finish()
 
 
-class _Topics:
-    """The channels of a file, each registered with its first message."""
+def _channels(writer: Any) -> Callable[[int, str], int]:
+    """Returns a function that finds the channel of a node's message; each is registered with its first message."""
 
-    def __init__(self, writer: Any) -> None:
-        self._writer = writer
-        self._schemas: dict[str, int] = {}
-        self._channels: dict[tuple[int, str], int] = {}
+    @cache
+    def schema(name: str) -> int:
+        text = json.dumps({"type": "object", "properties": _properties(name)})
+        number: int = writer.register_schema(name=name, encoding="jsonschema", data=text.encode("ascii"))
+        return number
 
-    def channel(self, heard: Heard) -> int:
-        name = DAMAGED if heard.signals is None else heard.name
-        key = (heard.node, name)
-        if key not in self._channels:
-            topic = f"/robot_{heard.node}/{name}"
-            schema_id = self._schema(name)
-            self._channels[key] = self._writer.register_channel(
-                topic=topic, message_encoding="json", schema_id=schema_id
-            )
-        return self._channels[key]
+    @cache
+    def channel(node: int, name: str) -> int:
+        topic = f"/robot_{node}/{name}"
+        number: int = writer.register_channel(topic=topic, message_encoding="json", schema_id=schema(name))
+        return number
 
-    def _schema(self, name: str) -> int:
-        if name not in self._schemas:
-            schema = json.dumps({"type": "object", "properties": _properties(name)})
-            self._schemas[name] = self._writer.register_schema(
-                name=name, encoding="jsonschema", data=schema.encode("ascii")
-            )
-        return self._schemas[name]
+    return channel
 
 
 def _properties(name: str) -> dict[str, dict[str, str]]:

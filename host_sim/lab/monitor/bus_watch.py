@@ -26,22 +26,13 @@ class BusWatch:
     """
 
     def __init__(self, bitrate: int) -> None:
-        """Starts without frames."""
         self.bitrate = bitrate
         self.robots: dict[int, RobotWatch] = {}
         self.frames = self.foreign = self.errors = self.dropped = 0
         self._bits: deque[tuple[float, int]] = deque()
 
     def accept(self, message: can.Message, now_s: float) -> Heard | None:
-        """Processes a frame.
-
-        Args:
-            message: The frame.
-            now_s: The time, s.
-
-        Returns:
-            The decoded frame, if it is from or to a robot.
-        """
+        """Processes a frame; returns it decoded if it is from or to a robot."""
         self.frames += 1
         if message.is_error_frame:
             self.errors += 1

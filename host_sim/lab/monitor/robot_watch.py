@@ -74,7 +74,6 @@ class RobotWatch:
     """
 
     def __init__(self, node: int, now_s: float) -> None:
-        """Starts without frames."""
         self.node = node
         self.messages = {name: MessageWatch() for name in MESSAGES}
         self._first_s = now_s
@@ -83,13 +82,7 @@ class RobotWatch:
         self._boots = 0
 
     def accept(self, name: str, signals: dict[str, int] | None, now_s: float) -> None:
-        """Processes a frame.
-
-        Args:
-            name: The message.
-            signals: Its signals; None if it is damaged.
-            now_s: The time, s.
-        """
+        """Processes a frame by the name of its message; its signals are None if it is damaged."""
         message = self.messages[name]
         if signals is None:
             message.damaged += 1

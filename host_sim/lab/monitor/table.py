@@ -16,13 +16,7 @@ _CHOICES = {(name, signal.name): signal.choices for name, message in MESSAGES.it
 
 
 def lines_of(bus: BusWatch, name: str, now_s: float) -> list[str]:
-    """The table.
-
-    Args:
-        bus: The bus.
-        name: Its name.
-        now_s: The time since the monitor began, s.
-    """
+    """The table of a bus with this name; `now_s` is the time since the monitor began."""
     kbit = bus.bitrate / 1000
     head = f"{name}   {now_s:.0f} s   {bus.frames} frames   load {bus.load(now_s):.1%} of {kbit:g} kbit/s"
     others = f"   foreign {bus.foreign}   errors {bus.errors}   missing here {bus.dropped}"

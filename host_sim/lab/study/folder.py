@@ -89,7 +89,8 @@ def open_study(path: Path, plan: Plan) -> Iterator[StudyFolder]:
         UsageError: The folder has other contents, or a study of another plan or version; it is not changed.
     """
     with run_folder(path):
-        about = {"format": FORMAT, "code": code_version(), "title": plan.title, **plan.of_rows()}
+        commands = {it.condition: it.config.command() for it in plan.conditions}
+        about = {"format": FORMAT, "code": code_version(), "title": plan.title, "conditions": commands}
         if not (path / STUDY_FILE).exists():
             _make(path, about)
         folder = StudyFolder(path)

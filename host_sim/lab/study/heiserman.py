@@ -31,13 +31,7 @@ CLASSES = ("Alpha", "Beta", "Gamma")
 
 
 def scores(kind: str, seed: int, contacts: int) -> Iterator[float]:
-    """The score of a creature after each contact.
-
-    Args:
-        kind: One of `CLASSES`.
-        seed: Seed for its draws.
-        contacts: Number of contacts.
-    """
+    """The score of a creature of one of `CLASSES` after each of a number of contacts."""
     creature, good, count = _Creature(kind, random.Random(seed)), 0, 0
     while count < contacts:
         for free in creature.meet():

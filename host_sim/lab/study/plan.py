@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from host_sim.lab.study.trial import Trial
 
@@ -58,7 +57,3 @@ class Plan:
             for seed in range(self.first_seed, self.first_seed + self.seeds)
             for it in self.conditions
         ]
-
-    def of_rows(self) -> dict[str, Any]:
-        """Everything that determines the rows of a seed."""
-        return {"conditions": {it.condition: it.config.command() for it in self.conditions}}

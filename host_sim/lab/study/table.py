@@ -14,11 +14,9 @@ _RATIO = "mean_s"
 
 
 def table(samples: Sequence[Sample], difference: float = 0.05) -> str:
-    """Each figure of each sample, compared with that of the first one.
+    """Each figure of each sample, compared with that of the first one; all have the same seeds.
 
-    Args:
-        samples: Samples with the same seeds.
-        difference: The relative difference of mean times for which to compute the number of seeds.
+    The last lines say how many seeds it takes to detect a relative difference of mean times.
     """
     others = len(samples) - 1
     lines: list[str] = []

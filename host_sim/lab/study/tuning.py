@@ -115,12 +115,7 @@ class Search:
         return self._config.seed, self._next - 1
 
     def go(self, trials: int, progress: Callable[[int], object]) -> None:
-        """Tries a number of settings, approximately.
-
-        Args:
-            trials: Number of settings to try.
-            progress: Called with the number of settings tried so far.
-        """
+        """Tries about this many settings; `progress` is called with the number tried so far."""
         cmaes = library("cmaes", "study")
         size = min(trials, 8 + int(3 * math.log(len(self._names))))
         search = cmaes.CMA(
