@@ -8,7 +8,6 @@ from gymnasium import error
 from numpy.typing import NDArray
 
 from host_sim.lab.gymnasium_envs import rules
-from host_sim.world.params import SimParams
 
 
 class ArenaEnv(gymnasium.Env[Any, Any]):
@@ -75,10 +74,9 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
             gymnasium.error.Error: The limit is out of its range.
             gymnasium.error.DependencyNotInstalled: The C code cannot be used.
         """
-        self._params, self._rewards = SimParams(), rewards or rules.Rewards()
-        self._worlds = rules.told_worlds(1, 1, rules.Limits(limit_s, step_ticks), self._params, body)
+        self._rewards = rewards or rules.Rewards()
+        self._worlds = rules.told_worlds(1, 1, limit_s, step_ticks, body)
         self.observation_space, self.action_space = rules.senses_space(), rules.deed_space()
-        self._limit_ticks = round(limit_s / self._params.tick_s)
         self._runs = False
 
     def reset(
@@ -90,10 +88,10 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
             gymnasium.error.Error: Seed or options are invalid.
         """
         super().reset(seed=seed)
-        chosen = rules.chosen_layout(options, 1, self._params)
-        self._worlds.enter(0, *(chosen or rules.draw_environment(self.np_random, 1, self._params)))
+        chosen = rules.chosen_layout(options, 1)
+        self._worlds.enter(0, *(chosen or rules.draw_environment(self.np_random, 1)))
         self._runs = True
-        return self._senses(), self._info()
+        return self._senses(), self._worlds.info(0)
 
     def step(self, action: int) -> tuple[NDArray[np.int32], float, bool, bool, dict[str, Any]]:
         """Carries out one action.
@@ -104,18 +102,10 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
         """
         if not self._runs:
             raise error.ResetNeeded("no episode has begun, or it has ended: call reset")
-        worlds, before = self._worlds, int(self._worlds.ticks[0])
-        worlds.step(rules.checked_deeds(action, ()))
-        eaten, collisions = int(worlds.food_eaten[0, 0]), int(worlds.collisions[0, 0])
-        reward = self._rewards.of(eaten, int(worlds.ticks[0]) - before, collisions, self._params.tick_s)
-        terminated = not worlds.food_left[0]
-        truncated = not terminated and int(worlds.ticks[0]) >= self._limit_ticks
+        reward = self._rewards.of_step(self._worlds, rules.checked_deeds(action, ()))
+        terminated, truncated = (bool(ended) for (ended,) in self._worlds.ended())
         self._runs = not (terminated or truncated)
-        return self._senses(), float(reward), terminated, truncated, self._info()
+        return self._senses(), float(reward[0, 0]), terminated, truncated, self._worlds.info(0)
 
     def _senses(self) -> NDArray[np.int32]:
         return np.array(self._worlds.senses[0, 0])
-
-    def _info(self) -> dict[str, Any]:
-        robot_s = round(int(self._worlds.ticks[0]) * self._params.tick_s, 3)
-        return {"robot_s": robot_s, "food_left": int(self._worlds.food_left[0])}

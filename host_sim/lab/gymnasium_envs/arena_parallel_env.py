@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
 
 from host_sim.lab.gymnasium_envs import rules
-from host_sim.world.params import SimParams
 
 _Senses = dict[str, NDArray[np.int32]]
 _Infos = dict[str, dict[str, Any]]
@@ -39,22 +38,14 @@ class ArenaParallelEnv(ParallelEnv[str, NDArray[np.int32], int]):  # type: ignor
         rewards: rules.Rewards | None = None,
         body: str = "ideal",
     ) -> None:
-        """Creates the environment; see `ArenaEnv`.
-
-        Args:
-            robots: Number of robots, 1..31.
-            limit_s: Time limit of an episode, s of robot time.
-            step_ticks: Maximum number of control ticks of a step; None for as many as its actions need.
-            rewards: Rewards of a step.
-            body: The robots' bodies: ideal, kit, or a file as in docs/bodies.md; each episode draws its own.
+        """Creates the environment with 1 to 31 robots; the other arguments are those of `ArenaEnv`.
 
         Raises:
             gymnasium.error.Error: A number is out of its range.
             gymnasium.error.DependencyNotInstalled: The C code cannot be used.
         """
-        self._params, self._rewards, self._robots = SimParams(), rewards or rules.Rewards(), robots
-        self._worlds = rules.told_worlds(1, robots, rules.Limits(limit_s, step_ticks), self._params, body)
-        self._limit_ticks = round(limit_s / self._params.tick_s)
+        self._rewards, self._robots = rewards or rules.Rewards(), robots
+        self._worlds = rules.told_worlds(1, robots, limit_s, step_ticks, body)
         self.possible_agents = [f"robot_{number}" for number in range(1, robots + 1)]
         self.agents: list[str] = []
         self.observation_spaces = {agent: rules.senses_space() for agent in self.possible_agents}
@@ -77,8 +68,8 @@ class ArenaParallelEnv(ParallelEnv[str, NDArray[np.int32], int]):  # type: ignor
         """
         if seed is not None or self._draws is None:
             self._draws = seeding.np_random(seed)[0]
-        chosen = rules.chosen_layout(options, self._robots, self._params)
-        self._worlds.enter(0, *(chosen or rules.draw_environment(self._draws, self._robots, self._params)))
+        chosen = rules.chosen_layout(options, self._robots)
+        self._worlds.enter(0, *(chosen or rules.draw_environment(self._draws, self._robots)))
         self.agents = list(self.possible_agents)
         return self._senses(), self._infos()
 
@@ -93,24 +84,15 @@ class ArenaParallelEnv(ParallelEnv[str, NDArray[np.int32], int]):  # type: ignor
             raise error.ResetNeeded("no episode has begun, or it has ended: call reset")
         if actions.keys() != set(self.agents):
             raise error.InvalidAction(f"actions are for {sorted(actions)}, the robots are {self.agents}")
-        worlds, before = self._worlds, int(self._worlds.ticks[0])
-        worlds.step(np.array([rules.checked_deeds(actions[agent], ()) for agent in self.agents], np.uint8))
-        terminated = not worlds.food_left[0]
-        truncated = not terminated and int(worlds.ticks[0]) >= self._limit_ticks
-        rewards, agents = self._rewarded(int(worlds.ticks[0]) - before), self.agents
+        deeds = np.array([rules.checked_deeds(actions[agent], ()) for agent in self.agents], np.uint8)
+        (rewards,), agents = self._rewards.of_step(self._worlds, deeds).tolist(), self.agents
+        terminated, truncated = (bool(ended) for (ended,) in self._worlds.ended())
         self.agents = [] if terminated or truncated else agents
         ends = dict.fromkeys(agents, terminated), dict.fromkeys(agents, truncated)
-        return self._senses(), rewards, *ends, self._infos()
-
-    def _rewarded(self, ticks: int) -> dict[str, float]:
-        eaten, collisions = self._worlds.food_eaten[0].tolist(), self._worlds.collisions[0].tolist()
-        each = zip(self.possible_agents, eaten, collisions, strict=True)
-        return {agent: float(self._rewards.of(ate, ticks, hit, self._params.tick_s)) for agent, ate, hit in each}
+        return self._senses(), dict(zip(agents, rewards, strict=True)), *ends, self._infos()
 
     def _senses(self) -> _Senses:
         return {agent: self._worlds.senses[0, i].copy() for i, agent in enumerate(self.possible_agents)}
 
     def _infos(self) -> _Infos:
-        robot_s = round(int(self._worlds.ticks[0]) * self._params.tick_s, 3)
-        left = int(self._worlds.food_left[0])
-        return {agent: {"robot_s": robot_s, "food_left": left} for agent in self.possible_agents}
+        return {agent: self._worlds.info(0) for agent in self.possible_agents}

@@ -11,7 +11,6 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from host_sim.lab.gymnasium_envs import rules
-from host_sim.world.params import SimParams
 
 _Batch = tuple[NDArray[np.int32], dict[str, Any]]
 _Stepped = tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]
@@ -34,14 +33,7 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
         rewards: rules.Rewards | None = None,
         body: str = "ideal",
     ) -> None:
-        """Creates the environment; see `ArenaEnv`.
-
-        Args:
-            num_envs: Number of arenas.
-            limit_s: Time limit of an episode, s of robot time.
-            step_ticks: Maximum number of control ticks of a step; None for as many as its actions need.
-            rewards: Rewards of a step.
-            body: The robots' bodies: ideal, kit, or a file as in docs/bodies.md; each episode draws its own.
+        """Creates `num_envs` arenas; the other arguments are those of `ArenaEnv`.
 
         Raises:
             gymnasium.error.Error: A number is out of its range.
@@ -50,12 +42,11 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
         if num_envs < 1:
             raise error.Error(f"num_envs is {num_envs}: give 1 or more")
         self.num_envs = num_envs
-        self._params, self._rewards = SimParams(), rewards or rules.Rewards()
-        self._worlds = rules.told_worlds(num_envs, 1, rules.Limits(limit_s, step_ticks), self._params, body)
+        self._rewards = rewards or rules.Rewards()
+        self._worlds = rules.told_worlds(num_envs, 1, limit_s, step_ticks, body)
         self.single_observation_space, self.single_action_space = rules.senses_space(), rules.deed_space()
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
-        self._limit_ticks = round(limit_s / self._params.tick_s)
         self._draws: list[np.random.Generator] = []
         self._ended = np.zeros(num_envs, np.bool_)
 
@@ -72,9 +63,9 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
             gymnasium.error.Error: Seeds or options are invalid.
         """
         self._take_seeds(seed)
-        chosen = rules.chosen_layout(options, 1, self._params)
+        chosen = rules.chosen_layout(options, 1)
         for i, draws in enumerate(self._draws):
-            self._worlds.enter(i, *(chosen or rules.draw_environment(draws, 1, self._params)))
+            self._worlds.enter(i, *(chosen or rules.draw_environment(draws, 1)))
         self._ended[:] = False
         return self._senses(), self._infos()
 
@@ -88,15 +79,11 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
         if not self._draws:
             raise error.ResetNeeded("no episode has begun: call reset")
         worlds, deeds, anew = self._worlds, rules.checked_deeds(actions, (self.num_envs,)), self._ended
-        before = worlds.ticks.astype(np.int64)
-        worlds.step(deeds)  # nothing happens where an episode has ended
-        ticks = worlds.ticks - before
-        rewards = self._rewards.of(worlds.food_eaten[:, 0], ticks, worlds.collisions[:, 0], self._params.tick_s)
+        rewards = self._rewards.of_step(worlds, deeds)[:, 0]  # nothing happens where an episode has ended
         for i in np.flatnonzero(anew):
-            worlds.enter(int(i), *rules.draw_environment(self._draws[i], 1, self._params))
+            worlds.enter(int(i), *rules.draw_environment(self._draws[i], 1))
         rewards = np.where(anew, 0.0, rewards)
-        terminated = ~anew & (worlds.food_left == 0)
-        truncated = ~anew & ~terminated & (worlds.ticks >= self._limit_ticks)
+        terminated, truncated = (~anew & ended for ended in worlds.ended())
         self._ended = terminated | truncated
         return self._senses(), rewards, terminated, truncated, self._infos()
 
@@ -120,7 +107,7 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
 
     def _infos(self) -> dict[str, Any]:
         given = np.ones(self.num_envs, np.bool_)
-        robot_s = self._worlds.ticks * self._params.tick_s
+        robot_s = self._worlds.ticks * rules.PARAMS.tick_s
         return {
             "robot_s": robot_s,
             "_robot_s": given,

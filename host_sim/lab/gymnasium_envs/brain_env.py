@@ -19,7 +19,6 @@ from host_sim.sim.make import make, start_robots
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.world.memory_kinds import sides_of
-from host_sim.world.params import SimParams
 
 KEEP = 3
 """The action that leaves a cell as it is."""
@@ -88,14 +87,14 @@ class BrainEnv(gymnasium.Env[Any, Any]):
             gymnasium.error.Error: An argument is invalid.
             gymnasium.error.DependencyNotInstalled: The firmware is not built.
         """
-        self._params, self._rewards = SimParams(), rewards or rules.Rewards()
+        self._rewards = rewards or rules.Rewards()
         for seconds in (step_s, limit_s):
-            rules.check_seconds(seconds, self._params)
+            rules.check_seconds(seconds)
         if profile not in PROFILES:
             raise error.Error(f"{profile!r} is not a profile: give one of {', '.join(PROFILES)}")
         self._hand = _hand(acts_on, parameters)
         self.action_space, self.observation_space = self._hand.space, _observation_space()
-        self._learns, self._step_ticks = learns, round(step_s / self._params.tick_s)
+        self._learns, self._step_ticks = learns, round(step_s / rules.PARAMS.tick_s)
         self._config = RunConfig(environments=1, limit_s=limit_s, profile=profile)
         self._stack = ExitStack()
         try:
@@ -141,7 +140,7 @@ class BrainEnv(gymnasium.Env[Any, Any]):
         news = counts - self._counts
         self._counts = counts
         left = simulation.arena.food.left
-        reward = float(self._rewards.of(before - left, ticks, int(news[-1]), self._params.tick_s))
+        reward = float(self._rewards.of(before - left, ticks, int(news[-1])))
         self._runs = not simulation.over
         return self._observation(news), reward, left == 0, simulation.over and left > 0, self._info()
 
@@ -208,7 +207,7 @@ def _hand(acts_on: str, parameters: Sequence[str]) -> _MemoryHand | _ParameterHa
 
 def _observation_space() -> spaces.Box:
     cells, counts = [max(Side)] * (CELL_COUNT - 1), [_COUNT_MAX] * len(_NOTHING_COUNTED)
-    high = np.array([*cells, len(SimParams().food_bands_mm), *counts], np.int32)
+    high = np.array([*cells, len(rules.PARAMS.food_bands_mm), *counts], np.int32)
     return spaces.Box(np.zeros_like(high), high, dtype=np.int32)
 
 

@@ -3,18 +3,21 @@
 import operator
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from gymnasium import error, spaces
 from numpy.typing import NDArray
 
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.lab.gymnasium_envs.told_worlds import TickLimits, ToldWorlds, deed_count
+from host_sim.lab.gymnasium_envs.told_worlds import ToldWorlds, deed_count
 from host_sim.protocol.generated import FEEL, NODE_MAX
 from host_sim.world.body_kinds import body_kind
 from host_sim.world.layouts import Layout, NoRoomError, generate
 from host_sim.world.params import SimParams
+
+PARAMS = SimParams()
+"""The dimensions of the arenas."""
 
 SECONDS_MAX = 36_000.0
 SEED_SPAN = 2**32
@@ -38,21 +41,16 @@ class Rewards:
     second: float = -0.01
     bump: float = -0.1
 
-    def of(self, eaten: Any, ticks: Any, collisions: Any, tick_s: float) -> Any:
+    def of(self, eaten: Any, ticks: Any, collisions: Any) -> Any:
         """The reward of a step, for numbers or for arrays of them."""
-        return self.food * eaten + self.second * tick_s * ticks + self.bump * collisions
+        return self.food * eaten + self.second * PARAMS.tick_s * ticks + self.bump * collisions
 
-
-class Limits(NamedTuple):
-    """Time limits of an episode and a step.
-
-    Attributes:
-        episode_s: Time limit of an episode, s of robot time.
-        step_ticks: Maximum number of control ticks of a step; None for as many as its actions need.
-    """
-
-    episode_s: float
-    step_ticks: int | None
+    def of_step(self, worlds: ToldWorlds, deeds: NDArray[np.uint8]) -> NDArray[np.float64]:
+        """Carries out the robots' deeds, and returns their rewards: shape (worlds, robots)."""
+        before = worlds.ticks.astype(np.int64)
+        worlds.step(deeds)
+        ticks = (worlds.ticks - before)[:, np.newaxis]
+        return np.asarray(self.of(worlds.food_eaten, ticks, worlds.collisions))
 
 
 def senses_space() -> spaces.Box:
@@ -65,15 +63,8 @@ def deed_space() -> spaces.Discrete:
     return spaces.Discrete(deed_count())
 
 
-def told_worlds(worlds: int, robots: int, limits: Limits, params: SimParams, body: str) -> ToldWorlds:
-    """Creates worlds with a time limit.
-
-    Args:
-        worlds: Number of worlds.
-        robots: Number of robots in each.
-        limits: Their time limits.
-        params: The dimensions of the worlds.
-        body: The robots' bodies: ideal, kit, or a file as in docs/bodies.md.
+def told_worlds(worlds: int, robots: int, limit_s: float, step_ticks: int | None, body: str) -> ToldWorlds:
+    """Creates worlds with a number of robots in each, from the arguments of an environment.
 
     Raises:
         error.Error: A number is out of its range, or there is no such body.
@@ -81,30 +72,29 @@ def told_worlds(worlds: int, robots: int, limits: Limits, params: SimParams, bod
     """
     if not 1 <= robots <= NODE_MAX:
         raise error.Error(f"{robots} robots do not fit: give 1 to {NODE_MAX}")
-    limit_s, step_ticks = limits
-    check_seconds(limit_s, params)
+    check_seconds(limit_s)
     if step_ticks is not None and not 1 <= step_ticks <= STEP_TICKS_MAX:
         raise error.Error(f"step_ticks is {step_ticks}: give 1 to {STEP_TICKS_MAX}, or None")
     try:
-        ticks = TickLimits(round(limit_s / params.tick_s), step_ticks or STEP_TICKS_MAX)
-        return ToldWorlds(worlds, robots, ticks, params, body_kind(body))
+        limit_ticks = round(limit_s / PARAMS.tick_s)
+        return ToldWorlds(worlds, robots, limit_ticks, step_ticks or STEP_TICKS_MAX, body_kind(body))
     except UsageError as fault:
         raise error.Error(str(fault)) from None
     except OctetError as fault:
         raise error.DependencyNotInstalled(str(fault)) from None
 
 
-def check_seconds(seconds: float, params: SimParams) -> None:
+def check_seconds(seconds: float) -> None:
     """Checks the length of a step or of an episode.
 
     Raises:
         error.Error: The length is out of its range.
     """
-    if not params.tick_s <= seconds <= SECONDS_MAX:
-        raise error.Error(f"{seconds} s is not a possible length: give {params.tick_s} to {SECONDS_MAX:.0f} s")
+    if not PARAMS.tick_s <= seconds <= SECONDS_MAX:
+        raise error.Error(f"{seconds} s is not a possible length: give {PARAMS.tick_s} to {SECONDS_MAX:.0f} s")
 
 
-def draw_environment(draws: np.random.Generator, robots: int, params: SimParams) -> tuple[Layout, int]:
+def draw_environment(draws: np.random.Generator, robots: int) -> tuple[Layout, int]:
     """Draws an environment with room for the robots. Returns it and the seed used for it and the bodies.
 
     Raises:
@@ -113,7 +103,7 @@ def draw_environment(draws: np.random.Generator, robots: int, params: SimParams)
     for _ in range(_DRAWS):
         with suppress(NoRoomError):
             seed = int(draws.integers(SEED_SPAN))
-            return generate(seed, 1, params, robots), seed
+            return generate(seed, 1, PARAMS, robots), seed
     raise error.Error(f"{robots} robots are too many: none of {_DRAWS} random arenas has room for them")
 
 
@@ -136,7 +126,7 @@ def chosen_environment(options: dict[str, Any] | None) -> tuple[int, int] | None
     return seed, number
 
 
-def chosen_layout(options: dict[str, Any] | None, robots: int, params: SimParams) -> tuple[Layout, int] | None:
+def chosen_layout(options: dict[str, Any] | None, robots: int) -> tuple[Layout, int] | None:
     """The environment selected by the options of `reset`, and its seed; None if there is none.
 
     Raises:
@@ -144,7 +134,7 @@ def chosen_layout(options: dict[str, Any] | None, robots: int, params: SimParams
     """
     chosen = chosen_environment(options)
     try:
-        return chosen and (generate(*chosen, params, robots), chosen[0])
+        return chosen and (generate(*chosen, PARAMS, robots), chosen[0])
     except NoRoomError as fault:
         raise error.Error(f"{robots} robots are too many: {fault}") from None
 

@@ -1,7 +1,7 @@
 """Worlds whose robots carry out given actions (`native/told.h`), several worlds per call."""
 
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,13 +18,6 @@ LIBRARY = BUILD / "host" / "host_sim" / "lab" / "gymnasium_envs" / "native" / "l
 HEADERS = (*WORLD_HEADERS, PACKAGE / "lab" / "gymnasium_envs" / "native" / "told.h")
 
 
-class TickLimits(NamedTuple):
-    """Maximum control ticks of a world and of a step."""
-
-    world: int
-    step: int
-
-
 class ToldWorlds:
     """Worlds in C, each with the same number of robots. Arrays are views of C memory: copy data to be kept.
 
@@ -34,25 +27,26 @@ class ToldWorlds:
         collisions: Shape (worlds, robots): collisions in the last step: times that a robot began to touch something.
         ticks: Shape (worlds,): control ticks since the world was entered.
         food_left: Shape (worlds,): pieces of food left.
+        limit_ticks: Control ticks after which a world stops.
     """
 
     def __init__(
-        self, worlds: int, robots: int, limits: TickLimits, params: SimParams, kind: BodyKind | None = None
+        self, worlds: int, robots: int, limit_ticks: int, step_ticks: int, kind: BodyKind | None = None
     ) -> None:
         """Allocates the worlds; each must be entered before the first step.
 
         Args:
             worlds: Number of worlds.
             robots: Number of robots in each.
-            limits: Ticks after which a world stops, and after which a step ends.
-            params: The dimensions of the worlds.
+            limit_ticks: Ticks after which a world stops.
+            step_ticks: Ticks after which a step ends.
             kind: Properties of the bodies; None: ideal.
 
         Raises:
             NoNativeError: The library cannot be used.
         """
         self._ffi, self._library = loaded()
-        self._params, self._kind = params, kind
+        self._kind, self.limit_ticks = kind, limit_ticks
         self._arenas: list[Arena | None] = [None] * worlds
         ffi, motion_size = self._ffi, self._library.told_motion_size()
         self._motions: Any = ffi.new("char[]", worlds * robots * motion_size)
@@ -61,7 +55,7 @@ class ToldWorlds:
         for i in range(worlds):
             told = self._all[i]
             told.motions = ffi.cast("struct motion *", self._motions + i * robots * motion_size)
-            told.robots, told.limit_ticks, told.step_ticks = self._robots + i * robots, limits.world, limits.step
+            told.robots, told.limit_ticks, told.step_ticks = self._robots + i * robots, limit_ticks, step_ticks
         self._share(worlds, robots)
 
     def _share(self, worlds: int, robots: int) -> None:
@@ -76,14 +70,8 @@ class ToldWorlds:
         self.food_left: NDArray[np.uint32] = words[:, ffi.offsetof("struct told", "food_left") // words.itemsize]
 
     def enter(self, world: int, layout: Layout, seed: int) -> None:
-        """Puts the robots of a world at their starts in a layout.
-
-        Args:
-            world: Index of the world.
-            layout: The layout, with a start for each robot.
-            seed: Seed from which their bodies are drawn.
-        """
-        arena = Arena(layout, self._params, kind=self._kind)
+        """Puts the robots of a world at their starts in a layout; their bodies are drawn from the seed."""
+        arena = Arena(layout, SimParams(), kind=self._kind)
         if self._kind is not None:
             arena.begin(seed)
         else:
@@ -94,13 +82,19 @@ class ToldWorlds:
         self._library.told_begin(self._ffi.addressof(self._all, world))
 
     def step(self, deeds: NDArray[np.uint8]) -> None:
-        """Carries out each robot's deed.
-
-        Args:
-            deeds: Shape (worlds, robots), contiguous: an `enum told_deed` for each robot.
-        """
+        """Carries out each robot's deed, an `enum told_deed`: shape (worlds, robots), contiguous."""
         told = self._ffi.from_buffer("uint8_t[]", deeds)
         self._library.told_step(self._all, len(self._arenas), told)
+
+    def ended(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """For each world, whether all food is eaten; and if it is not, whether its time is up."""
+        eaten = self.food_left == 0
+        return eaten, ~eaten & (self.ticks >= self.limit_ticks)
+
+    def info(self, world: int) -> dict[str, Any]:
+        """The `info` of an environment with this world."""
+        robot_s = round(int(self.ticks[world]) * SimParams.tick_s, 3)
+        return {"robot_s": robot_s, "food_left": int(self.food_left[world])}
 
 
 def deed_count() -> int:
