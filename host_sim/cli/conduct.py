@@ -2,7 +2,7 @@
 
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
@@ -157,16 +157,12 @@ def _save_memories(
     if not savers:
         return
 
-    def save(simulation: Simulation) -> None:
+    def save(how: Callable[..., None]) -> None:
         for saver, client in zip(savers, simulation.clients, strict=True):
-            saver.save(client.memory, doubtful=bool(client.incidents))
+            how(saver, client.memory, doubtful=bool(client.incidents))
 
-    def finish() -> None:
-        for saver, client in zip(savers, simulation.clients, strict=True):
-            saver.finish(client.memory, doubtful=bool(client.incidents))
-
-    stack.callback(finish)
-    simulation.watch = each(simulation.watch, save)
+    stack.callback(save, MemorySaver.finish)
+    simulation.watch = each(simulation.watch, lambda _: save(MemorySaver.save))
 
 
 def _memory_paths(options: RunOptions) -> list[Path]:

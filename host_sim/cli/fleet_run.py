@@ -31,7 +31,6 @@ def conduct_fleet(options: RunOptions) -> Summary:
         OctetError: The run failed.
     """
     config, line = options, ProgressLine(shown=options.talks)
-    world_of(config.world)  # an error in it is found before anything is started
     results: list[FleetResult] = []
     film = FleetFilm()
     run = run_fleet(config, _progress_shown(line, config, results), film)

@@ -56,10 +56,7 @@ class Replay:
 def replay(log: LogReader, protocol: Protocol, program: bytes | None = None) -> Replay:
     """Feeds the frames sent to one robot in a log to the firmware, and compares drives and memories.
 
-    Args:
-        log: The log.
-        protocol: The protocol of the robot's node.
-        program: The program used as its brain; None for the firmware's own.
+    The firmware has its own brain, or a program as its brain.
 
     Raises:
         UsageError: The log is of another protocol, has no heartbeat of this node, or holds a damaged frame.
@@ -68,7 +65,7 @@ def replay(log: LogReader, protocol: Protocol, program: bytes | None = None) -> 
     comparison = _Comparison(log, protocol, program)
     for line in log:
         if line.frame.id in MEMORY_IDS and line.frame.id != protocol.id_of("MEMORY"):
-            comparison.overhear(line.frame)
+            comparison.feed(line.frame)  # another robot's memory
         elif node_of(line.frame.id) == protocol.node and (difference := comparison.accept(line)):
             return Replay(comparison.drives, difference, unanswered=comparison.unanswered)
     difference = comparison.end() if comparison.stopped else None  # a log that was cut off has no last answer
@@ -109,7 +106,7 @@ class _Comparison:
             time_s = self._time_us / 1e6
             raise UsageError(f"{self._log.path}: damaged frame at {time_s:.2f} s: {self._protocol.describe(frame)}")
         if decoded.name == "RANGES":
-            self._feed(frame)
+            self.feed(frame)
             return None
         if decoded.name in _TO_ROBOT:
             opcode = decoded.signals.get("opcode")
@@ -118,7 +115,7 @@ class _Comparison:
             self._sent = frame if opcode != Opcode.REPORT else self._sent
             self.stopped = opcode == Opcode.STOP or (self.stopped and opcode == Opcode.REPORT)
             self._lockstep = bool(decoded.signals.get("lockstep", self._lockstep))
-            self._feed(frame)
+            self.feed(frame)
             return difference
         if decoded.name == "EMERGENCY":
             self._faults |= decoded.signals["kinds"]
@@ -126,17 +123,14 @@ class _Comparison:
             return self._compare_drive(frame, decoded)
         return self._compare_memory(frame, decoded) if decoded.name == "MEMORY" else None
 
-    def overhear(self, frame: Frame) -> None:
-        """Feeds another robot's memory to the robot."""
-        self._feed(frame)
-
     def end(self) -> Difference | None:
         """The firmware's drive that is missing from the log, if any."""
         if not self._pending or not self._lockstep:
             return None
         return Difference(self._time_us, None, self._pending.popitem()[1])
 
-    def _feed(self, frame: Frame) -> None:
+    def feed(self, frame: Frame) -> None:
+        """Feeds a frame to the firmware; in real time, it waits for the next drive."""
         if not self._lockstep:
             self._waiting.append(frame)
             return

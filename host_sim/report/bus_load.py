@@ -79,8 +79,7 @@ def _fit_table() -> str:
 
 def _fitting(bits_a_second: float) -> str:
     """How many robots fit, in general and if they use all messages."""
-    counts = [min(NODE_MAX, int(bits_a_second / bits)) for bits in _robot_bits()]
-    return _with_brackets([str(count) for count in counts])
+    return _with_brackets(str(min(NODE_MAX, int(bits_a_second / bits))) for bits in _robot_bits())
 
 
 def _share_table() -> str:
@@ -90,16 +89,16 @@ def _share_table() -> str:
 
 
 def _share(robots: int, rate: int) -> str:
-    return _with_brackets([f"{robots * bits / rate:.0%}" for bits in _robot_bits()])
+    return _with_brackets(f"{robots * bits / rate:.0%}" for bits in _robot_bits())
 
 
 def _robot_bits() -> tuple[float, float]:
     return robot_bits_a_second(), robot_bits_a_second(optional=True)
 
 
-def _with_brackets(pair: list[str]) -> str:
+def _with_brackets(pair: Iterable[str]) -> str:
     plain, full = pair
-    return f"{plain} ({full})" if any(name in MESSAGES for name in OPTIONAL) else plain
+    return f"{plain} ({full})"
 
 
 def _message_table() -> str:
@@ -108,8 +107,7 @@ def _message_table() -> str:
         [name, str(message.length), str(worst_bits(message.length)), *_regular(message)]
         for name, message in MESSAGES.items()
     ]
-    plain, full = map(_kbit, _robot_bits())
-    return _table([head, *rows, ["a robot", "", "", "", _with_brackets([plain, full])]])
+    return _table([head, *rows, ["a robot", "", "", "", _with_brackets(map(_kbit, _robot_bits()))]])
 
 
 def _regular(message: Message) -> list[str]:

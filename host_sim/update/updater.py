@@ -25,15 +25,8 @@ from host_sim.update.keys import Ed25519PrivateKey
 from host_sim.update.status import REASONS, Status, UpdateError
 
 _T = TypeVar("_T")
-_BOARD, _STATUS_ID, _WRITTEN, _VERSION, _RUNNING, _NODE, _BITRATE = (
-    0xF191,
-    0xFD00,
-    0xFD01,
-    0xFD02,
-    0xFD03,
-    0xFD04,
-    0xFD05,
-)
+_BOARD = 0xF191
+_STATUS_ID, _WRITTEN, _VERSION, _RUNNING, _NODE, _BITRATE = range(0xFD00, 0xFD06)
 _ERASE, _CHECK, _FLOOR = 0xFF00, 0xFF01, 0xF000
 _PURPOSE = b"octet challenge\0"
 _PROGRAMMING, _CRC_FROM = 2, 16
@@ -92,12 +85,10 @@ class Updater:
         for service in _UNUSED:
             count = self._connection.answers(service, _WAIT_S)
             if count > 1:
-                raise UpdateError(
-                    f"{count} boards answer as node {self.node}: leave one of them on the bus"
-                ) from None
+                raise UpdateError(f"{count} boards answer as node {self.node}: leave one of them on the bus")
             if count == 1:
                 return
-        raise UpdateError(f"node {self.node} does not answer: it is off the bus, or has no boot loader") from None
+        raise UpdateError(f"node {self.node} does not answer: it is off the bus, or has no boot loader")
 
     def unlock(self, again: int = _ROUNDS) -> None:
         """Authenticates with the key.
@@ -139,11 +130,7 @@ class Updater:
         self._write(_BITRATE, struct.pack(">I", bitrate))
 
     def install(self, image: SlotImage, progress: Callable[[int], None]) -> None:
-        """Writes an image to the free slot and selects it. Call `enter` first.
-
-        Args:
-            image: The image for that slot.
-            progress: Called with the number of bytes written.
+        """Writes an image to the free slot and selects it; `progress` gets the bytes written. Call `enter` first.
 
         Raises:
             UpdateError: The board refuses it.
