@@ -23,7 +23,6 @@ class Cable:
     """
 
     def __init__(self) -> None:
-        """Creates the ptys."""
         self._masters, self._slaves, self.ends = [_GONE] * 2, [_GONE] * 2, [""] * 2
         for end in range(2):
             self._open(end)
@@ -97,14 +96,9 @@ class Cable:
 
 
 class Socket:
-    """A name for a tty that stays the same while cables are plugged in and out."""
+    """A name for a tty that stays the same while cables are plugged in and out; at first it leads nowhere."""
 
     def __init__(self, path: Path) -> None:
-        """Creates a name that leads nowhere yet.
-
-        Args:
-            path: The name.
-        """
         self.path = path
 
     def plug(self, tty_name: str) -> None:

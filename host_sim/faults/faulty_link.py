@@ -70,13 +70,7 @@ class FaultyLink:
     """
 
     def __init__(self, link: Link, schedule: Schedule, clock: Clock | None = None) -> None:
-        """Takes over a link: `close` closes it.
-
-        Args:
-            link: The link to the robot.
-            schedule: The faults.
-            clock: The clock for delays; by default the wall clock.
-        """
+        """Takes over a link, which `close` closes; delays are by the wall clock unless another one is given."""
         self.schedule = schedule
         self.link, self._clock = link, clock or WallClock()
         self._ways: dict[Direction, _Way] = {direction: _Way() for direction in DIRECTIONS}

@@ -40,12 +40,7 @@ class Schedule:
     """
 
     def __init__(self, rules: Sequence[Rule], seed: int, forgers: Forgers) -> None:
-        """Prepares the faults.
-
-        Args:
-            rules: Applied in this order, those for a single frame first.
-            seed: Seed for all that is random.
-            forgers: Creates forgers.
+        """Prepares the faults: rules are applied in this order, those for a single frame first.
 
         Raises:
             UsageError: There is no such fault, or its size is invalid.

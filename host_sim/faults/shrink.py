@@ -16,12 +16,8 @@ def fewer(
 ) -> Iterator[tuple[list[_Item], _Result]]:
     """Delta debugging: leaves out ever smaller parts of the items for as long as possible.
 
-    Args:
-        items: Items that cause the effect.
-        attempt: Tries some of them; None if they do not cause it.
-
     Yields:
-        Ever fewer items that cause it, and the result of `attempt` for them.
+        Ever fewer items that cause the effect, and the result of `attempt` for them; None means no effect.
     """
     size = max(len(items) // 2, 1)
     while size:

@@ -17,12 +17,9 @@ _MARGIN_MM = 500.0
 
 
 def reckon(recording: Recording, node: int, params: SimParams) -> Trajectory:
-    """The trajectory of a recording, centred in an empty arena that is large enough for it.
+    """The trajectory of a recording of at least one tick, in the middle of an empty arena.
 
-    Args:
-        recording: A recording of at least one tick.
-        node: The robot's node number on the bus.
-        params: The dimensions of the world; the arena has at least their size.
+    The arena has at least the size of `params`, and is larger if the path needs it.
     """
     poses = _poses([tick.senses for tick in recording.ticks], params)
     params, poses = _framed(poses, params)

@@ -29,12 +29,6 @@ def summarize_fleet(config: RunConfig, results: Sequence[FleetResult], tick_s: f
     - robot_ticks: Number of ticks of all robots.
     - wall_s: Duration of the run, s of wall-clock time.
     - real_time_factor: Robot time of all robots divided by wall-clock time.
-
-    Args:
-        config: The configuration.
-        results: The result of each robot in each environment.
-        tick_s: Length of a tick, s.
-        wall_s: Duration of the run, s of wall-clock time.
     """
     ticks = sum(result.ticks for result in results)
     environments = [

@@ -33,7 +33,6 @@ class LogReader:
     """
 
     def __init__(self, path: Path) -> None:
-        """Takes the path; the file is opened by iteration."""
         self.path = path
         self.skipped: Counter[str] = Counter()
 
@@ -88,11 +87,7 @@ def frames_of(log: Iterable[Recorded], node: int) -> Iterator[Recorded]:
 
 
 def check_protocol(log: LogReader, protocol: Protocol) -> None:
-    """Checks that a log was recorded with this protocol.
-
-    Args:
-        log: The log.
-        protocol: The protocol of the robot's node.
+    """Checks that a log was recorded with this protocol, that of a robot's node.
 
     Raises:
         UsageError: The log has no heartbeat of this node, or was recorded with another protocol.

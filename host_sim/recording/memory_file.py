@@ -70,11 +70,7 @@ class MemorySaver:
         self._set_aside: Memory | None = None
 
     def save(self, memory: Sequence[int], *, doubtful: bool = False) -> None:
-        """Saves a memory if it has changed.
-
-        Args:
-            memory: The eight cells.
-            doubtful: Whether the run is doubtful by now.
+        """Saves a memory if it has changed; that of a run that is doubtful by now, beside the file.
 
         Raises:
             OctetError: The file cannot be written; the old one is unchanged.

@@ -32,11 +32,7 @@ class Recording:
 
 
 def read_recording(log: LogReader, protocol: Protocol) -> Recording:
-    """Reads one robot's part of a log.
-
-    Args:
-        log: The log.
-        protocol: The protocol of the robot's node.
+    """Reads one robot's part of a log, given the protocol of its node.
 
     Raises:
         UsageError: The log is of another protocol, or has no heartbeat or no tick of this node.

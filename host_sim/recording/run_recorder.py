@@ -109,10 +109,10 @@ class RunRecorder:
             self._forget(next((first for first in begun if trajectory.ticks - first <= TICKS_MAX), begun[-1]))
 
     def add(self, robot: int, tick: Tick, pose: Pose, *, lifted: bool = False) -> None:
-        """Adds one robot's tick.
+        """Adds one robot's tick; each robot is added once per tick.
 
         Args:
-            robot: Index of the robot; each robot is added once per tick.
+            robot: Index of the robot.
             tick: The tick.
             pose: Pose of its body, after its move.
             lifted: Whether a person holds it in the air.
@@ -145,12 +145,9 @@ class RunRecorder:
         _note(track.memories, tick, list(history.memory))
 
     def add_block(self, robot: int, block: RobotBlock, memory: Memory) -> None:
-        """Adds one robot's ticks of a block. Food eaten and reports end a block, so they belong to its last tick.
+        """Adds one robot's ticks of a block, and its memory after the last one; each robot is added once per block.
 
-        Args:
-            robot: Index of the robot; each robot is added once per block.
-            block: Its ticks.
-            memory: Its eight cells after the last one.
+        Food eaten and reports end a block, so they belong to its last tick.
         """
         rows, first = memoryview(block.rows), 0
         if block.memory != self._memories[robot] and len(rows) > _PACKED.size:
@@ -160,12 +157,7 @@ class RunRecorder:
         self.trajectory.tracks[robot].poses_flat.frombytes(block.poses)
 
     def eaten(self, eaten: Sequence[bool], drives: Sequence[Drive]) -> None:
-        """Records that food was eaten in the last tick added.
-
-        Args:
-            eaten: For each piece of food, whether it was eaten by the end of that tick.
-            drives: The robots' drives in that tick.
-        """
+        """Records which pieces of food were eaten by the end of the last tick added, and the robots' drives in it."""
         trajectory = self.trajectory
         _note(trajectory.meals, trajectory.ticks - 1, [int(is_eaten) for is_eaten in eaten])
         for track, drive in zip(trajectory.tracks, drives, strict=True):

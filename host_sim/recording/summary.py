@@ -74,13 +74,6 @@ def summarize(
     - log_sha256: SHA-256 of the lines of the log without the data of BOOT, in hexadecimal.
     - wall_s: Duration of the run, s of wall-clock time.
     - real_time_factor: Robot time divided by wall-clock time.
-
-    Args:
-        config: The configuration of the run.
-        simulation: The run, at its end.
-        episodes: The result of each environment.
-        log_sha256: SHA-256 of the log, in hexadecimal.
-        wall_s: Duration of the run, s of wall-clock time.
     """
     clients = simulation.clients
     content: dict[str, Any] = {
@@ -128,12 +121,7 @@ def _changes(config: RunConfig, record: WorldRecord) -> dict[str, list[str]]:
 
 
 def environment_line(number: int, episode: EpisodeResult) -> str:
-    """The result of one environment in one line.
-
-    Args:
-        number: Number of the environment, from 1.
-        episode: Its result.
-    """
+    """The result of one environment in one line; environments are numbered from 1."""
     end = "all food eaten" if episode.finished else f"{sum(episode.eaten)} of {len(episode.eaten)} food eaten"
     end += ", every sensor stuck" if any(robot.stuck_sensors == len(FEEL) for robot in episode.robots) else ""
     trials, known, bored = (episode.begun(reason) for reason in (Reason.TRIAL, Reason.REMEMBERED, Reason.BOREDOM))

@@ -162,11 +162,7 @@ class Trajectory:
         return self.tracks[0].ticks
 
     def at(self, tick: int, robot: int = 0) -> State:
-        """The state of a robot after a tick, equal to that of `view.state.state` at the time.
-
-        Args:
-            tick: Number of the tick.
-            robot: Index of the robot in `tracks`.
+        """The state of a robot, by its index in `tracks`, after a tick; equal to that of `view.state.state` then.
 
         Raises:
             IndexError: The tick does not exist, or is no longer retained.

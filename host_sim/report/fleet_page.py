@@ -38,13 +38,7 @@ _EATEN_BITS = 30
 
 
 def write_fleet_page(path: Path, config: RunConfig, film: FleetFilm, params: SimParams) -> None:
-    """Writes the page of a fleet; equal runs give equal bytes.
-
-    Args:
-        path: The file to write; an existing one is replaced.
-        config: The run.
-        film: The samples, at least one.
-        params: The dimensions of its worlds.
+    """Writes the page of a fleet from a film of at least one sample; equal runs give equal bytes.
 
     Raises:
         OctetError: The file cannot be written.

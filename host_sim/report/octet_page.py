@@ -18,13 +18,7 @@ _TEMPLATE, _WORKER = "octet.html", "sim/page_worker.js"
 
 
 def write_octet_page(path: Path) -> int:
-    """Writes the page; equal sources give equal bytes.
-
-    Args:
-        path: The file to write; an existing one is replaced.
-
-    Returns:
-        Its size in bytes.
+    """Writes the page, and returns its size in bytes; equal sources give equal bytes.
 
     Raises:
         OctetError: The WebAssembly is not built, or the file cannot be written.

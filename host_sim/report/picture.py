@@ -41,10 +41,6 @@ _MOST_NEWS = 12
 def write_picture(path: Path, trajectory: Trajectory) -> None:
     """Writes the picture of a run as PNG, below 400 kB for one robot; equal runs give equal bytes.
 
-    Args:
-        path: The file to write; an existing one is replaced.
-        trajectory: As for `draw_run`.
-
     Raises:
         OctetError: The file cannot be written.
     """
@@ -52,11 +48,9 @@ def write_picture(path: Path, trajectory: Trajectory) -> None:
 
 
 def draw_run(trajectory: Trajectory) -> Image.Image:
-    """The picture of a run.
+    """The picture of a run of at least one tick.
 
-    Args:
-        trajectory: The run, of at least one tick. At most the last nine environments and the memories of the first
-            eight robots are shown.
+    At most the last nine environments and the memories of the first eight robots are shown.
     """
     params, tracks = trajectory.params, trajectory.tracks
     rows = [_legend(params), *(_line(text) for text in omissions(trajectory.environments, len(tracks)))]

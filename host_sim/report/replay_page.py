@@ -62,13 +62,9 @@ _COLUMNS = (*_POSE, *COLUMNS)
 
 
 def write_page(path: Path, trajectory: Trajectory, title: str, laboratory: Mapping[str, Any] | None = None) -> None:
-    """Writes the page of a run; equal runs give equal bytes.
+    """Writes the page of a run of at least one tick, with the data of laboratory.py if there is any.
 
-    Args:
-        path: The file to write; an existing one is replaced.
-        trajectory: The run, of at least one tick.
-        title: Title of the page.
-        laboratory: The data of laboratory.py; None if there is none.
+    Equal runs give equal bytes.
 
     Raises:
         OctetError: The file cannot be written.

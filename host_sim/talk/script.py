@@ -118,12 +118,7 @@ class Script:
 
 
 def read_script(text: str, name: str, facts: Collection[str] = ()) -> Script:
-    """Reads a script.
-
-    Args:
-        text: The script.
-        name: Name of the script for error messages.
-        facts: Names of the facts that it may use.
+    """Reads a script, which may use the named facts; its own name is for error messages.
 
     Raises:
         UsageError: The script has an error; the message names the line.

@@ -43,11 +43,7 @@ Node = Word | Group
 
 
 def read_groups(text: str, name: str) -> list[Group]:
-    """Reads the lists of a script; empty ones are left out.
-
-    Args:
-        text: The script.
-        name: Name of the script for error messages.
+    """Reads the lists of a script, whose name is for error messages; empty lists are left out.
 
     Raises:
         UsageError: Parentheses do not match, or a word other than START is outside them.

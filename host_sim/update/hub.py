@@ -13,14 +13,9 @@ _SLICE_S = 0.0005
 
 
 class Share:
-    """One node's share of the link, as a `Link`. Another thread may use it."""
+    """One node's share of the link, as a `Link` that sends through an outbox. Another thread may use it."""
 
     def __init__(self, outbox: "SimpleQueue[Frame]") -> None:
-        """Starts without frames.
-
-        Args:
-            outbox: Receives the frames to send.
-        """
         self.inbox: SimpleQueue[Frame] = SimpleQueue()
         self.ended = False
         self._outbox = outbox
@@ -43,14 +38,9 @@ class Share:
 
 
 class Hub:
-    """Passes frames between a link and updates, each in a thread; only the caller's thread uses the link."""
+    """Passes frames between a link and updates, each in a thread; the caller alone uses the link, and closes it."""
 
     def __init__(self, link: Link) -> None:
-        """Starts without shares.
-
-        Args:
-            link: An open link; the caller closes it.
-        """
         self._link = link
         self._outbox: SimpleQueue[Frame] = SimpleQueue()
         self._shares: dict[int, Share] = {}

@@ -19,11 +19,7 @@ except ImportError as error:
 _SLICE_S = 0.002
 _OTHERS_S = 0.05
 _PADDING = [0xCC] * 6
-_PARAMS = {
-    "tx_padding": 0xCC,
-    "stmin": 0,
-    "blocksize": 0,
-}
+_PARAMS = {"tx_padding": 0xCC, "stmin": 0, "blocksize": 0}
 
 
 class IsoTpConnection(BaseConnection):
@@ -34,12 +30,7 @@ class IsoTpConnection(BaseConnection):
     """
 
     def __init__(self, link: Link, node: int) -> None:
-        """Creates a connection over an open link, which the caller closes.
-
-        Args:
-            link: Carries frames to the node and back.
-            node: Number of the node.
-        """
+        """Creates a connection to a node over an open link, which the caller closes."""
         super().__init__(f"node {node}")
         self.logger.setLevel(logging.CRITICAL)  # failures are reported by the caller
         logging.getLogger(isotp.TransportLayerLogic.LOGGER_NAME).setLevel(logging.CRITICAL)
