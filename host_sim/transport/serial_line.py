@@ -9,17 +9,8 @@ from host_sim.transport.line_stats import LineStats
 from host_sim.transport.slcan_link import SlcanLink
 
 _BAUD = 115_200
-_BIT_RATES = {
-    10_000: 0,
-    20_000: 1,
-    50_000: 2,
-    100_000: 3,
-    125_000: 4,
-    250_000: 5,
-    500_000: 6,
-    800_000: 7,
-    1_000_000: 8,
-}
+_BIT_RATES = (10_000, 20_000, 50_000, 100_000, 125_000, 250_000, 500_000, 800_000, 1_000_000)
+"""In the order of their numbers in slcan's command S."""
 
 
 def open_serial_line(channel: str, bitrate: int, ids: Sequence[int], stats: LineStats) -> SlcanLink:
@@ -45,7 +36,7 @@ def open_serial_line(channel: str, bitrate: int, ids: Sequence[int], stats: Line
     link = SlcanLink(port, stats, ids)
     try:
         # An end of line first, for what may be left of an older one; then close, speed, open.
-        link.write(b"\rC\rS%d\rO\r" % _BIT_RATES[bitrate])
+        link.write(b"\rC\rS%d\rO\r" % _BIT_RATES.index(bitrate))
     except LinkDownError:
         link.close()
         raise
