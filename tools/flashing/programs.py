@@ -22,7 +22,6 @@ _TARGETS = {
     "stm32f103": ("stm32f1x", "stm32f103c8"),
     "stm32g431": ("stm32g4x", "stm32g431rb"),
 }
-_OPENOCD_INTERFACES = {"stlink": "stlink", "cmsis-dap": "cmsis-dap", "jlink": "jlink"}
 _TIMEOUT_S = 120
 
 Command = list[str]
@@ -47,7 +46,7 @@ class Plan:
 
 def _openocd(image: Image, probe: Probe) -> Plan:
     serial = ["-c", f"adapter serial {probe.where}"] if probe.where else []
-    interface = ["-f", f"interface/{_OPENOCD_INTERFACES[probe.kind]}.cfg", *serial]
+    interface = ["-f", f"interface/{probe.kind}.cfg", *serial]
     transport = [] if probe.kind == "stlink" else ["-c", "transport select swd"]
     command = ["openocd", *interface, *transport, "-f", f"target/{_TARGETS[image.chip][0]}.cfg"]
     ask = [*command, "-c", f"init; echo [format chip=0x%x [read_memory {_IDCODE} 32 1]]; shutdown"]

@@ -3,7 +3,6 @@
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TypedDict
 
 from tools.verify.command import output_of
 
@@ -14,12 +13,8 @@ BUILDS = ("feather_stm32f405", "blue_pill", "nucleo_g431rb")
 CHECKED = ("firmware", "hal")
 
 
-class Command(TypedDict):
-    """An entry of a compilation database."""
-
-    directory: str
-    command: str
-    file: str
+Command = dict[str, str]
+"""An entry of a compilation database: directory, command and file."""
 
 
 def built_sources() -> list[Command]:
