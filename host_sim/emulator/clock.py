@@ -56,12 +56,6 @@ class Clock:
         cycles: int = self.model.cycles
         return cycles
 
-    @property
-    def period(self) -> int:
-        """Length of a cycle."""
-        period: int = self.model.period_fs
-        return period
-
     def add(self, due: Callable[[], int]) -> Callable[[int], None]:
         """Adds an event.
 
@@ -102,11 +96,6 @@ class Clock:
         """Notes that a new event is due at once."""
         self._library.clock_expect(self.model, self.model.now)
 
-    def settle(self) -> None:
-        """Runs all events that are due."""
-        self._library.clock_settle(self.model)
-        self.raise_failure()
-
     def _set_alarm(self, number: int, moment: int) -> None:
         alarm = self._alarms[number]
         alarm.ns, alarm.fs = divmod(min(moment, NEVER), _NS)
@@ -116,12 +105,13 @@ class Clock:
         self._set_alarm(number, self._timed[number]())
 
     def execute(self, cycles: int) -> None:
-        """Advances time by a number of cycles."""
+        """Advances time by a number of cycles, and runs all events that are due then."""
         self._library.clock_execute(self.model, cycles)
         self.raise_failure()
 
-    def skip_to(self, moment: int) -> None:
-        """Advances time while the core is idle, and stops at each event on the way."""
+    def skip(self, span: int) -> None:
+        """Advances time by a span while the core is idle, and stops at each event on the way."""
+        moment = self.now + span
         while (now := self.now) < moment:
             ns, fs = divmod(min(moment, now + _HOUR), _NS)
             self._library.clock_skip_to(self.model, (ns, fs))
@@ -132,10 +122,6 @@ class Clock:
         self._library.clock_execute(self.model, 0)
         self._library.clock_skip_to_event(self.model, _HOUR // _NS)
         self.raise_failure()
-
-    def skip(self, span: int) -> None:
-        """As `skip_to`, by a span of time."""
-        self.skip_to(self.now + span)
 
     def fail(self, _kind: object, failure: BaseException, _trace: object) -> None:
         """Stops time because a function that C called has failed. The arguments are those of `__exit__`."""

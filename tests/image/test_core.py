@@ -83,7 +83,7 @@ def test_an_instruction_takes_a_cycle_whatever_its_length(hardware, nop):
 
     assert counts == [(5, 5)]  # of the whole block
     assert hardware.core.instructions == hardware.clock.cycles
-    assert hardware.clock.now == hardware.clock.cycles * hardware.clock.period
+    assert hardware.clock.now == hardware.clock.cycles * hardware.clock.model.period_fs
 
 
 @pytest.fixture
@@ -127,7 +127,7 @@ def test_events_happen_in_their_order_while_time_is_skipped(clock):
     for name in moments:
         clock.add(timed(name))
     clock.expect(0)
-    clock.settle()
+    clock.execute(0)
     clock.skip(10)
 
     assert seen == [("a", 3), ("b", 5), ("a", 9)]
