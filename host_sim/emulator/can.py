@@ -1,6 +1,5 @@
 """CAN controllers of the boards and the wire between nodes; the models are written in C (`models/`)."""
 
-from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -53,6 +52,8 @@ class CanController(Peripheral):
 
     called: str
     """Name of the peripheral, as in the reference manual."""
+    kind: str
+    """Name of its kind in C."""
     control: int
     """Offset of the register by which a driver connects it to the bus."""
 
@@ -63,6 +64,7 @@ class CanController(Peripheral):
         bus_hz: Callable[[], int],
         faults: CanFaults,
         heard: Callable[[CanFrame], None],
+        *details: int,
     ) -> None:
         """Creates a controller that is not on the bus.
 
@@ -72,6 +74,7 @@ class CanController(Peripheral):
             bus_hz: Returns the frequency of the controller's clock, Hz.
             faults: Faults to simulate.
             heard: Called with each frame that the board has sent.
+            details: What the function that opens its kind takes besides the model and the wire.
 
         Raises:
             OctetError: The models are not built.
@@ -82,24 +85,17 @@ class CanController(Peripheral):
         self._data = ffi.buffer(self._frame.data)
         self.wire: Any = ffi.new("struct can_wire *")
         library.wire_open(self.wire)
-        self.model: Any = self.open()
+        self.model: Any = ffi.new(f"struct {self.kind} *")
+        getattr(library, f"{self.kind}_open")(self.model, self.wire, *details)
         self.node: Any = self.model.node
         self.node.init_stuck, self.node.stuck_mailboxes = faults.init_stuck, faults.stuck_mailboxes
         super().__init__(self.called, {offset: self._register(offset, name) for offset, name in names.items()})
         clock.join_wire(self.wire, self._take)
 
-    @abstractmethod
-    def open(self) -> Any:
-        """Creates the controller's model on the wire."""
-
-    @abstractmethod
-    def restart(self) -> None:
-        """Resets the model."""
-
     def reset(self) -> None:
         """As in `Peripheral`."""
         super().reset()
-        self.restart()
+        getattr(self.library, f"{self.kind}_reset")(self.model)
 
     def set_clocked(self, clocked: bool) -> None:
         """As in `Peripheral`."""
@@ -168,7 +164,7 @@ _FILTERS = {0x200: "FMR", 0x204: "FM1R", 0x20C: "FS1R", 0x214: "FFA1R", 0x21C: "
 class BxCan(CanController):
     """bxCAN, the controller of F1 and F4; see `CanController`."""
 
-    called, control = "CAN1", 0x00
+    called, kind, control = "CAN1", "bxcan", 0x00
 
     def __init__(
         self,
@@ -179,23 +175,12 @@ class BxCan(CanController):
         banks: int = 14,
     ) -> None:
         """Starts in sleep mode, with `banks` filter banks."""
-        self._banks = banks
         names = _NAMED | _FILTERS
         boxes = ((_MAILBOX, ("TI", "TDT", "TDL", "TDH"), 3), (_OUTPUT, ("RI", "RDT", "RDL", "RDH"), 2))
         for base, words, count in boxes:
             names |= {base + 16 * n + 4 * i: f"{word}{n}R" for n in range(count) for i, word in enumerate(words)}
         names |= {_BANK + 8 * bank + 4 * half: f"F{bank}R{half + 1}" for bank in range(banks) for half in range(2)}
-        super().__init__(names, clock, bus_hz, faults, heard)
-
-    def open(self) -> Any:
-        """As in `CanController`."""
-        model = self.ffi.new("struct bxcan *")
-        self.library.bxcan_open(model, self.wire, self._banks)
-        return model
-
-    def restart(self) -> None:
-        """As in `CanController`."""
-        self.library.bxcan_reset(self.model)
+        super().__init__(names, clock, bus_hz, faults, heard, banks)
 
 
 _FD_NAMES = {0x000: "CREL", 0x004: "ENDN", 0x018: "CCCR", 0x01C: "NBTP", 0x040: "ECR", 0x044: "PSR", 0x050: "IR"}
@@ -207,7 +192,7 @@ _FD_NAMES |= {0x0D0: "TXBCR", 0x0D4: "TXBTO", 0x0D8: "TXBCF"}
 class FdCan(CanController):
     """FDCAN of the G4 in classic CAN mode, with its message RAM; see `CanController`."""
 
-    called, control = "FDCAN1", 0x018
+    called, kind, control = "FDCAN1", "fdcan", 0x018
 
     def __init__(
         self, clock: Clock, bus_hz: Callable[[], int], faults: CanFaults, heard: Callable[[CanFrame], None]
@@ -216,13 +201,3 @@ class FdCan(CanController):
         _, library = c_models()
         ram = {library.FDCAN_RAM_AT + 4 * word: f"RAM[{word}]" for word in range(library.FDCAN_RAM_WORDS)}
         super().__init__(_FD_NAMES | ram, clock, bus_hz, faults, heard)
-
-    def open(self) -> Any:
-        """As in `CanController`."""
-        model = self.ffi.new("struct fdcan *")
-        self.library.fdcan_open(model, self.wire)
-        return model
-
-    def restart(self) -> None:
-        """As in `CanController`."""
-        self.library.fdcan_reset(self.model)
