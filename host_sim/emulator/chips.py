@@ -13,7 +13,7 @@ from host_sim.emulator.ports import GpioF1, GpioF4, GpioG4, Port
 from host_sim.emulator.rcc import Oscillators, Rcc, RccFaults
 from host_sim.emulator.rcc_kinds import RccF1, RccF4, RccG4
 from host_sim.emulator.serial import Usart, UsartG4
-from host_sim.emulator.system import POWER_F1, POWER_G4, PowerKind
+from host_sim.emulator.system import PowerControl, PowerControlG4
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Chip:
         flash: Creates the flash.
         gpio: Creates a port from its name.
         can: Creates the CAN controller.
-        power: Registers of the supply monitor.
+        power: Creates the supply monitor.
         usart: Creates the serial port.
         places: For each peripheral, by its name, the base address; then, if it has a clock gate, the offset of a
             register of RCC, and the number of the enable bit in it.
@@ -48,7 +48,7 @@ class Chip:
     flash: FlashFactory
     gpio: Callable[[str], Port]
     can: Callable[[Clock, Callable[[], int], CanFaults, Callable[[CanFrame], None]], CanController]
-    power: PowerKind
+    power: Callable[[], PowerControl]
     usart: Callable[[Clock, Callable[[], int], Callable[[int], None]], Usart]
     places: Mapping[str, tuple[int, ...]]
     converter: Callable[[int, Callable[[], int], Dma, Clock], Converter] | None = None
@@ -85,7 +85,7 @@ STM32F405 = Chip(
     flash=FlashF4,
     gpio=GpioF4,
     can=partial(BxCan, banks=28),
-    power=POWER_F1,
+    power=PowerControl,
     usart=Usart,
     places={
         **_ALIKE,
@@ -112,7 +112,7 @@ STM32F103 = Chip(
     flash=FlashF1,
     gpio=GpioF1,
     can=BxCan,
-    power=POWER_F1,
+    power=PowerControl,
     usart=Usart,
     places={
         **_ALIKE,
@@ -144,7 +144,7 @@ STM32G431 = Chip(
     flash=FlashG4,
     gpio=GpioG4,
     can=FdCan,
-    power=POWER_G4,
+    power=PowerControlG4,
     usart=UsartG4,
     places={
         **_ALIKE,

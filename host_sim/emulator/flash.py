@@ -4,6 +4,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
+from typing import ClassVar
 
 from host_sim.emulator.clock import Clock
 from host_sim.emulator.registers import BoardError, Peripheral, PowerCut, Register
@@ -33,35 +34,6 @@ class FlashFaults:
     cut_at: int = 0
 
 
-@dataclass(frozen=True)
-class FlashKind:
-    """The properties of one chip's flash.
-
-    Attributes:
-        pages: Size of each page or sector in bytes, from the lowest.
-        hz_per_wait_state: Fastest core clock without wait states, and the increase by each of them, Hz.
-        write_span: Time to write one unit, fs.
-        erase_span: Time to erase a page, fs, by the size of the page.
-        start: Bit STRT of CR.
-        lock: Bit LOCK of CR.
-        failure: Flag of SR for an internal error.
-        registers: Offsets of KEYR, SR and CR.
-        acr: Reset value of ACR.
-        data_cache: Bit DCEN of ACR; 0 if there is no such cache.
-    """
-
-    pages: Sequence[int]
-    hz_per_wait_state: int
-    write_span: int
-    erase_span: Mapping[int, int]
-    start: int
-    lock: int
-    failure: int
-    registers: tuple[int, int, int] = (0x04, 0x0C, 0x10)
-    acr: int = 0
-    data_cache: int = 0
-
-
 def _disregard() -> None:
     """Does nothing."""
 
@@ -70,7 +42,6 @@ class Flash(Peripheral):
     """Non-volatile memory, and the registers that control it.
 
     Attributes:
-        kind: Properties of this flash.
         memory: Its contents.
         operations: Number of writes and erases so far.
         erasures: Number of erases so far.
@@ -81,7 +52,26 @@ class Flash(Peripheral):
         on_unreadable: Called when the core has read data with an uncorrectable error.
     """
 
-    kind: FlashKind
+    pages: ClassVar[Sequence[int]]
+    """Size of each page or sector in bytes, from the lowest."""
+    hz_per_wait_state: ClassVar[int]
+    """Fastest core clock without wait states, and the increase by each of them, Hz."""
+    write_span: ClassVar[int]
+    """Time to write one unit, fs."""
+    erase_span: ClassVar[Mapping[int, int]]
+    """Time to erase a page, fs, by the size of the page."""
+    start: ClassVar[int] = 1 << 16
+    """Bit STRT of CR."""
+    lock: ClassVar[int] = 1 << 31
+    """Bit LOCK of CR."""
+    failure: ClassVar[int]
+    """Flag of SR for an internal error."""
+    offsets: ClassVar[tuple[int, int, int]] = (0x04, 0x0C, 0x10)
+    """Offsets of KEYR, SR and CR."""
+    acr: ClassVar[int] = 0
+    """Reset value of ACR."""
+    data_cache: ClassVar[int] = 0
+    """Bit DCEN of ACR; 0 if there is no such cache."""
 
     def __init__(self, clock: Clock, faults: FlashFaults) -> None:
         """Creates an erased flash.
@@ -91,17 +81,17 @@ class Flash(Peripheral):
             faults: Faults to simulate.
         """
         self._clock, self._faults = clock, faults
-        self.memory = bytearray(ERASED) * sum(self.kind.pages)
+        self.memory = bytearray(ERASED) * sum(self.pages)
         self._half_erased: set[int] = set()
         self.cuts = {faults.cut_at}
         self.erasure_cuts: set[int] = set()
         self.operations = self.erasures = self.code_end = self._keys_taken = 0
         self.on_wait_states: Callable[[], None] = _disregard
         self.on_unreadable: Callable[[], None] = _disregard
-        self._acr = Register("ACR", self.kind.acr, on_write=self._write_acr)
-        self._cr = Register("CR", self.kind.lock, on_write=self._write_cr)
+        self._acr = Register("ACR", self.acr, on_write=self._write_acr)
+        self._cr = Register("CR", self.lock, on_write=self._write_cr)
         self._sr = Register("SR", on_write=self._write_sr)
-        keyr, sr, cr = self.kind.registers
+        keyr, sr, cr = self.offsets
         registers = {0x00: self._acr, keyr: Register("KEYR", on_write=self._write_key), sr: self._sr, cr: self._cr}
         super().__init__("FLASH", registers, clocked=True)
 
@@ -112,7 +102,7 @@ class Flash(Peripheral):
             size: Size of a place, bytes.
         """
         end = -(-len(self.memory.rstrip(ERASED)) // size) * size
-        room = sum(self.kind.pages[: self._page_of(end - 1) + 1]) - end
+        room = sum(self.pages[: self._page_of(end - 1) + 1]) - end
         self.memory[end : end + room] = self.memory[end - size : end] * (room // size)
 
     @abstractmethod
@@ -133,7 +123,7 @@ class Flash(Peripheral):
 
     def core_hz_max(self) -> int:
         """The fastest core clock that the current wait states allow, Hz."""
-        return ((self._acr.value & _WAIT_STATES) + 1) * self.kind.hz_per_wait_state
+        return ((self._acr.value & _WAIT_STATES) + 1) * self.hz_per_wait_state
 
     def read(self, offset: int, size: int) -> int:
         """Reads the memory on behalf of the core."""
@@ -156,14 +146,14 @@ class Flash(Peripheral):
         old = self.memory[offset : offset + size]
         whole = bytes(was & new for was, new in zip(old, value.to_bytes(size, "little"), strict=True))
         self._change(offset, whole, bytes(was & (new | _UNFINISHED) for was, new in zip(old, whole, strict=True)))
-        self._clock.skip(self.kind.write_span)
+        self._clock.skip(self.write_span)
 
     def _erase(self, page: int) -> None:
-        if page >= len(self.kind.pages):
-            raise BoardError(f"page {page} of the flash was to be erased, of {len(self.kind.pages)}")
-        if self._acr.value & self.kind.data_cache:
+        if page >= len(self.pages):
+            raise BoardError(f"page {page} of the flash was to be erased, of {len(self.pages)}")
+        if self._acr.value & self.data_cache:
             raise BoardError(f"page {page} of the flash was to be erased while the data cache would still show it")
-        size, offset = self.kind.pages[page], sum(self.kind.pages[:page])
+        size, offset = self.pages[page], sum(self.pages[:page])
         self._protect(offset)
         self.erasures += 1
         self._half_erased.add(page)
@@ -172,12 +162,12 @@ class Flash(Peripheral):
         blank = ERASED * size
         self._change(offset, blank, bytes(self.memory[offset : offset + OUTLIVES]) + blank[OUTLIVES:])
         self._half_erased.discard(page)
-        self._clock.skip(self.kind.erase_span[size])
+        self._clock.skip(self.erase_span[size])
 
     def _change(self, offset: int, whole: bytes, partial: bytes) -> None:
         self.operations += 1
         if self.operations in self._faults.failing:
-            self._sr.value |= self.kind.failure
+            self._sr.value |= self.failure
             return
         cut = self.operations in self.cuts
         self.memory[offset : offset + len(whole)] = partial if cut else whole
@@ -186,7 +176,7 @@ class Flash(Peripheral):
             raise PowerCut
 
     def _page_of(self, offset: int) -> int:
-        return next(page for page, end in enumerate(accumulate(self.kind.pages)) if offset < end)
+        return next(page for page, end in enumerate(accumulate(self.pages)) if offset < end)
 
     def _protect(self, offset: int) -> None:
         if offset < self.code_end:
@@ -197,10 +187,10 @@ class Flash(Peripheral):
         self.on_wait_states()
 
     def _write_cr(self, value: int) -> None:
-        if self._cr.value & self.kind.lock:
+        if self._cr.value & self.lock:
             raise BoardError("FLASH CR was written while it is locked")
-        self._cr.value = value & ~self.kind.start
-        if value & self.kind.start and value & _ERASE:
+        self._cr.value = value & ~self.start
+        if value & self.start and value & _ERASE:
             self._erase(self.page_to_erase())
 
     def _write_key(self, value: int) -> None:
@@ -210,7 +200,7 @@ class Flash(Peripheral):
         self._keys_taken += 1
         if self._keys_taken == len(_KEYS):
             self._keys_taken = 0
-            self._cr.value &= ~self.kind.lock
+            self._cr.value &= ~self.lock
 
     def _write_sr(self, value: int) -> None:
         self._sr.value &= ~value

@@ -1,7 +1,10 @@
 """The flash of each family of chips (F1: PM0075, F4: RM0090 3, G4: RM0440 5)."""
 
+from collections.abc import Mapping
+from typing import ClassVar
+
 from host_sim.emulator.clock import SECOND, Clock
-from host_sim.emulator.flash import BASE, ERASED, OUTLIVES, PG, Flash, FlashFaults, FlashKind
+from host_sim.emulator.flash import BASE, ERASED, OUTLIVES, PG, Flash, FlashFaults
 from host_sim.emulator.registers import Register
 
 _F1_PGERR = 1 << 2
@@ -14,15 +17,13 @@ _F4_SNB_SHIFT, _F4_PSIZE_SHIFT = 3, 8
 class FlashF1(Flash):
     """Flash of the STM32F103C8: a half-word is written once per erase, but 0 can overwrite any value."""
 
-    kind = FlashKind(
-        pages=(1024,) * 64,
-        hz_per_wait_state=24_000_000,
-        write_span=52 * SECOND // 10**6,
-        erase_span={1024: 30 * SECOND // 1000},
-        start=1 << 6,
-        lock=1 << 7,
-        failure=_F1_PGERR,
-    )
+    pages = (1024,) * 64
+    hz_per_wait_state = 24_000_000
+    write_span = 52 * SECOND // 10**6
+    erase_span: ClassVar[Mapping[int, int]] = {1024: 30 * SECOND // 1000}
+    start = 1 << 6
+    lock = 1 << 7
+    failure = _F1_PGERR
 
     def __init__(self, clock: Clock, faults: FlashFaults) -> None:
         """As in `Flash`."""
@@ -37,22 +38,22 @@ class FlashF1(Flash):
 
     def page_to_erase(self) -> int:
         """As in `Flash`."""
-        return (self._address.value - BASE) // self.kind.pages[0]
+        return (self._address.value - BASE) // self.pages[0]
 
 
 class FlashF4(Flash):
     """Flash of the STM32F405: bits can be cleared at any time, in units of the size set in CR."""
 
-    kind = FlashKind(
-        pages=(16 << 10,) * 4 + (64 << 10,) + (128 << 10,) * 7,
-        hz_per_wait_state=30_000_000,
-        write_span=16 * SECOND // 10**6,
-        erase_span={16 << 10: SECOND // 2, 64 << 10: 11 * SECOND // 10, 128 << 10: 2 * SECOND},
-        start=1 << 16,
-        lock=1 << 31,
-        failure=_F4_OPERR,
-        data_cache=1 << 10,
-    )
+    pages = (16 << 10,) * 4 + (64 << 10,) + (128 << 10,) * 7
+    hz_per_wait_state = 30_000_000
+    write_span = 16 * SECOND // 10**6
+    erase_span: ClassVar[Mapping[int, int]] = {
+        16 << 10: SECOND // 2,
+        64 << 10: 11 * SECOND // 10,
+        128 << 10: 2 * SECOND,
+    }
+    failure = _F4_OPERR
+    data_cache = 1 << 10
 
     def refusal(self, offset: int, size: int, value: int) -> int:  # noqa: ARG002 - any place, any value
         """As in `Flash`."""
@@ -72,18 +73,14 @@ class FlashG4(Flash):
         unreadable: Offsets of double words with uncorrectable errors, left by power failures during writes.
     """
 
-    kind = FlashKind(
-        pages=(2048,) * 64,
-        hz_per_wait_state=30_000_000,
-        write_span=82 * SECOND // 10**6,
-        erase_span={2048: 22 * SECOND // 1000},
-        start=1 << 16,
-        lock=1 << 31,
-        failure=_F4_OPERR,
-        registers=(0x08, 0x10, 0x14),
-        acr=0x40600,
-        data_cache=1 << 10,
-    )
+    pages = (2048,) * 64
+    hz_per_wait_state = 30_000_000
+    write_span = 82 * SECOND // 10**6
+    erase_span: ClassVar[Mapping[int, int]] = {2048: 22 * SECOND // 1000}
+    failure = _F4_OPERR
+    offsets = (0x08, 0x10, 0x14)
+    acr = 0x40600
+    data_cache = 1 << 10
     _WORD, _DOUBLE = 4, 8
 
     def __init__(self, clock: Clock, faults: FlashFaults) -> None:

@@ -17,7 +17,7 @@ from host_sim.emulator.rcc import RccFaults
 from host_sim.emulator.registers import AddressSpace, KeptPeripheral, Peripheral, Register, Window
 from host_sim.emulator.robot_on_pins import RobotOnPins
 from host_sim.emulator.serial import SlcanLine
-from host_sim.emulator.system import PowerControl, SystemControl, SysTick, Watchdog
+from host_sim.emulator.system import SystemControl, SysTick, Watchdog
 from host_sim.emulator.timers import MotorTimer, Timer
 from host_sim.emulator.wiring import Wiring
 
@@ -94,7 +94,7 @@ class Hardware:
         self._line = SlcanLine(heard)
         self.usart = chip.usart(self.clock, self.rcc.usart_hz, self._hear_byte)
         self.space = AddressSpace(self.clock)
-        self.power = PowerControl(chip.power)
+        self.power = chip.power()
         self._systick = SysTick(self.clock)
         self._scb = SystemControl(chip.cpuid, lambda: restart("software"), self._move_vectors)
         self.watchdog = Watchdog(self.clock, chip.slow_hz, lambda: restart("watchdog"))

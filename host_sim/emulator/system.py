@@ -1,8 +1,7 @@
 """Parts of every chip: SysTick, system control block, watchdog, and supply monitor."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from host_sim.emulator.c_models import c_models
 from host_sim.emulator.clock import NEVER, SECOND, Clock
@@ -139,61 +138,44 @@ class Watchdog(Peripheral):
         return self._expires
 
 
-@dataclass(frozen=True)
-class PowerKind:
-    """The supply monitor's registers in a family of chips.
-
-    Attributes:
-        registers: Register names by offset.
-        control: Offset of the control register.
-        status: Offset of the status register.
-        on: Number of the enable bit in the control register.
-        level: Number of the lowest bit of the level in the control register.
-        low: Number of the status bit that is set while the supply is low.
-        levels_mv: Threshold voltages by level, mV.
-    """
-
-    registers: Mapping[int, str]
-    control: int
-    status: int
-    on: int
-    level: int
-    low: int
-    levels_mv: Sequence[int]
-
-
-POWER_F1 = PowerKind({0x0: "CR", 0x4: "CSR"}, 0x0, 0x4, 4, 5, 2, range(2200, 3000, 100))
-"""RM0008 5; the highest level is the same in an F4 (RM0090 5)."""
-
-POWER_G4 = PowerKind(
-    {0x00: "CR1", 0x04: "CR2", 0x08: "CR3", 0x0C: "CR4", 0x10: "SR1", 0x14: "SR2"},
-    0x04,
-    0x14,
-    0,
-    1,
-    11,
-    (2000, 2200, 2400, 2500, 2600, 2800, 2900, 0),
-)
-"""RM0440 6.4; the last level is a pin's."""
-
-
 class PowerControl(Peripheral):
-    """The supply monitor, which compares the supply with a threshold.
+    """The supply monitor of the F1, which compares the supply with a threshold (RM0008 5).
+
+    The highest level is the same in an F4 (RM0090 5).
 
     Attributes:
         supply_mv: Supply voltage, mV.
     """
 
-    def __init__(self, kind: PowerKind) -> None:
+    names: ClassVar[Mapping[int, str]] = {0x0: "CR", 0x4: "CSR"}
+    control, status = 0x0, 0x4
+    """Offsets of the control register and of the status register."""
+    on, level, low = 4, 5, 2
+    """Bits of the control register: enable, and the lowest of the level; of the status register: supply low."""
+    levels_mv: ClassVar[Sequence[int]] = range(2200, 3000, 100)
+    """Threshold voltages by level, mV."""
+
+    def __init__(self) -> None:
         """Starts with a sufficient supply."""
-        self.supply_mv, self._kind = _SUPPLY_MV, kind
-        super().__init__("PWR", plain(kind.registers))
-        self.registers[kind.status].on_read = self._read_status
+        self.supply_mv = _SUPPLY_MV
+        super().__init__("PWR", plain(self.names))
+        self.registers[self.status].on_read = self._read_status
 
     def _read_status(self) -> int:
-        kind, control = self._kind, self.registers[self._kind.control].value
-        level_mv = kind.levels_mv[control >> kind.level & 7]
-        return 1 << kind.low if control >> kind.on & 1 and self.supply_mv < level_mv else 0
+        control = self.registers[self.control].value
+        level_mv = self.levels_mv[control >> self.level & 7]
+        return 1 << self.low if control >> self.on & 1 and self.supply_mv < level_mv else 0
+
+
+class PowerControlG4(PowerControl):
+    """The supply monitor of the G4 (RM0440 6.4); the last level is a pin's."""
+
+    names: ClassVar[Mapping[int, str]] = {
+        0x00: "CR1", 0x04: "CR2", 0x08: "CR3", 0x0C: "CR4", 0x10: "SR1", 0x14: "SR2",
+    }  # fmt: skip
+    control, status = 0x04, 0x14
+    on, level, low = 0, 1, 11
+    levels_mv: ClassVar[Sequence[int]] = (2000, 2200, 2400, 2500, 2600, 2800, 2900, 0)
 
 
 class SystemControl(Peripheral):

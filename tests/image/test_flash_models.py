@@ -181,8 +181,8 @@ def test_a_write_can_be_cut_in_the_middle(clock):
 def test_a_page_whose_erase_was_cut_short_reads_blank_but_for_its_begin_and_takes_only_zeros(clock, make):
     flash = make(clock)
     flash.erasure_cuts.add(1)
-    page, size = 3, flash.kind.pages[3]
-    start = sum(flash.kind.pages[:page])
+    page, size = 3, flash.pages[3]
+    start = sum(flash.pages[:page])
     flash.memory[start : start + size] = bytes(size)
     if make is f1:
         write(flash, CR, 1 << 1)
