@@ -9,7 +9,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.verify.misra.commands import CHECKED, built_sources  # noqa: E402 - found by the line above
+from tools.verify.misra import CHECKED, built_sources  # noqa: E402 - found by the line above
 
 OF_A_SYSTEM = {
     *("hal/library/exchange.c", "hal/port/posix/file_store.c", "hal/port/posix/posix_port.c"),

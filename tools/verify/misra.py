@@ -1,4 +1,4 @@
-"""Runs cppcheck's MISRA addon."""
+"""MISRA's rules, checked by cppcheck's addon."""
 
 import json
 import os
@@ -9,14 +9,49 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tools.verify.command import VerifyError
-from tools.verify.misra.commands import ROOT, Command
+from tools.verify.command import VerifyError, output_of
 
+ROOT = Path(__file__).resolve().parents[2]
+BUILDS = ("feather_stm32f405", "blue_pill", "nucleo_g431rb")
+"""A source that is part of several builds is checked with the options of the first."""
+
+CHECKED = ("firmware", "hal")
 CPPCHECK = ROOT / ".venv/bin/cppcheck"
 _FINDING = re.compile(r"(?P<file>.+):(?P<line>\d+) misra-c2012-(?P<rule>[\d.]+)$")
 _OF_WHOLE_PROGRAMS = {"2.3", "2.4", "2.5", "5.7", "5.9", "8.5", "8.6", "8.7"}
 """Ignored rules about whole programs: cppcheck takes the sources of several programs for one."""
 _ERROR = re.compile(r".+ (syntaxError|preprocessorErrorDirective|internalError|internalAstError)$")
+
+Command = dict[str, str]
+"""An entry of a compilation database: directory, command and file."""
+
+
+def built_sources() -> list[Command]:
+    """The compile commands of all our sources in the builds, one for each source.
+
+    Raises:
+        VerifyError: A build is missing.
+    """
+    commands: dict[Path, Command] = {}
+    for build in BUILDS:
+        for command in _commands_of(ROOT / "build" / build):
+            source = Path(command["directory"], command["file"]).resolve()
+            if source.is_relative_to(ROOT) and source.relative_to(ROOT).parts[0] in CHECKED:
+                commands.setdefault(source, {**command, "file": str(source)})
+    return list(commands.values())
+
+
+def lone_sources(sources: Sequence[Path]) -> list[Command]:
+    """A compile command for each of these sources, without a build."""
+    return [
+        {"directory": str(ROOT), "command": f"cc -std=c99 -I{ROOT} -c {source}", "file": str(source.resolve())}
+        for source in sources
+    ]
+
+
+def _commands_of(build: Path) -> list[Command]:
+    listed: list[Command] = json.loads(output_of("ninja", "--quiet", "-C", build, "-t", "compdb"))
+    return [command for command in listed if command["file"].endswith(".c")]
 
 
 @dataclass(frozen=True, order=True)
