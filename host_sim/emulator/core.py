@@ -14,28 +14,8 @@ from host_sim.emulator.clock import Clock
 from host_sim.emulator.registers import BoardError, Window
 
 try:
-    from unicorn import (
-        UC_ARCH_ARM,
-        UC_ERR_INSN_INVALID,
-        UC_ERR_OK,
-        UC_HOOK_BLOCK,
-        UC_HOOK_MEM_INVALID,
-        UC_MODE_MCLASS,
-        UC_MODE_THUMB,
-        UC_PROT_EXEC,
-        UC_PROT_READ,
-    )
-    from unicorn.arm_const import (
-        UC_ARM_REG_LR,
-        UC_ARM_REG_PC,
-        UC_ARM_REG_R0,
-        UC_ARM_REG_R1,
-        UC_ARM_REG_R2,
-        UC_ARM_REG_R3,
-        UC_ARM_REG_R12,
-        UC_ARM_REG_SP,
-        UC_ARM_REG_XPSR,
-    )
+    import unicorn as uc
+    from unicorn import arm_const as arm
     from unicorn.unicorn import Uc, UcError
     from unicorn.unicorn_py3.unicorn import uclib
 except ImportError as error:
@@ -46,16 +26,7 @@ _THUMB = 1
 _TRANSLATED_MAX = 16 << 20
 """Size of the buffer for translated code, bytes. Unicorn's default is 1 GB, which not every machine has."""
 
-_STACKED = (
-    UC_ARM_REG_R0,
-    UC_ARM_REG_R1,
-    UC_ARM_REG_R2,
-    UC_ARM_REG_R3,
-    UC_ARM_REG_R12,
-    UC_ARM_REG_LR,
-    UC_ARM_REG_PC,
-    UC_ARM_REG_XPSR,
-)
+_STACKED = tuple(getattr(arm, f"UC_ARM_REG_{name}") for name in ("R0", "R1", "R2", "R3", "R12", "LR", "PC", "XPSR"))
 """Registers that the hardware stacks on exception entry, from the lowest address."""
 
 _RETURN_TO_THREAD = 0xFFFFFFF9
@@ -94,7 +65,7 @@ def unicorn_calls() -> Any:
 
 
 def _check(status: int) -> None:
-    if status != UC_ERR_OK:
+    if status != uc.UC_ERR_OK:
         raise cast("Any", UcError)(status)  # UcError lacks types
 
 
@@ -131,9 +102,9 @@ class Core:
         self._pc = 0
         self._asleep = False
         unicorn = cast("Any", Uc)  # half of its methods lack types
-        self._uc = unicorn(UC_ARCH_ARM, UC_MODE_THUMB | UC_MODE_MCLASS)
+        self._uc = unicorn(uc.UC_ARCH_ARM, uc.UC_MODE_THUMB | uc.UC_MODE_MCLASS)
         self._uc.ctl_set_tcg_buffer_size(_TRANSLATED_MAX)
-        self._uc.hook_add(UC_HOOK_MEM_INVALID, self._on_unreachable)
+        self._uc.hook_add(uc.UC_HOOK_MEM_INVALID, self._on_unreachable)
         self._ffi, self._models = c_models()
         self._library: Any = unicorn_calls().dlopen(uclib._name)
         self._engine: Any = self._ffi.cast("void *", self._uc._uch.value)
@@ -152,7 +123,7 @@ class Core:
 
     def add_rom(self, base: int, contents: bytes) -> None:
         """Adds memory that can be read and executed, in whole pages."""
-        self._uc.mem_map(base, len(contents), UC_PROT_READ | UC_PROT_EXEC)
+        self._uc.mem_map(base, len(contents), uc.UC_PROT_READ | uc.UC_PROT_EXEC)
         self._uc.mem_write(base, contents)
 
     def add_registers(self, window: Window) -> None:
@@ -182,15 +153,15 @@ class Core:
         self._in_fault = self._nmi = False
         self._interrupted = None
         self.vectors = self._begin
-        self._uc.reg_write(UC_ARM_REG_SP, self._word(self.vectors))
-        self._uc.reg_write(UC_ARM_REG_LR, 0xFFFFFFFF)
+        self._uc.reg_write(arm.UC_ARM_REG_SP, self._word(self.vectors))
+        self._uc.reg_write(arm.UC_ARM_REG_LR, 0xFFFFFFFF)
         self._pc = self._word(self.vectors + 4)
 
     def derail(self, address: int, stack: int | None = None) -> None:
         """Makes the core continue at another address, optionally with another stack, as after a bit error."""
         self._pc = address
         if stack is not None:
-            self._uc.reg_write(UC_ARM_REG_SP, stack)
+            self._uc.reg_write(arm.UC_ARM_REG_SP, stack)
 
     def interrupt(self) -> None:
         """Requests the non-maskable interrupt, taken at the end of the current basic block."""
@@ -218,10 +189,10 @@ class Core:
             try:
                 _check(self._library.uc_emu_start(self._engine, self._pc | _THUMB, 0, 0, 0))
             except UcError as error:
-                self._pc = self._uc.reg_read(UC_ARM_REG_PC)
+                self._pc = self._uc.reg_read(arm.UC_ARM_REG_PC)
                 self._enter_fault(error)
                 continue
-            self._pc = self._uc.reg_read(UC_ARM_REG_PC)
+            self._pc = self._uc.reg_read(arm.UC_ARM_REG_PC)
             self._clock.raise_failure()
             self._asleep = self._uc.mem_read(self._pc - len(_WFI), len(_WFI)) == _WFI
 
@@ -239,7 +210,7 @@ class Core:
         blocks.stop, blocks.read = ffi.addressof(library, "uc_emu_stop"), ffi.addressof(library, "uc_mem_read")
         hook, on_block = ffi.new("size_t *"), ffi.addressof(self._models, "core_on_block")
         first, last = 1, 0  # an empty range means every address
-        _check(library.uc_hook_add(self._engine, hook, UC_HOOK_BLOCK, on_block, blocks, first, last))
+        _check(library.uc_hook_add(self._engine, hook, uc.UC_HOOK_BLOCK, on_block, blocks, first, last))
         return blocks
 
     def _on_unreachable(self, *access: object) -> bool:
@@ -249,20 +220,20 @@ class Core:
 
     def _take_nmi(self) -> None:
         self._nmi = False
-        self._interrupted = self._uc.reg_read(UC_ARM_REG_SP)
-        self._uc.reg_write(UC_ARM_REG_PC, self._pc)
+        self._interrupted = self._uc.reg_read(arm.UC_ARM_REG_SP)
+        self._uc.reg_write(arm.UC_ARM_REG_PC, self._pc)
         self._stack_registers()
         self.on_nmi(True)
-        self._uc.reg_write(UC_ARM_REG_LR, _RETURN_TO_THREAD)
+        self._uc.reg_write(arm.UC_ARM_REG_LR, _RETURN_TO_THREAD)
         self._pc = self._word(self.vectors + 4 * _NMI)
 
     def _return_from_nmi(self, stack: int) -> None:
-        saved = self._uc.mem_read(self._uc.reg_read(UC_ARM_REG_SP), 4 * len(_STACKED))
+        saved = self._uc.mem_read(self._uc.reg_read(arm.UC_ARM_REG_SP), 4 * len(_STACKED))
         for register, value in zip(_STACKED, struct.unpack(f"<{len(_STACKED)}I", saved), strict=True):
             self._uc.reg_write(register, value)
-            if register == UC_ARM_REG_PC:
+            if register == arm.UC_ARM_REG_PC:
                 self._pc = value
-        self._uc.reg_write(UC_ARM_REG_SP, stack)
+        self._uc.reg_write(arm.UC_ARM_REG_SP, stack)
         self._interrupted = None
         self.on_nmi(False)
 
@@ -275,17 +246,18 @@ class Core:
         if self._in_fault:
             raise BoardError(f"the core locked up: a fault at 0x{self._pc:08X} within the fault handler ({error})")
         self._in_fault = True
-        cause = _UNDEFINSTR if error.errno == UC_ERR_INSN_INVALID else _IBUSERR if address == self._pc else _PRECISERR
+        invalid = error.errno == uc.UC_ERR_INSN_INVALID
+        cause = _UNDEFINSTR if invalid else _IBUSERR if address == self._pc else _PRECISERR
         cause |= 0 if self._stack_registers() else _STKERR
         self.on_fault(Fault(cause, address, self._pc))
-        self._uc.reg_write(UC_ARM_REG_LR, _RETURN_TO_THREAD)
+        self._uc.reg_write(arm.UC_ARM_REG_LR, _RETURN_TO_THREAD)
         self._pc = self._word(self.vectors + 4 * _HARD_FAULT)
 
     def _stack_registers(self) -> bool:
         """Returns False if the stack is not in memory; the handler runs all the same."""
         saved = b"".join(self._uc.reg_read(register).to_bytes(4, "little") for register in _STACKED)
-        stack = (self._uc.reg_read(UC_ARM_REG_SP) & ~7) - len(saved)
-        self._uc.reg_write(UC_ARM_REG_SP, stack)
+        stack = (self._uc.reg_read(arm.UC_ARM_REG_SP) & ~7) - len(saved)
+        self._uc.reg_write(arm.UC_ARM_REG_SP, stack)
         try:
             self._uc.mem_write(stack, saved)
         except UcError:
