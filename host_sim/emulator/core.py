@@ -69,10 +69,6 @@ def _check(status: int) -> None:
         raise cast("Any", UcError)(status)  # UcError lacks types
 
 
-def _disregard(_fault: Fault) -> None:
-    """Ignores a fault."""
-
-
 class Core:
     """Executes the image. One instruction takes one cycle.
 
@@ -90,7 +86,7 @@ class Core:
             clock: The board's clock, which instructions advance.
             vectors: Address of the vector table after a reset.
         """
-        self.on_fault: Callable[[Fault], None] = _disregard
+        self.on_fault: Callable[[Fault], None] = lambda _fault: None
         self.wakes: Callable[[], bool] = lambda: True
         self.on_nmi: Callable[[bool], None] = lambda _taken: None
         self._nmi = False

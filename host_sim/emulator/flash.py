@@ -34,10 +34,6 @@ class FlashFaults:
     cut_at: int = 0
 
 
-def _disregard() -> None:
-    """Does nothing."""
-
-
 class Flash(Peripheral):
     """Non-volatile memory, and the registers that control it.
 
@@ -86,8 +82,8 @@ class Flash(Peripheral):
         self.cuts = {faults.cut_at}
         self.erasure_cuts: set[int] = set()
         self.operations = self.erasures = self.code_end = self._keys_taken = 0
-        self.on_wait_states: Callable[[], None] = _disregard
-        self.on_unreadable: Callable[[], None] = _disregard
+        self.on_wait_states: Callable[[], None] = lambda: None
+        self.on_unreadable: Callable[[], None] = lambda: None
         self._acr = Register("ACR", self.acr, on_write=self._write_acr)
         self._cr = Register("CR", self.lock, on_write=self._write_cr)
         self._sr = Register("SR", on_write=self._write_sr)
@@ -204,6 +200,3 @@ class Flash(Peripheral):
 
     def _write_sr(self, value: int) -> None:
         self._sr.value &= ~value
-
-
-Factory = Callable[[Clock, FlashFaults], Flash]

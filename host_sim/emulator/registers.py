@@ -173,6 +173,10 @@ class KeptPeripheral(Peripheral):
         super().set_clocked(clocked)
         self.block.clocked = clocked
 
+    def get(self, offset: int) -> int:
+        """The value of a register."""
+        return self.registers[offset].value
+
     def keep_in(self, space: Any, base: int) -> None:
         """Lets a `struct register_space` access the registers without calling Python."""
         self.block.base = base

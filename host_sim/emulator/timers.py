@@ -30,22 +30,19 @@ class Timer(KeptPeripheral):
 
     def follows_encoder(self) -> bool:
         """Whether it is in encoder mode, counting both edges of both inputs."""
-        return self._runs(_ENCODER_BOTH) and self._get(_CCMR1) & _INPUTS == _BOTH_INPUTS
+        return self._runs(_ENCODER_BOTH) and self.get(_CCMR1) & _INPUTS == _BOTH_INPUTS
 
     def counts_input_1(self) -> bool:
         """Whether it counts pulses at input 1."""
-        from_1 = self._get(_SMCR) >> 4 & 7 == _FROM_INPUT_1
-        return self._runs(_EXTERNAL) and from_1 and self._get(_CCMR1) & 3 == _INPUT_1
+        from_1 = self.get(_SMCR) >> 4 & 7 == _FROM_INPUT_1
+        return self._runs(_EXTERNAL) and from_1 and self.get(_CCMR1) & 3 == _INPUT_1
 
     def count(self, more: int) -> None:
         """Counts up, or down if negative."""
-        self.registers[_CNT].value = (self._get(_CNT) + more) % (self._get(_ARR) + 1)
+        self.registers[_CNT].value = (self.get(_CNT) + more) % (self.get(_ARR) + 1)
 
     def _runs(self, mode: int) -> bool:
-        return bool(self._get(_CR1) & _CEN) and self._get(_SMCR) & 7 == mode
-
-    def _get(self, offset: int) -> int:
-        return self.registers[offset].value
+        return bool(self.get(_CR1) & _CEN) and self.get(_SMCR) & 7 == mode
 
 
 class MotorTimer(KeptPeripheral):
@@ -84,15 +81,13 @@ class MotorTimer(KeptPeripheral):
         Args:
             channel: 1..3.
         """
-        mode = self._get(0x18 + 4 * (channel > 2)) >> (4 if channel % 2 else 12) & _MODE_MASK  # noqa: PLR2004
+        mode = self.get(0x18 + 4 * (channel > 2)) >> (4 if channel % 2 else 12) & _MODE_MASK  # noqa: PLR2004
         on = (
-            self._get(_CCER) >> 4 * (channel - 1) + 2 & 1
-            and self._bdtr.value & _OUTPUTS_ON
-            and self._cr1.value & _CEN
+            self.get(_CCER) >> 4 * (channel - 1) + 2 & 1 and self._bdtr.value & _OUTPUTS_ON and self._cr1.value & _CEN
         )
         if not on or mode != _PWM_1:
             return 0.0
-        return min(self._get(0x30 + 4 * channel) / (self._get(_ARR) + 1), 1.0)
+        return min(self.get(0x30 + 4 * channel) / (self.get(_ARR) + 1), 1.0)
 
     def break_at(self, *, low: bool) -> None:
         """Sets the level at its break input, which disables the outputs in hardware."""
@@ -102,7 +97,7 @@ class MotorTimer(KeptPeripheral):
 
     def period(self) -> int:
         """Time from one update event to the next, fs."""
-        cycles = (self._get(_PSC) + 1) * (self._get(_ARR) + 1) * (self._get(_RCR) + 1)
+        cycles = (self.get(_PSC) + 1) * (self.get(_ARR) + 1) * (self.get(_RCR) + 1)
         return cycles * (SECOND // self._bus_hz())
 
     def _write_cr1(self, value: int) -> None:
@@ -121,10 +116,7 @@ class MotorTimer(KeptPeripheral):
         if self._next <= self._clock.now:
             self._next += self.period()
             self.registers[_SR].value |= _UIF
-            if self._get(_DIER) & _UIE:
+            if self.get(_DIER) & _UIE:
                 self._pend()
             self.on_update()
         return self._next
-
-    def _get(self, offset: int) -> int:
-        return self.registers[offset].value
