@@ -19,7 +19,7 @@ static void forget_doings(struct history *history)
     history->forgets = false;
 }
 
-static void forget_cells(struct history *history, const uint8_t sides[CELL_COUNT])
+void history_restart(struct history *history, const uint8_t sides[CELL_COUNT])
 {
     memcpy(history->sides, sides, CELL_COUNT);
     for (unsigned cell = 0; cell < CELL_COUNT; cell++) {
@@ -35,12 +35,7 @@ static void forget_cells(struct history *history, const uint8_t sides[CELL_COUNT
 void history_begin(struct history *history, const uint8_t sides[CELL_COUNT])
 {
     *history = (struct history){.action = -1, .reason = REASON_STOP};
-    forget_cells(history, sides);
-}
-
-void history_restart(struct history *history, const uint8_t sides[CELL_COUNT])
-{
-    forget_cells(history, sides);
+    history_restart(history, sides);
 }
 
 /* Ends the current trial with the senses that decide the next action. */
