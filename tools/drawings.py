@@ -1,4 +1,4 @@
-"""Drawings for who builds the robot of docs/build.md: its wiring, and its two plates at 1:1, as SVG and as DXF."""
+"""Drawings for building the robot of docs/build.md: its wiring, and its two plates at 1:1, as SVG and as DXF."""
 
 import math
 import re
@@ -23,7 +23,7 @@ text { font: 12px sans-serif; fill: #222 }
 </style>"""
 
 _ROW, _EDGE, _LABEL, _BOARD = 24, 20, 320, 180
-"""Of the wiring: the height of a row, the margin, the width of a label and of the board, px."""
+"""Dimensions of the wiring diagram, px: height of a row, margin, width of a label, width of the board."""
 
 
 def _svg(width: float, height: float, unit: str, parts: Iterator[str]) -> str:
@@ -35,7 +35,7 @@ def draw_wiring(pins: Pins) -> str:
     """The wiring of a board whose headers are known: SVG, a row for each pin of a header.
 
     Raises:
-        UsageError: The headers are not.
+        UsageError: They are unknown.
     """
     if not pins.headers:
         raise UsageError(f"{pins.board}: its file in hal/stm32/boards does not say where the pins are on its headers")
@@ -150,7 +150,7 @@ _STEP = re.compile(r"([MHVA])([^MHVAz]*)")
 
 
 def dxf_of(plate: str) -> str:
-    """What is to be cut of a plate that `draw_plate` drew: DXF, mm from its centre to the right and to the front."""
+    """The cutting lines of a plate drawn by `draw_plate`: DXF, mm from its centre to the right and to the front."""
     shapes = ((kind, dict(re.findall(r'(\w+)="([^"]*)"', words))) for kind, words in _CUT.findall(plate))
     entities = (entity for kind, words in shapes for entity in _DXF_OF[kind](words))
     return "\n".join(["0\nSECTION\n2\nENTITIES", *entities, "0\nENDSEC\n0\nEOF\n"])
@@ -181,7 +181,7 @@ def _dxf_of_slot(words: Mapping[str, str]) -> Iterator[str]:
 
 
 def _dxf_of_outline(words: Mapping[str, str]) -> Iterator[str]:
-    """Of lines along the axes, and of arcs around the centre, counterclockwise."""
+    """The path consists of lines along the axes, and of counterclockwise arcs around the centre."""
     x = y = 0.0
     for step, text in _STEP.findall(words["d"]):
         numbers = [float(number) for number in text.split()]
@@ -199,7 +199,7 @@ _DXF_OF = {"circle": _dxf_of_circle, "rect": _dxf_of_slot, "path": _dxf_of_outli
 
 
 def write_drawings(pins: Pins, folder: Path) -> list[Path]:
-    """Writes all of them into a folder, and returns their files."""
+    """Writes all drawings into a folder; returns their paths."""
     folder.mkdir(parents=True, exist_ok=True)
     lower, upper = draw_plate(upper=False), draw_plate(upper=True)
     drawings = {

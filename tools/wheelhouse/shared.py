@@ -1,7 +1,7 @@
-"""What is the same in the wheels of all systems, made in build/wheel: `python -m tools.wheelhouse.shared`.
+"""Makes the files that the wheels of all systems share, in build/wheel: `python -m tools.wheelhouse.shared`.
 
-The page's WebAssembly and the flash images, from where tools/setup has built them; the interfaces to C, as Python
-reads them; completions for shells and man pages, made of the parsers of the command line.
+They are the page's WebAssembly and the flash images that tools/setup has built; the declarations of C functions, as
+Python modules; and shell completions and man pages, generated from the command line's parsers.
 """
 
 import os
@@ -30,11 +30,11 @@ SHELLS = {
 
 
 SLOTS = ("-a", "-b")
-"""The ends of the names of what an update sends."""
+"""The ends of the names of the images that an update sends."""
 
 
 def copy_page_and_images() -> None:
-    """Copies what was built for pages and boards; images without what a debugger alone reads."""
+    """Copies the files for pages and boards, and strips the images of their debugging information."""
     page = TREE / paths.PAGE_WASM.relative_to(paths.BUILD)
     page.parent.mkdir(parents=True)
     shutil.copyfile(paths.PAGE_WASM, page)
@@ -48,9 +48,9 @@ def copy_page_and_images() -> None:
 
 
 def read_interfaces() -> None:
-    """Has each module that uses C read its declarations, which are kept as modules of Python."""
+    """Lets each module that uses C read its declarations, which are then stored as Python modules."""
     c_interface.FOLDER = TREE / "cffi"
-    from host_sim.backends.in_process_link import InProcessLink  # noqa: PLC0415 - these read, some as they are loaded
+    from host_sim.backends.in_process_link import InProcessLink  # noqa: PLC0415 - some read them when they are imported
     from host_sim.emulator.c_models import c_models  # noqa: PLC0415
     from host_sim.emulator.core import unicorn_calls  # noqa: PLC0415
     from host_sim.lab.gymnasium_envs import told_worlds  # noqa: PLC0415
@@ -71,7 +71,7 @@ def subparsers(parser: Parser) -> Iterator[tuple[str, str, Parser]]:
 
 
 def write_man_page(folder: Path, name: str, summary: str, parser: Parser) -> None:
-    """Has help2man write a page, of a program that prints the help text."""
+    """Lets help2man write a man page, from a program that prints the help text."""
     with TemporaryDirectory() as temporary:
         program = Path(temporary, name)
         program.with_suffix(".txt").write_text(parser.format_help(), encoding="utf-8")
@@ -82,7 +82,7 @@ def write_man_page(folder: Path, name: str, summary: str, parser: Parser) -> Non
 
 
 def write_texts() -> None:
-    """Writes completions and man pages of the command as a wheel has it."""
+    """Writes completions and man pages for the installed command."""
     paths.INSTALLED = True
     os.environ["COLUMNS"] = "100"
     from host_sim.cli.main import parser_of  # noqa: PLC0415 - names in it depend on the line above
@@ -105,7 +105,7 @@ def write_texts() -> None:
 
 
 def main() -> int:
-    """Makes all of it anew."""
+    """Makes all of them from scratch."""
     shutil.rmtree(MADE, ignore_errors=True)
     copy_page_and_images()
     read_interfaces()
