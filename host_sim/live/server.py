@@ -17,7 +17,8 @@ from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX
 from host_sim.live.seats import Seats
 from host_sim.live.visitor import Rights, Visitor
-from host_sim.view.languages import languages, template, with_languages
+from host_sim.view.languages import languages, with_languages
+from host_sim.view.templates import template
 
 PAGES_MAX = 64
 """Maximum number of open pages: a class, those that have just been reloaded, and the board."""

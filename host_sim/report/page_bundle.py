@@ -18,7 +18,8 @@ from functools import cache
 from pathlib import Path
 
 from host_sim.base.paths import WEB
-from host_sim.view.languages import as_script, template, with_languages
+from host_sim.view.languages import as_script, with_languages
+from host_sim.view.templates import template
 
 _STYLE = re.compile(r'<link rel="stylesheet" href="([\w./-]+)">')
 _SCRIPT = re.compile(r'<script type="module" src="([\w./-]+)"></script>')

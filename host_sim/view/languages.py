@@ -1,8 +1,4 @@
-"""The templates of the pages, and the words of the pages and of the robot in each language.
-
-A template is `host_sim/web/NAME.html`; what several have in common is in `common/`, which a comment names. There is one
-file of words a language, `texts/CODE.json`.
-"""
+"""The words of the pages and of the robot in each language: one file a language, `host_sim/web/texts/CODE.json`."""
 
 import json
 import re
@@ -10,7 +6,6 @@ from typing import Any
 
 from host_sim.base.paths import WEB
 
-_COMMON = re.compile(r"^ *<!-- (common/\w+\.html) -->\n", re.MULTILINE)
 _TEXTS = re.compile(r'(<script type="application/json" id="texts" data-parts="([\w ]+)">)</script>')
 
 
@@ -18,15 +13,6 @@ def languages() -> dict[str, dict[str, Any]]:
     """The words of each language, by its code: the parts that docs/lessons.md explains."""
     files = sorted((WEB / "texts").glob("*.json"))
     return {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in files}
-
-
-def template(name: str) -> str:
-    """A template, whole but for its words."""
-    return _COMMON.sub(lambda match: _read(match[1]), _read(name))
-
-
-def _read(name: str) -> str:
-    return (WEB / name).read_text(encoding="utf-8")
 
 
 def with_languages(page: str) -> str:

@@ -15,7 +15,7 @@ from host_sim.recording.resimulation import resimulate
 from host_sim.recording.trajectory import Trajectory, at
 from host_sim.report import page_bundle
 from host_sim.report.replay_page import pack, page, run_data, write_page
-from host_sim.view import languages
+from host_sim.view import templates
 from host_sim.view.state_types import State
 from tests.recording.support import record_run
 
@@ -106,13 +106,11 @@ def test_nothing_in_a_run_ends_the_script_that_holds_it(kept):
 
 
 def test_modules_come_once_each_after_what_they_need(tmp_path, monkeypatch):
-    for module in (languages, page_bundle):
+    for module in (templates, page_bundle):
         monkeypatch.setattr(module, "WEB", tmp_path)
     (tmp_path / "common").mkdir()
     (tmp_path / "common/style.html").write_text('<link rel="stylesheet" href="s.css">\n')
-    (tmp_path / "replay.html").write_text(
-        '  <!-- common/style.html -->\n<script type="module" src="a.js"></script>'
-    )
+    (tmp_path / "replay.html").write_text('  <!-- common/style.html -->\n<script type="module" src="a.js"></script>')
     (tmp_path / "s.css").write_text("p { margin: 0 }\n")
     (tmp_path / "a.js").write_text('import { b } from "./b.js";\nimport { C, d } from "./c.js";\nb(C, d);\n')
     (tmp_path / "b.js").write_text('import { C } from "./c.js";\nexport const b = C;\n')

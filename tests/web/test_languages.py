@@ -11,7 +11,8 @@ import pytest
 from host_sim.base.paths import WEB
 from host_sim.protocol.generated import BODY_SENTENCES, PATTERNS, PROFILES, SENTENCES, SIDES
 from host_sim.view import languages as module
-from host_sim.view.languages import languages, template
+from host_sim.view.languages import languages
+from host_sim.view.templates import template
 from host_sim.world.world_names import STILL_WORLDS
 from tests.runs.support import ROOT
 
