@@ -65,9 +65,9 @@ export class LessonView {
 
   details() {
     const { texts, plan } = this.course;
-    const { words, lessons, glossary } = texts;
+    const { words, glossary } = texts;
     return [
-      made("details", [made("summary", [words.notes]), notesOf(words, lessons[plan.id])]),
+      made("details", [made("summary", [words.notes]), notesOf(texts, plan.id)]),
       made("details", [made("summary", [words.glossary]), made("dl", termsOf(glossary))]),
     ];
   }

@@ -35,7 +35,8 @@ export class Worksheet {
    */
   fill({ id }, texts) {
     const { words, lessons } = texts;
-    const { title, question, steps, goals, tasks, table } = lessons[id];
+    const { title, question, steps, goals, tasks } = lessons[id];
+    const [table] = tableIn(texts, id);
     this.element.replaceChildren(
       made("h1", [title]), headOf(words), made("p", [question], { class: "question" }),
       made("h2", [words.steps]), made("ol", steps.map((step) => made("li", [step]))),
@@ -52,22 +53,30 @@ export class Worksheet {
   fillNotes({ id }, texts) {
     const { words, lessons, glossary } = texts;
     this.element.replaceChildren(
-      made("h1", [`${lessons[id].title}: ${words.notes}`]), notesOf(words, lessons[id]),
+      made("h1", [`${lessons[id].title}: ${words.notes}`]), notesOf(texts, id),
       made("h2", [words.glossary]), made("dl", termsOf(glossary), { class: "glossary" }),
     );
   }
 }
 
 /**
- * What a teacher wants to know of a lesson.
- * @param {Texts["words"]} words
- * @param {Texts["lessons"]["watch"]} lesson
+ * What the pupils are to fill a table with, and the answer; nothing if the lesson has no table.
+ * @param {Texts} texts
+ * @param {Plan["id"]} id
  */
-export function notesOf(words, { tasks, table, notes }) {
-  const { aim, time, expect, answers } = notes;
-  /** @type {[string, string][]} */
-  const asked = tasks.map((task, place) => [task, answers[place]]);
-  if (table) asked.push([table, notes.table]);
+function tableIn({ tables }, id) {
+  return /** @type {Record<string, string[]>} */ (tables)[id] ?? [];
+}
+
+/**
+ * What a teacher wants to know of a lesson.
+ * @param {Texts} texts
+ * @param {Plan["id"]} id
+ */
+export function notesOf(texts, id) {
+  const { words, lessons } = texts;
+  const { tasks, notes: { aim, time, expect, answers } } = lessons[id];
+  const asked = [...tasks.map((task, place) => [task, answers[place]]), tableIn(texts, id)].filter(([task]) => task);
   const answered = asked.map(([task, answer]) => made("li", [made("em", [task]), ` ${answer}`]));
   const about = termsOf([[words.aim, aim], [words.time, time], [words.expect, expect]]);
   return made("div", [made("dl", about), made("h3", [words.answers]), made("ol", answered)], { class: "notes" });
