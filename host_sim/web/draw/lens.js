@@ -6,7 +6,7 @@ import { itemAt } from "../edit/hit_testing.js";
 
 const ZOOM_MAX = 10;
 const ZOOM_STEP = 1.5;
-/** The zoom in which a robot is followed, if there was none. */
+/** The zoom for following a robot, if all of the arena was in view. */
 const FOLLOW_ZOOM = 2.5;
 const WHEEL_PX = 400;
 /** How far an arrow key moves the view, as a fraction of its size. */

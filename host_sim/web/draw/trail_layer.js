@@ -149,7 +149,7 @@ function pathsOf(trail, first) {
 }
 
 /**
- * 0 for the oldest that a full trail holds.
+ * The age of a point, in steps: 0 for the oldest of a full trail.
  * @param {Trail} trail
  * @param {number} i
  */

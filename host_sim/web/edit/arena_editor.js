@@ -43,7 +43,7 @@ export class ArenaEditor {
   }
 
   /**
-   * The robots are where the states say, but for those that a person holds.
+   * Shows robots where their states say, except those that a person holds.
    * @param {number} [dragged] - The robot that is being dragged.
    */
   onStates(dragged) {

@@ -14,7 +14,7 @@ import { endsOf, movedBar, wirePlace } from "./placement.js";
 const LIFT_AFTER_MM = 30;
 const CLICK_MM = 1;
 const SEND_EVERY_MS = 30;
-/** Half of what a finger needs to hit. */
+/** Half the size of what a finger can hit. */
 const FINGER_PX = 22;
 
 /** Selects what is pressed, and moves it with the pointer. */

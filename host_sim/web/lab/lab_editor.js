@@ -23,12 +23,9 @@ export class LabEditor extends ArenaEditor {
   constructor(lab, scene) {
     super(scene, (command) => this.pass(command), () => (lab.stale = true));
     this.lab = lab;
-    /**
-     * By the lane that is touched; it does not hold lanes that are gone.
-     * @type {WeakMap<ShownRun, DragController>}
-     */
+    /** @type {WeakMap<ShownRun, DragController>} - By the lane that is touched; closed lanes are not kept. */
     this.drags = new WeakMap();
-    /** The highest ids of obstacles and plants when one was put down that is not there yet. */
+    /** What `ids` was when an obstacle or a plant was put down that is not there yet. */
     this.idsBefore = 0;
     byId("add-plant").addEventListener("click", () => this.addPlant());
     byId("grow").addEventListener("click", () => this.grow());
@@ -55,7 +52,7 @@ export class LabEditor extends ArenaEditor {
     if (change) this.lab.change(change);
   }
 
-  /** Grows with each obstacle or plant that is put down. */
+  /** The highest ids of obstacles and plants, added up: this grows with each that is put down. */
   get ids() {
     const { bars, plants = [] } = this.scene.environment;
     const [bar, plant] = [bars, plants].map((things) => Math.max(-1, ...things.map(([id]) => id)));

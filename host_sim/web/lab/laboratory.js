@@ -35,13 +35,13 @@ export class Laboratory extends PlayingPage {
     inEachLanguage(() => this.showStatus());
   }
 
-  /** There is another number of runs. */
+  /** Called when the number of runs has changed. */
   onLanes() {}
 
-  /** Another scene is selected, or another robot. */
+  /** Called when another scene or another robot is selected. */
   onScene() {}
 
-  /** A change could not be made. */
+  /** Called when a change was refused. */
   onRefusal() {}
 
   /**
@@ -154,7 +154,7 @@ export class Laboratory extends PlayingPage {
   }
 
   /**
-   * Changes could not be made, and are gone.
+   * Shows why changes were refused, and the run without them.
    * @param {ShownRun} lane
    * @param {string[]} reasons
    */

@@ -45,7 +45,7 @@ export class ShownRun {
     this.scene = undefined;
     /** @type {number[]} - Of each environment so far, the length of the shortest tour, mm. */
     this.tours = [];
-    /** How often it was asked to simulate, and whether the last time is over. */
+    /** How often it was asked to simulate, and whether the last simulation is still running. */
     this.asked = 0;
     this.isRunning = false;
     /** @type {Promise<void>} - Settled when what was asked for last is simulated to its end. */
@@ -83,7 +83,7 @@ export class ShownRun {
   }
 
   /**
-   * Simulates it anew; what could not be changed goes from its experiment.
+   * Simulates it again; changes that are refused are removed from its experiment.
    * @param {Simulator} simulator
    * @param {import("./simulator.js").OnAnswer} onAnswer - Called when there is a run, and at its end.
    */
@@ -138,7 +138,7 @@ export class ShownRun {
   }
 
   /**
-   * The experiment with one more change, in place of an earlier one of the same thing at the same tick.
+   * Adds a change to the experiment; it replaces an earlier one of the same thing at the same tick.
    * @param {Change & {tick: number}} change
    */
   change(change) {
@@ -177,7 +177,7 @@ export class ShownRun {
 }
 
 /**
- * A command of a log as what a person does, if it starts or sets a robot.
+ * What a logged command does, if it starts a robot or sets a parameter; any other change as it is.
  * @param {Change} change
  * @returns {Change}
  */
@@ -189,7 +189,7 @@ export function inWords(change) {
 }
 
 /**
- * What tells that a later change stands for an earlier one; empty for a change that stands for itself.
+ * A later change with the same key replaces an earlier one; empty for a change that replaces none.
  * @param {Change & {tick: number}} change
  */
 function draggedKey(change) {

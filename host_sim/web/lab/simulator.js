@@ -1,5 +1,5 @@
 // @ts-check
-/* Asks the worker for runs. If an experiment changes while it is simulated, only the newest version comes next. */
+/* Asks the worker for runs. Of an experiment that changes meanwhile, only the newest version is simulated next. */
 
 import { inflate } from "../core/packed_columns.js";
 
@@ -35,7 +35,7 @@ export class Simulator {
   }
 
   /**
-   * Runs an experiment, in place of one that the same one has asked for and that has not begun.
+   * Queues an experiment to run; it replaces one that waits there for the same caller.
    * @param {object} who
    * @param {Experiment} experiment
    * @param {OnAnswer} onAnswer - Called after the first environment and at the end.

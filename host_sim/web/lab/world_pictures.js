@@ -49,7 +49,7 @@ export class WorldPictures {
     this.ask();
   }
 
-  /** Has the environments drawn from the seed. */
+  /** Asks for the environments of the seed. */
   ask() {
     const field = typedById("seed", HTMLInputElement);
     if (!field.checkValidity()) return;
@@ -66,7 +66,7 @@ export class WorldPictures {
     }
   }
 
-  /** Draws those that are not drawn yet as the page looks now. */
+  /** Draws the pictures that are missing or out of date. */
   show() {
     for (const picture of this.pictures) {
       const { renderer, scene } = picture;

@@ -20,7 +20,7 @@ export class Course {
   constructor(lab) {
     this.lab = lab;
     /**
-     * Places of the goals that are reached, and of the steps that are done, by lesson; they outlive the page.
+     * By lesson, the indices of the goals reached and of the steps done; the browser keeps them.
      * @type {Record<string, {goals: number[], steps: number[]}>}
      */
     this.progress = progressIn(kept("lessons"));
@@ -33,12 +33,12 @@ export class Course {
     if (`#${this.plan.id}` === location.hash) byId("tab-lessons").click();
   }
 
-  /** Places of the goals that are reached. */
+  /** The indices of the goals that are reached. */
   get reached() {
     return new Set(this.progress[this.plan.id]?.goals);
   }
 
-  /** Places of the steps that are done. */
+  /** The indices of the steps that are done. */
   get done() {
     return new Set(this.progress[this.plan.id]?.steps);
   }
@@ -124,7 +124,7 @@ export class Course {
 }
 
 /**
- * What was kept of the lessons; nothing if that is no such text.
+ * The progress in a kept text; none if it is not one of ours.
  * @param {string} text
  * @returns {Record<string, {goals: number[], steps: number[]}>}
  */

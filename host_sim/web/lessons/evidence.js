@@ -35,7 +35,7 @@ function search(reasons) {
 }
 
 /**
- * The ticks of the longest time, up to a tick, for which a robot could not get clear.
+ * The longest time up to a tick for which a robot could not get clear, in ticks.
  * @param {RobotData} robot
  * @param {number} upTo
  */
@@ -45,7 +45,7 @@ export function longestStretch(robot, upTo) {
 }
 
 /**
- * The ticks that a robot has needed to get clear, for each time that something was in its way; NaN if nothing was.
+ * The mean number of ticks in which a robot got clear of an obstacle; NaN if it met none.
  * @param {RobotData} robot
  * @param {number} upTo
  */
@@ -55,7 +55,7 @@ export function ticksPerObstacle(robot, upTo) {
 }
 
 /**
- * Whether a run is simulated to its end, and shown to it.
+ * Whether a run was simulated to its end and is shown up to there.
  * @param {ShownRun} lane
  * @param {number} tick
  */
@@ -87,7 +87,7 @@ export function settingAt(lane, { robot, name }, tick) {
 }
 
 /**
- * Whether a person has written all turns that a robot knows at a tick, and there is one for each pattern.
+ * Whether a robot knows a turn for each pattern at a tick, all written by a person.
  * @param {RobotData} robot
  * @param {number} tick
  */

@@ -178,7 +178,7 @@ export function hasHeard({ lane, data }, tick) {
 }
 
 /**
- * Whether at this tick all robots of a run in which they share know the turns for both sides, and not all of one without.
+ * Whether all robots of a run with sharing know the turns for both sides at this tick, but not all of a run without.
  * @param {Shown[]} runs
  * @param {number} tick
  */

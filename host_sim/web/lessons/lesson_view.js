@@ -25,7 +25,7 @@ export class LessonView {
     this.begin.className = "main";
     this.begin.id = "begin-lesson";
     this.step = made("div", [], { id: "step", role: "group" });
-    /** The place of the step that is shown, and what is written of it. */
+    /** The index of the step that is shown, and a key of what is written about it. */
     this.place = this.firstOpen;
     this.written = "";
     byId("panel-lessons").replaceChildren(...this.parts());

@@ -6,7 +6,7 @@ import { besideBar } from "../edit/hit_testing.js";
 import { stretchesOf } from "./evidence.js";
 
 /**
- * What was put there: a bar, as in a scene, of a point for a plant; and how thick it is.
+ * What was put there: a bar as in a scene, or a plant as a bar whose ends are its middle; and its radius.
  * @typedef {{bar: number[], radius: number}} Thing
  *
  * A meeting: where the thing stood, when the robot was clear again, whether it had to try, and whether it knew nothing.

@@ -130,7 +130,7 @@ function breakSensors(lab, states) {
 }
 
 /**
- * The last that was done to a sensor, as `breakSensors` does it.
+ * What `breakSensors` last did to a sensor.
  * @param {Lab} lab
  * @param {string} sensor
  */

@@ -11,7 +11,7 @@ const DRIVE = ["left", "right", "reason", "repeat_count", "action"];
 /** Fills the element parting. */
 export class DivergenceView {
   constructor() {
-    /** @type {unknown[]} - What the words are of. */
+    /** @type {unknown[]} - What was compared last: both runs, and the language of the words. */
     this.compared = [];
   }
 

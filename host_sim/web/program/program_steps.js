@@ -13,7 +13,7 @@ export class ProgramSteps {
     this.state = undefined;
     /** @type {number | undefined} - The step that is shown; undefined for the last one. */
     this.place = undefined;
-    /** @type {unknown[]} - Of what the state is: a run, its experiment and a tick. */
+    /** @type {unknown[]} - What the state belongs to: a run, its experiment and a tick. */
     this.of = [];
     this.isAsking = false;
     this.stepsAt = -1;
@@ -60,7 +60,7 @@ export class ProgramSteps {
   }
 
   /**
-   * The first step after one that is not a value of the same line.
+   * The next step that begins a line; those before it assign values in this one.
    * @param {number} place
    */
   nextLine(place) {

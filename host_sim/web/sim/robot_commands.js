@@ -45,7 +45,7 @@ export class RobotCommands {
   }
 
   /**
-   * Asks a robot that has stopped by itself how it is: of its frames, not each came when it should.
+   * Asks a robot that has stopped by itself for a report.
    * @param {number} robot
    */
   askIfHalted(robot) {

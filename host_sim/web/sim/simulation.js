@@ -87,7 +87,7 @@ export class Simulation {
     }
   }
 
-  /** The robots that have stopped by themselves say how they are. */
+  /** Asks the robots that have stopped by themselves for a report. */
   settle() {
     for (const robot of this.robots) this.commands.askIfHalted(robot);
     this.keepLog();
