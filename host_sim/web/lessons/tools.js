@@ -2,7 +2,7 @@
 /* Tools that some lessons need beside the rest of the page. */
 
 import { setText } from "../core/elements.js";
-import { languageCode } from "../core/language.js";
+import { heard, languageCode } from "../core/language.js";
 import { filled } from "../core/phrases.js";
 import { SENSORS } from "../core/sensors.js";
 import { PARAMETERS } from "../generated.js";
@@ -104,9 +104,8 @@ function makePatience(lab, { words }) {
 function makeSensors(lab, { words }) {
   /** @type {[string, string][]} */
   const states = [["sound", words.sound], ["stuck-on", words.stuckOn], ["stuck-off", words.stuckOff]];
-  const names = [words.sensorRight, words.sensorFrontRight, words.sensorFront, words.sensorFrontLeft, words.sensorLeft];
   /** @type {ReturnType<typeof choiceOf>[]} */
-  const choices = SENSORS.map((_, place) => choiceOf(names[place], states, () => breakAsChosen()));
+  const choices = SENSORS.map((name) => choiceOf(heard(name), states, () => breakAsChosen()));
   const breakAsChosen = () => breakSensors(lab, choices.map(({ select }) => select.value));
   const distrust = makeSwitch(lab, "distrust", DISTRUST_DECISIONS, words.distrust);
   const fields = made("fieldset", [made("legend", [words.sensors]), ...choices.map(({ label }) => label).reverse()]);
