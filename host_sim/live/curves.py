@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from host_sim.live.paced_run import PacedRun
-from host_sim.protocol.generated import ROW, Reason
+from host_sim.protocol.generated import AVOIDING, ROW
 from host_sim.world.memory_kinds import sides_of
 
 SAMPLES_MAX = 600
@@ -13,7 +13,6 @@ NAMES = ("trials", "blocked", "cells", "meals")
 """The values in a sample of each robot; blocked is in ticks."""
 
 _REASON = ROW.index("reason")
-_AVOIDING = (Reason.REMEMBERED, Reason.TRIAL, Reason.BOREDOM)
 
 Sample = tuple[int, int, int, int]
 
@@ -86,5 +85,5 @@ class Curves:
         for robot, track in enumerate(tracks):
             at = (first - track.first_tick) * len(ROW) + _REASON
             reasons = track.rows_flat[at :: len(ROW)]
-            self._blocked[robot] += sum(reasons.count(reason) for reason in _AVOIDING)
+            self._blocked[robot] += sum(reasons.count(reason) for reason in AVOIDING)
         self._upto = end

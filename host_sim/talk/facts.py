@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-from host_sim.protocol.generated import Reason, Side
+from host_sim.protocol.generated import AVOIDING, Reason, Side
 from host_sim.recording.trajectory import Trajectory, at
 from host_sim.talk.eliza import Known
 from host_sim.talk.log_index import LogIndex
@@ -15,7 +15,6 @@ from host_sim.view.phrases import decimal, lesson_sentence, sentence, verdict
 from host_sim.view.state_types import Lesson
 
 _SECONDS = re.compile(rf"[0-9]{{1,9}}(?:{POINT}[0-9]{{1,3}})?")
-_TURNS = (Reason.REMEMBERED, Reason.TRIAL, Reason.BOREDOM)
 _MOVES = tuple(reason for reason in Reason if reason != Reason.STOP)
 _LAST = 3
 
@@ -73,7 +72,7 @@ class RobotFacts:
 
     def turn(self, words: Sequence[str]) -> Known | None:
         """The reason for a turn: at a given time, or the last one, to the side in a question if it names one."""
-        return self._reason(words, self._begun(*_TURNS, side=self._texts.side_in(words)))
+        return self._reason(words, self._begun(*AVOIDING, side=self._texts.side_in(words)))
 
     def bored(self, _: Sequence[str]) -> Known:
         """Number of times that it was bored, and the current count towards boredom."""
@@ -178,7 +177,7 @@ class RobotFacts:
         if not self._track.first_tick <= tick <= self._tick:
             return None
         state = self._run.at(tick, self._robot)
-        cells = [state["pattern"]] if state["reason"] in _TURNS and state["pattern"] else []
+        cells = [state["pattern"]] if state["reason"] in AVOIDING and state["pattern"] else []
         said = sentence(state, self._texts.words)
         return self._known(self._texts.say("why", at=self._seconds(tick), sentence=said), [tick], cells)
 

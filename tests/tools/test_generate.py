@@ -148,6 +148,7 @@ UNFIT_WORDS = {
     "a profile without a kind of memory": ('never = "sides"\n', "", "[memory] is of"),
     "a kind of memory that no profile has": ('five = "all_sensors"', 'five = "sides"', "[memory] has"),
     "a kind of memory that is not explained": ('five = "all_sensors"', 'five = "colours"', "[memory] has"),
+    "a reason that does not exist": ('avoiding = ["remembered"', 'avoiding = ["forgotten"', "forgotten"),
     "a column that no row has": ('"lifted", "feel"', '"lifted", "glow"', "columns has glow"),
     "a reason that nothing is said of": (
         'silence = "I hear',

@@ -47,6 +47,7 @@ class Description:
     Attributes:
         messages: As cantools reads them, by rising identifier.
         enums: Enumerations that firmware and simulator share: the words of each, with their numbers.
+        avoiding: The reasons of a robot with something in its way, with their numbers.
         meanings: The meanings of some words, by enumeration.
         parameters: By rising number, from 0 without a gap.
         body_parameters: Parameters of a body on pins, numbered after the robot's.
@@ -71,6 +72,7 @@ class Description:
 
     messages: Sequence[Message]
     enums: Mapping[str, Mapping[str, int]]
+    avoiding: Mapping[str, int]
     meanings: Mapping[str, Mapping[str, str]]
     parameters: Sequence[Parameter]
     body_parameters: Sequence[Parameter]

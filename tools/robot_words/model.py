@@ -73,6 +73,7 @@ def _describe(database: Database, words: Mapping[str, Any]) -> Description:
     return Description(
         messages=sorted(database.messages, key=lambda message: message.frame_id),
         enums=enums,
+        avoiding={name: enums["reason"][name] for name in words["avoiding"]},
         meanings=meanings,
         parameters=[parameter for parameter in parameters if not parameter.name.startswith(_BODY)],
         body_parameters=[parameter for parameter in parameters if parameter.name.startswith(_BODY)],

@@ -32,6 +32,7 @@ def c_name(*words: str) -> str:
 def _numbers(robot: Description) -> str:
     numbers = {
         **{c_name(name): number for name, number in robot.numbers.items()},
+        "AVOIDING_REASONS": sum(1 << number for number in robot.avoiding.values()),
         "FAULT_COUNT": len(robot.enums["fault"]),
         "FEEL_COUNT": len(robot.feel),
         "LAYOUT_HASH": f"0x{robot.layout_hash:04X}",

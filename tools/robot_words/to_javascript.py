@@ -19,6 +19,7 @@ def module(robot: Description) -> str:
     exports: dict[str, object] = {}
     for name in ("reason", "side", "opcode"):
         exports[name.upper()] = {c_name(word): number for word, number in robot.enums[name].items()}
+    exports["AVOIDING"] = list(robot.avoiding.values())
     exports["SIDES"] = list(robot.enums["side"])
     exports["PATTERNS"] = list(robot.patterns)
     exports["FEEL"] = {c_name(name): 1 << bit for bit, name in enumerate(robot.feel)}

@@ -97,6 +97,7 @@ def _constants(robot: Description) -> dict[str, str]:
     return {
         "\nPROFILES: dict[str, int]": repr({name: number for number, name in enumerate(robot.profiles)}),
         "MEMORY_KINDS: dict[str, MemoryKind]": _memory_kinds(robot),
+        "AVOIDING: tuple[Reason, ...]": f"({', '.join(f'Reason.{c_name(name)}' for name in robot.avoiding)},)",
         "PATTERNS: tuple[str, ...]": repr(tuple(robot.patterns)),
         "SIDES: tuple[str, ...]": repr(tuple(robot.enums["side"])),
         "FEEL: dict[str, int]": repr({c_name(name): 1 << bit for bit, name in enumerate(robot.feel)}),

@@ -7,13 +7,12 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.protocol.generated import ROW, Reason
+from host_sim.protocol.generated import AVOIDING, ROW, Reason
 from host_sim.sim.native_loop import NativeLoop
 from host_sim.sim.simulation import Simulation
 from host_sim.view.history import pattern_of
 from host_sim.world.memory_kinds import Memory, sides_of
 
-_AVOIDING = (Reason.REMEMBERED, Reason.TRIAL, Reason.BOREDOM)
 _COLUMNS = [ROW.index(name) for name in ("feel", "reason", "action")]
 
 Ticks = NDArray[np.int16]
@@ -136,7 +135,7 @@ def _at(course: Course[T], tick: int) -> T:
 
 def _contacts(ticks: Ticks, memories: Course[Memory], bodies: Course[BodyState]) -> Iterator[Contact]:
     feel, reason, action = ticks.T
-    avoiding = np.isin(reason, _AVOIDING)
+    avoiding = np.isin(reason, AVOIDING)
     edges = np.flatnonzero(np.diff(avoiding, prepend=False, append=False))
     begun = np.diff(action, prepend=np.int16(-1)) != 0
     for first, end in edges.reshape(-1, 2).tolist():

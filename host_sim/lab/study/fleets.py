@@ -11,13 +11,11 @@ from host_sim.lab.study.contacts import BodyState
 from host_sim.lab.study.plan import Plan
 from host_sim.lab.study.sample import CURVE, TRAPPED_S, Floats, Sample
 from host_sim.lab.study.trial import knows_wrong, tour_s
-from host_sim.protocol.generated import Reason
+from host_sim.protocol.generated import AVOIDING
 from host_sim.sim.fleet import FleetResult, run_fleet
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.memory_kinds import sides_of
 from host_sim.world.params import SimParams
-
-_TURNS = (Reason.TRIAL, Reason.REMEMBERED, Reason.BOREDOM)
 
 
 def samples_of_fleets(plan: Plan) -> list[Sample]:
@@ -77,7 +75,7 @@ def sample_of(name: str, config: RunConfig, first_seed: int, seeds: int) -> Samp
         wrong=at_last(lambda it: knows_wrong(sides_of(it.memory), BodyState())).mean(-1),
         contacts=contacts.sum(-1),
         blocked_s=each(lambda it: it.contacts.ticks * tick_s).sum(-1),
-        turns=each(lambda it: sum(it.begun.get(reason, 0) for reason in _TURNS)).sum(-1),
+        turns=each(lambda it: sum(it.begun.get(reason, 0) for reason in AVOIDING)).sum(-1),
         cleared=(contacts - each(lambda it: it.contacts.goes_on)).sum(-1),
         known_s=np.median(at_last(lambda it: (it.known_ticks or np.inf) * tick_s), -1),
         blocked_at=never,

@@ -67,10 +67,10 @@ static void sense(struct fleet_robot *robot)
     world_sense(robot->world, robot->body, robot->tick, &robot->core->in.senses);
 }
 
-/* A contact lasts from blocked to clear, as in host_sim/lab/study/contacts.py. */
+/* A contact lasts as long as the robot has something in its way. */
 static void note_contact(struct fleet_robot *robot, enum reason reason)
 {
-    if (reason != REASON_REMEMBERED && reason != REASON_TRIAL && reason != REASON_BOREDOM) {
+    if (!((unsigned)AVOIDING_REASONS >> reason & 1u)) {
         robot->blocked_now = 0;
         return;
     }

@@ -1,8 +1,7 @@
 // @ts-check
 /* The results of a run up to a tick: numbers for curves, for a table and for a file. */
 
-import { PARAMETERS } from "../generated.js";
-import { AVOIDING } from "../lessons/evidence.js";
+import { AVOIDING, PARAMETERS } from "../generated.js";
 
 /**
  * @typedef {"trials" | "blocked" | "meals"} Curve

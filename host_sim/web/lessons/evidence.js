@@ -1,12 +1,9 @@
 // @ts-check
 /* Facts about a run up to a tick, for the goals of the lessons. */
 
-import { PARAMETERS, REASON } from "../generated.js";
+import { AVOIDING, PARAMETERS } from "../generated.js";
 
 /** @typedef {{first: number, last: number}} Stretch - Ticks, both ends included. */
-
-/** The reasons of a robot that has something in its way. */
-export const AVOIDING = [REASON.REMEMBERED, REASON.TRIAL, REASON.BOREDOM];
 
 /** @type {WeakMap<RobotData, Stretch[]>} */
 const known = new WeakMap();

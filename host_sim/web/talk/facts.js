@@ -1,7 +1,7 @@
 // @ts-check
 /* What a robot on a page knows of its run up to a tick. host_sim/talk/facts.py explains each fact. */
 
-import { REASON, SIDE } from "../generated.js";
+import { AVOIDING, REASON, SIDE } from "../generated.js";
 import { decimal, filled, lessonSentence, sentence, verdict } from "../core/phrases.js";
 
 /**
@@ -20,7 +20,6 @@ import { decimal, filled, lessonSentence, sentence, verdict } from "../core/phra
 export const POINT = "\u00b7";
 const BITS = { turns: 0, all: 7, right: 1, left: 4, front: 2 };
 const SECONDS = new RegExp(`[0-9]{1,9}(?:${POINT}[0-9]{1,3})?`);
-const TURNS = [REASON.REMEMBERED, REASON.TRIAL, REASON.BOREDOM];
 const MOVES = Object.values(REASON).filter((reason) => reason !== REASON.STOP);
 const LAST = 3;
 
@@ -71,7 +70,7 @@ export class RobotFacts {
     const { left: one, right: other } = this.#track.columns;
     const sideAt = (/** @type {number} */ place) => (one[place] < other[place] ? SIDE.LEFT : SIDE.RIGHT);
     const { first } = this.#about.data;
-    return this.#reason(words, this.#begun(TURNS).filter((tick) => !wanted || sideAt(tick - first) === wanted));
+    return this.#reason(words, this.#begun(AVOIDING).filter((tick) => !wanted || sideAt(tick - first) === wanted));
   }
 
   bored() {
@@ -226,7 +225,7 @@ export class RobotFacts {
     if (tick < this.#about.data.first || tick > this.#about.tick) return null;
     const state = this.#stateAt(tick);
     const said = this.#say("why", { at: this.#seconds(tick), sentence: sentence(state, false, this.#texts.words) });
-    return this.#known(said, [tick], TURNS.includes(state.reason) && state.pattern ? [state.pattern] : []);
+    return this.#known(said, [tick], AVOIDING.includes(state.reason) && state.pattern ? [state.pattern] : []);
   }
 
   /** @param {number} count */
