@@ -51,10 +51,7 @@ class LibraryDevice:
     """A shared library, loaded anew for each device so that its variables are as at power-up."""
 
     def __init__(self, source: Path) -> None:
-        """Loads it.
-
-        Args:
-            source: The library; or a C file, which is compiled.
+        """Loads a library, or a C file, which is compiled.
 
         Raises:
             UsageError: It cannot be compiled or loaded.

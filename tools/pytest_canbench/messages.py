@@ -148,11 +148,7 @@ class Messages:
     def count_in(self, frame: Frame) -> tuple[str, int]:
         """The message and the counter of a frame; an empty name if the file has no such message."""
         message = self._ids.get(frame.id)
-        counter = self._guards[message.name].counter if message is not None else None
-        if message is None or counter is None:
-            return (message.name if message else ""), 0
-        word = int.from_bytes(frame.data, "little")
-        return message.name, word >> counter.start & (1 << counter.length) - 1
+        return ("", 0) if message is None else (message.name, self._count(message.name, frame.data))
 
     def _guard(self, message: Message) -> _Guard:
         named = [
@@ -165,6 +161,11 @@ class Messages:
         if crc is not None and bits and (crc.length != bits or crc.start % 8):
             raise UsageError(f"{message.name}.{crc.name} is no place for a CRC of {bits} bits")
         return _Guard(crc, named[1], ids)
+
+    def _count(self, name: str, data: bytes) -> int:
+        """The counter in the data of a message; 0 if it has none."""
+        counter = self._guards[name].counter
+        return 0 if counter is None else int.from_bytes(data, "little") >> counter.start & (1 << counter.length) - 1
 
     def _span(self, counter: Signal) -> int:
         room = 1 << counter.length
@@ -180,10 +181,7 @@ class Messages:
         if self._profile is None or guard.crc is None:
             return Frame(frame_id, data)
         first, last = guard.crc.start // 8, guard.crc.start // 8 + self._profile.bits // 8
-        count = 0
-        if guard.counter is not None:
-            count = int.from_bytes(data, "little") >> guard.counter.start & (1 << guard.counter.length) - 1
-        crc = self._profile.crc(data[:first] + data[last:], guard.data_ids, count)
+        crc = self._profile.crc(data[:first] + data[last:], guard.data_ids, self._count(name, data))
         return Frame(frame_id, data[:first] + crc.to_bytes(last - first, "little") + data[last:])
 
 
@@ -191,7 +189,6 @@ class Forger:
     """As in `host_sim.faults.bus_faults`: listens, and continues the counters of the real sender."""
 
     def __init__(self, messages: Messages, names: list[str]) -> None:
-        """Has heard nothing yet."""
         self._messages, self._names, self._counts = messages, names, dict[str, int]()
 
     def hear(self, frame: Frame) -> None:
