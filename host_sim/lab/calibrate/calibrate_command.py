@@ -129,7 +129,7 @@ def _measures(calibration: "Calibration", places: "Places | None", step: str, *,
         places.put(step)
     elif ask and sys.stdin.isatty():
         try:
-            input(f"{step}: {STEPS[step]}. Enter when it stands so: ")
+            input(f"{step}: {STEPS[step]}. Press Enter when it is in place: ")
         except EOFError:
             raise UsageError(f"{step} and what follows it were not measured: the input has ended") from None
     why = calibration.measure(step)

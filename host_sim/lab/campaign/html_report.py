@@ -136,8 +136,8 @@ def _bars(outcomes: Sequence[Outcome]) -> str:
         "seen: counted, told, or without any effect": ["unseen" not in outcome.problems for outcome in faulty],
         "recovered: the robot took part again to the end": [outcome.recovered for outcome in faulty],
         "learned nothing wrong": [not outcome.wrong for outcome in faulty],
-        "learned nothing wrong without a word": [
-            "wrong without a word" not in outcome.problems for outcome in faulty
+        "learned nothing wrong without a warning": [
+            "wrong without a warning" not in outcome.problems for outcome in faulty
         ],
     }
     rows = "".join(

@@ -73,8 +73,8 @@ class Outcome:
             "unsafe": self.oldest > HOLD_TICKS,
             "unseen": bool(cell.fault) and not self._is_seen and (self.differs or not cell.harmless),
             "did not happen": bool(self.waiting) and not self.end,
-            "wrong without a word": bool(is_misled),
-            "lost without a word": bool(self.lost),
+            "wrong without a warning": bool(is_misled),
+            "lost without a warning": bool(self.lost),
             "broke": self.broke,
         }
         return [name for name, is_so in found.items() if is_so]

@@ -64,5 +64,5 @@ class BusWatch:
         if self.dropped:
             found.append("monitor: frames came faster than they could be shown, and some are missing here")
         if self.load(now_s) > _FULL:
-            found.append(f"bus: more than {_FULL:.0%} of it is taken")
+            found.append(f"bus: load above {_FULL:.0%}")
         return found

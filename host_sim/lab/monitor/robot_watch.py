@@ -151,7 +151,7 @@ class RobotWatch:
         if running and self.said("HEARTBEAT", "silent"):
             yield "runs, and hears no senses"
         if self._boots:
-            yield f"started anew {self._boots} times" if self._boots > 1 else "started anew"
+            yield f"restarted {self._boots} times" if self._boots > 1 else "restarted"
         choices = {signal.name: signal.choices for signal in MESSAGES["HEALTH"].signals}
         if state := self.said("HEALTH", "bus_state"):
             yield f"its CAN controller is {choices['bus_state'].get(state, state)}"

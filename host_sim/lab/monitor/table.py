@@ -8,7 +8,7 @@ from host_sim.lab.table import aligned
 from host_sim.protocol.generated import MESSAGES, SIDES
 
 _HEAD = (
-    "node", "state", "clock", "profile", "owner", "SENSES/s", "DRIVE/s", "other/s", "lost", "again", "damaged",
+    "node", "state", "clock", "profile", "owner", "SENSES/s", "DRIVE/s", "other/s", "lost", "repeated", "damaged",
     "memory", "doing",
 )  # fmt: skip
 _RIGHT = [i for i, name in enumerate(_HEAD) if name not in ("state", "clock", "profile", "memory", "doing")]

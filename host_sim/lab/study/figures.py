@@ -59,13 +59,13 @@ def _flat(values: Floats, take: Take) -> Floats:
     return values.reshape(*take.shape[:-1], -1)
 
 
-_TOWARD = "robots that in the end know a turn toward what is beside them"
+_TOWARD = "robots that at the end know a turn toward an obstacle beside them"
 _SCORE = "Heiserman's: turns after which the way was clear, of all turns"
 _KNOWN = "robot time until a turn is known for patterns 1, 3, 4 and 6, median"
 
 _BY_TOUR = "time until finished by that of the shortest tour, straight through all food without turning, median"
-_FIRST = "robots that after the change once knew what to do beside things, and no wrong turn"
-_LASTING = "robots that still did when the run ended"
+_FIRST = "robots that at some time after the change knew the turns beside an obstacle, and no wrong one"
+_LASTING = "robots that still knew them, and no wrong one, when the run ended"
 
 FIGURES: dict[str, Figure] = {
     "finished": _percentage("finished", "environments with all food eaten", "finished"),
@@ -82,7 +82,7 @@ FIGURES: dict[str, Figure] = {
     "trapped": _percentage("trapped", f"environments with more than {TRAPPED_S:g} s of that at once", "trapped"),
     "wrong": _percentage("wrong cells", _TOWARD, "wrong"),
     "bumped": _percentage("bumps", "environments in which a body touched something", "bumped"),
-    "denied": _percentage("denied", "environments in which wheels did not do what they were told", "denied"),
+    "denied": _percentage("denied", "environments in which wheels did not follow the command", "denied"),
     "score": Figure("score", _SCORE, "", 2, _share("cleared", "turns")),
     "known_s": Figure("known", _KNOWN, " s", 0, _median("known_s")),
     "recovered": _percentage("recovered", _FIRST, "recovered"),

@@ -115,7 +115,7 @@ def _read_about(path: Path) -> dict[str, Any]:
     except FileNotFoundError:
         raise UsageError(f"there is no study in {path}") from None
     except (ValueError, LookupError, TypeError):
-        raise UsageError(f"{path / STUDY_FILE} is not what a study writes") from None
+        raise UsageError(f"{path / STUDY_FILE} was not written by a study") from None
     if version != FORMAT:
         raise UsageError(f"the study in {path} is of format {version}, this Octet's is {FORMAT}; nothing was changed")
     return dict(about)

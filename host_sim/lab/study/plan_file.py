@@ -146,7 +146,7 @@ class _Reader:
             if wrong := check(word):
                 raise self._error(f"{key}: {wrong}", "", key)
         if len(set(words)) < len(words):
-            raise self._error(f"{key}: something is there twice", "", key)
+            raise self._error(f"{key} has the same value twice", "", key)
         return words
 
     def _number(self, key: str, default: float, low: float, high: float) -> Any:

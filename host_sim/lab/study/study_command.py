@@ -99,7 +99,9 @@ def run_study(path: Path, out: Path, workers: "Workers", chunk: int = 0) -> str:
             stack.callback(keeper.write)  # however the study ends
             for runs in with_progress(trials, workers, chunk):
                 keeper.extend(runs)
-    return f"{len(trials)} runs, {len(plan.trials()) - len(trials)} were there" if done else f"{len(trials)} runs"
+    return (
+        f"{len(trials)} runs, {len(plan.trials()) - len(trials)} existed already" if done else f"{len(trials)} runs"
+    )
 
 
 def with_progress(trials: "Sequence[Trial]", workers: "Workers", chunk: int = 0) -> "Iterator[Sequence[Run]]":

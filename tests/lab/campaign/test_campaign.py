@@ -83,8 +83,8 @@ def test_a_run_that_breaks_or_is_unsafe_or_misled_is_a_problem():
 
     outcome.oldest, outcome.wrong, outcome.broke = 6, (1,), True
 
-    assert outcome.problems == ["unsafe", "wrong without a word", "broke"]
-    assert verdict(outcome) == "UNSAFE, WRONG WITHOUT A WORD, BROKE"
+    assert outcome.problems == ["unsafe", "wrong without a warning", "broke"]
+    assert verdict(outcome) == "UNSAFE, WRONG WITHOUT A WARNING, BROKE"
     assert 'class="bad"' in page([outcome])
 
 
@@ -95,7 +95,7 @@ def test_a_body_that_denies_its_wheels_must_be_told_of_by_the_robot_and_nothing_
     assert told.problems == Outcome(cell, seen="what it does", wrong=(1,)).problems == []
     assert replace(told, cell=replace(cell, denies=True)).problems == []
     assert Outcome(replace(cell, denies=True), seen="what it does", wrong=(1,)).problems == [
-        *("unseen", "wrong without a word"),
+        *("unseen", "wrong without a warning"),
     ]
 
 

@@ -45,7 +45,7 @@ def test_a_memory_that_is_not_in_its_file_at_the_end_fails_the_campaign(monkeypa
 
     outcome = outcome_of("article none lockstep seed=12 limit=1 event=memory-gone@20")
 
-    assert outcome.problems == ["unseen", "lost without a word"]
+    assert outcome.problems == ["unseen", "lost without a warning"]
 
 
 @pytest.fixture
@@ -108,7 +108,7 @@ def test_another_simulator_takes_over_the_robot_of_one_that_was_killed():
 def test_a_memory_that_is_not_in_its_file_when_the_simulator_is_killed_fails_the_campaign(monkeypatch):
     monkeypatch.setattr(MemorySaver, "save", lambda *_: None)
 
-    assert "lost without a word" in outcome_of(f"{LEARNS} event=kill-simulator:5@400").problems
+    assert "lost without a warning" in outcome_of(f"{LEARNS} event=kill-simulator:5@400").problems
 
 
 def test_a_simulator_that_ends_before_it_is_killed_fails_the_campaign(monkeypatch):

@@ -120,7 +120,7 @@ WRONG = {
     "another octet.dbc (layout 1234)": [heartbeat(layout=0x1234)],
     "runs, and hears no senses": [heartbeat(silent=1)],
     "commands of 7, but its owner is 1": [heartbeat(), report("COMMAND", opcode=1, owner=7)],
-    "started anew": [report("BOOT"), heartbeat()],
+    "restarted": [report("BOOT"), heartbeat()],
     "its CAN controller is passive": [report("HEALTH", bus_state=1, clock=1), heartbeat()],
     "its clock is inexact": [report("HEALTH", clock=0), heartbeat()],
     "has crashed since power-up": [report("CRASH"), heartbeat()],
@@ -160,7 +160,7 @@ def test_what_else_is_on_the_bus_is_counted():
 def test_a_full_bus_is_named(log):
     bus, now_s = listen(log, BusWatch(15_000))
 
-    assert bus.wrong(now_s) == ["bus: more than 70% of it is taken"]
+    assert bus.wrong(now_s) == ["bus: load above 70%"]
 
 
 def test_what_the_monitor_itself_missed_is_no_fault_of_the_bus():

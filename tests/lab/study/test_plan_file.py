@@ -75,7 +75,7 @@ def test_a_condition_is_named_by_what_varies(plan):
         ('profiles = ["article"]\nseeds = 0', ":2: seeds is a whole number from 1 to 100000, not 0"),
         ('profiles = ["article"]\nseeds = true', ":2: seeds is a whole number"),
         ('profiles = "article"', ':1: profiles is a list of words, such as profiles = ["article"]'),
-        ('profiles = ["article", "article"]', ":1: profiles: something is there twice"),
+        ('profiles = ["article", "article"]', ":1: profiles has the same value twice"),
         (
             'profiles = ["article"]\nchanges = ["swap-motor@env1"]',
             ":2: changes: 'swap-motor@env1' is not a change: did you",

@@ -74,7 +74,7 @@ def test_what_is_there_is_not_made_again_and_more_seeds_are_added(plan, tmp_path
 
     assert study(plan(seeds=3)) == 0
 
-    assert "(4 runs, 2 were there)" in capsys.readouterr().out
+    assert "(4 runs, 2 existed already)" in capsys.readouterr().out
     after = contents(tmp_path / "out/runs")
     assert {name: after[name] for name in before} == before
     runs = StudyFolder(tmp_path / "out").tables()["runs"]
