@@ -9,7 +9,7 @@ from playwright.sync_api import Page
 
 from tests.web.live.test_class import board_url
 from tests.web.looks import PHONES, SCHEMES, THREE_SIZES, TOO_SMALL, blank, check, out_of_view, resize, violations_at
-from tests.web.support import wait_for, wait_for_text
+from tests.web.support import next_frame, wait_for, wait_for_text
 
 READY = "window.octet?.message"
 CLOCK = "(octet.scene.state.tick - octet.scene.environment.start_tick)"
@@ -84,6 +84,16 @@ def test_a_page_shows_and_changes_its_own_robot_and_has_no_other_controls(lesson
     assert second.evaluate("octet.scene.node") == 2
     for control in ("#play", "#speed", "#next", "#seed", "#add-bar"):
         assert not second.is_visible(control), control
+
+
+def test_the_arena_keeps_its_shape_whatever_size_its_canvas_had(lesson):
+    board, _ = lesson(2, 0)
+
+    board.evaluate("octet.renderer.canvas.width = octet.renderer.canvas.height = 1")
+    next_frame(board)
+
+    box = board.locator("#floor").bounding_box()
+    assert box["width"] / box["height"] == pytest.approx(4080 / 3080, rel=0.01)
 
 
 def test_a_page_without_a_robot_watches(watch, open_page):
