@@ -8,8 +8,6 @@
 #include "hal/stm32/registers.h"
 
 enum {
-    FIFOS = 2,
-
     MCR_INRQ = 1 << 0,            /* TXFP stays clear: the lowest identifier is sent first */
     MSR_INAK = 1 << 0,
     TSR_ABRQ0 = 1 << 7,           /* aborts mailbox 0; the others' bits follow at intervals of 8 */
@@ -51,7 +49,7 @@ enum can_state can_state(void)
     return CAN1.msr & MSR_INAK ? CAN_JOINING : CAN_JOINED;
 }
 
-/* One filter bank with a mask per entry, data frames only. Families go to FIFO 1, where they displace no others. */
+/* One filter bank with a mask per entry, data frames only. */
 static void set_filters(const uint16_t ids[], size_t count)
 {
     uint32_t families = 0;
@@ -99,62 +97,51 @@ static void read_mailbox(const volatile struct can_mailbox *received, struct fra
     memcpy(out->data, data, len);   /* the core is little-endian, too */
 }
 
-static int take_from(unsigned n, struct frame *out)
+int can_take(unsigned fifo, struct frame *out)
 {
-    uint32_t fifo = CAN1.rfr[n];
+    uint32_t status = CAN1.rfr[fifo];
 
-    if (fifo & RFR_FOVR) {
-        CAN1.rfr[n] = RFR_FOVR;
+    if (status & RFR_FOVR) {
+        CAN1.rfr[fifo] = RFR_FOVR;
         return LINK_E_GARBLED;
     }
-    if (!(fifo & RFR_FMP) || fifo & RFR_RFOM)
+    if (!(status & RFR_FMP) || status & RFR_RFOM)
         return 0;
-    read_mailbox(&CAN1.received[n], out);
-    CAN1.rfr[n] = RFR_RFOM;
+    read_mailbox(&CAN1.received[fifo], out);
+    CAN1.rfr[fifo] = RFR_RFOM;
     return 1;
-}
-
-int can_take(struct frame *out)
-{
-    int result = 0;
-
-    for (unsigned n = 0; n < FIFOS && result == 0; n++)
-        result = take_from(n, out);
-    return result;
-}
-
-static uint32_t word_of(const uint8_t data[4])
-{
-    return data[0] | (uint32_t)data[1] << 8 | (uint32_t)data[2] << 16 | (uint32_t)data[3] << 24;
 }
 
 static void write_mailbox(volatile struct can_mailbox *mailbox, const struct frame *frame)
 {
+    uint32_t data[2];
+
+    memcpy(data, frame->data, sizeof data);
     mailbox->length = frame->len;
-    mailbox->data[0] = word_of(&frame->data[0]);
-    mailbox->data[1] = word_of(&frame->data[4]);
+    mailbox->data[0] = data[0];
+    mailbox->data[1] = data[1];
     mailbox->id = frame->id << STANDARD_AT | ID_TXRQ;
 }
 
-static uint32_t taken(void)
+uint32_t can_waiting(void)
 {
     return ~CAN1.tsr >> TSR_TME_AT & ((1u << CAN_BUFFERS) - 1u);
 }
 
-static uint32_t id_in(unsigned n)
+uint32_t can_waiting_id(unsigned n)
 {
     return CAN1.sent[n].id >> STANDARD_AT;
 }
 
 static bool holds(unsigned n, uint32_t waiting, uint32_t id)
 {
-    return waiting >> n & 1u && id_in(n) == id;
+    return waiting >> n & 1u && can_waiting_id(n) == id;
 }
 
 /* Equal identifiers are sent in the order of mailbox numbers. */
 bool can_put(const struct frame *frame)
 {
-    uint32_t waiting = taken();
+    uint32_t waiting = can_waiting();
     unsigned n = CAN_BUFFERS;
 
     while (n > 0 && !holds(n - 1, waiting, frame->id))
@@ -165,16 +152,6 @@ bool can_put(const struct frame *frame)
         return false;
     write_mailbox(&CAN1.sent[n], frame);
     return true;
-}
-
-uint32_t can_waiting(uint32_t ids[CAN_BUFFERS])
-{
-    uint32_t waiting = taken();
-
-    for (unsigned n = 0; n < CAN_BUFFERS; n++)
-        if (waiting >> n & 1u)
-            ids[n] = id_in(n);
-    return waiting;
 }
 
 void can_abort(uint32_t buffers)

@@ -9,7 +9,8 @@
 
 enum {
     CAN_STOP_MS = 2,   /* the frame under way ends first */
-    CAN_BUFFERS = 3    /* for frames to be sent */
+    CAN_BUFFERS = 3,   /* for frames to be sent */
+    CAN_FIFOS = 2      /* of received frames; the last one is for families, which displace no others there */
 };
 
 bool can_stop(void);
@@ -26,16 +27,18 @@ enum can_state { CAN_JOINING, CAN_JOINED, CAN_LOST };
 enum can_state can_state(void);
         /* CAN_LOST: bus-off, until can_stop and can_start have taken effect. */
 
-int can_take(struct frame *out);
-        /* Receives a frame: oldest first, but families after all others. Returns 1, 0 for none, or LINK_E_GARBLED if
-           frames were lost. */
+int can_take(unsigned fifo, struct frame *out);
+        /* Takes the oldest frame of a FIFO. Returns 1, 0 for none, or LINK_E_GARBLED if frames were lost. */
 
 bool can_put(const struct frame *frame);
         /* Queues a frame: the lowest identifier is sent first, and equal ones in the order of these calls. False: no
            free buffer could keep that order. */
 
-uint32_t can_waiting(uint32_t ids[CAN_BUFFERS]);
-        /* Bit n: buffer n holds a frame that waits or is being sent, and ids[n] is its identifier. */
+uint32_t can_waiting(void);
+        /* Bit n: buffer n holds a frame that waits or is being sent. */
+
+uint32_t can_waiting_id(unsigned n);
+        /* The identifier of the frame in buffer n; that of an earlier one, or any, if it holds none. */
 
 void can_abort(uint32_t buffers);
         /* Cancels the frames in these buffers, one bit each. A frame that is being sent may still arrive, and keeps

@@ -73,6 +73,16 @@ static bool is_up(struct link *link)
     return state == CAN_JOINED;
 }
 
+/* Families after all others. */
+static int take(struct frame *out)
+{
+    int result = 0;
+
+    for (unsigned n = 0; n < CAN_FIFOS && result == 0; n++)
+        result = can_take(n, out);
+    return result;
+}
+
 int link_receive(struct link *link, struct frame *out, uint32_t wait_ms)
 {
     uint32_t start = machine_ms();
@@ -83,7 +93,7 @@ int link_receive(struct link *link, struct frame *out, uint32_t wait_ms)
         up = is_up(link);
         if (link->queue.count > 0)
             (void)can_queue_pump(&link->queue);
-        result = can_take(out);
+        result = take(out);
     } while (result == 0 && machine_ms() - start < wait_ms);
     return result == 0 && !up ? LINK_E_DOWN : result;
 }

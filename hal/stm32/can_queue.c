@@ -29,8 +29,7 @@ static unsigned count_of(uint32_t buffers)
 
 void can_queue_drop(struct can_queue *queue)
 {
-    uint32_t ids[CAN_BUFFERS];
-    uint32_t waiting = can_waiting(ids);
+    uint32_t waiting = can_waiting();
 
     can_abort(waiting);
     note_dropped(queue, count_of(waiting) + queue->count);
@@ -40,9 +39,8 @@ void can_queue_drop(struct can_queue *queue)
 /* The controller's last buffer is reserved for urgent frames. */
 unsigned can_queue_pump(struct can_queue *queue)
 {
-    uint32_t ids[CAN_BUFFERS];
     uint32_t now = machine_ms();
-    unsigned inside = count_of(can_waiting(ids));
+    unsigned inside = count_of(can_waiting());
     unsigned waiting = inside + queue->count;
 
     if (waiting == 0 || waiting < queue->waiting)
@@ -71,11 +69,10 @@ static bool drain(struct can_queue *queue, unsigned left)
 
 static bool is_urgent(const struct can_queue *queue, uint32_t id)
 {
-    uint32_t ids[CAN_BUFFERS];
-    uint32_t waiting = can_waiting(ids);
+    uint32_t waiting = can_waiting();
 
     for (unsigned n = 0; n < CAN_BUFFERS; n++)
-        if (waiting >> n & 1u && ids[n] <= id)
+        if (waiting >> n & 1u && can_waiting_id(n) <= id)
             return false;
     for (unsigned i = 0; i < queue->count; i++)
         if (queue->frames[(queue->first + i) % CAN_QUEUE_MAX].id <= id)
@@ -86,13 +83,12 @@ static bool is_urgent(const struct can_queue *queue, uint32_t id)
 /* If all buffers are in use, drops the least urgent frame. */
 static void make_room(struct can_queue *queue)
 {
-    uint32_t ids[CAN_BUFFERS];
     unsigned last = 0;
 
-    if (count_of(can_waiting(ids)) < CAN_BUFFERS)
+    if (count_of(can_waiting()) < CAN_BUFFERS)
         return;
     for (unsigned n = 1; n < CAN_BUFFERS; n++)
-        if (ids[n] > ids[last])
+        if (can_waiting_id(n) > can_waiting_id(last))
             last = n;
     can_abort(1u << last);
     note_dropped(queue, 1);

@@ -14,7 +14,6 @@ enum {
     CCCR_CCE = 1 << 1,
     RXGFC_REJECT = 1 << 0 | 1 << 1 | 2 << 2 | 2 << 4,   /* remote frames, and frames that match no filter */
     RXGFC_FILTERS_AT = 16,
-    FIFOS = 2,
     FILTER_TO_FIFO_0 = 1 << 27,
     FILTER_TO_FIFO_1 = 2 << 27,
     ID_BITS = 0x7FF,
@@ -64,7 +63,7 @@ enum can_state can_state(void)
     return status & PSR_ACTIVITY ? CAN_JOINED : CAN_JOINING;
 }
 
-/* One filter with a mask per entry. Families go to FIFO 1, where they displace no others. */
+/* One filter with a mask per entry. */
 static void set_filters(const uint16_t ids[], size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -107,37 +106,28 @@ static void read_element(const volatile struct fdcan_element *element, struct fr
     memcpy(out->data, data, len);   /* the core is little-endian, too */
 }
 
-static int take_from(unsigned n, struct frame *out)
+int can_take(unsigned fifo, struct frame *out)
 {
-    uint32_t fifo = FDCAN.rxf[n].status;
-    uint32_t first = fifo >> RXFS_FIRST_AT & 3u;
+    uint32_t status = FDCAN.rxf[fifo].status;
+    uint32_t first = status >> RXFS_FIRST_AT & 3u;
 
-    if (fifo & RXFS_LOST) {
-        FDCAN.ir = n == 0 ? IR_RF0L : IR_RF1L;
+    if (status & RXFS_LOST) {
+        FDCAN.ir = fifo == 0 ? IR_RF0L : IR_RF1L;
         return LINK_E_GARBLED;
     }
-    if (!(fifo & RXFS_LEVEL))
+    if (!(status & RXFS_LEVEL))
         return 0;
-    read_element(&FDCAN_RAM.received[n][first], out);
-    FDCAN.rxf[n].read = first;
+    read_element(&FDCAN_RAM.received[fifo][first], out);
+    FDCAN.rxf[fifo].read = first;
     return 1;
 }
 
-int can_take(struct frame *out)
+uint32_t can_waiting(void)
 {
-    int result = 0;
-
-    for (unsigned n = 0; n < FIFOS && result == 0; n++)
-        result = take_from(n, out);
-    return result;
+    return FDCAN.txbrp;
 }
 
-static uint32_t word_of(const uint8_t data[4])
-{
-    return data[0] | (uint32_t)data[1] << 8 | (uint32_t)data[2] << 16 | (uint32_t)data[3] << 24;
-}
-
-static uint32_t id_in(unsigned n)
+uint32_t can_waiting_id(unsigned n)
 {
     return FDCAN_RAM.sent[n].id >> STANDARD_AT;
 }
@@ -145,10 +135,10 @@ static uint32_t id_in(unsigned n)
 /* Equal identifiers are sent in the order of buffer numbers. */
 static bool would_overtake(uint32_t buffer, uint32_t id)
 {
-    uint32_t waiting = FDCAN.txbrp;
+    uint32_t waiting = can_waiting();
 
     for (uint32_t n = buffer + 1; n < CAN_BUFFERS; n++)
-        if (waiting >> n & 1u && id_in(n) == id)
+        if (waiting >> n & 1u && can_waiting_id(n) == id)
             return true;
     return false;
 }
@@ -158,25 +148,17 @@ bool can_put(const struct frame *frame)
     uint32_t fifo = FDCAN.txfqs;
     uint32_t next = fifo >> TXFQS_NEXT_AT & 3u;
     volatile struct fdcan_element *element = &FDCAN_RAM.sent[next];
+    uint32_t data[2];
 
     if (fifo & TXFQS_FULL || would_overtake(next, frame->id))
         return false;
+    memcpy(data, frame->data, sizeof data);
     element->id = frame->id << STANDARD_AT;
     element->control = (uint32_t)frame->len << LENGTH_AT;
-    element->data[0] = word_of(&frame->data[0]);
-    element->data[1] = word_of(&frame->data[4]);
+    element->data[0] = data[0];
+    element->data[1] = data[1];
     FDCAN.txbar = 1u << next;
     return true;
-}
-
-uint32_t can_waiting(uint32_t ids[CAN_BUFFERS])
-{
-    uint32_t waiting = FDCAN.txbrp;
-
-    for (unsigned n = 0; n < CAN_BUFFERS; n++)
-        if (waiting >> n & 1u)
-            ids[n] = id_in(n);
-    return waiting;
 }
 
 void can_abort(uint32_t buffers)

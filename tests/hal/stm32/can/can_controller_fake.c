@@ -62,11 +62,14 @@ bool can_put(const struct frame *frame)
     return false;
 }
 
-uint32_t can_waiting(uint32_t ids[CAN_BUFFERS])
+uint32_t can_waiting(void)
 {
-    for (unsigned n = 0; n < CAN_BUFFERS; n++)
-        ids[n] = controller.waiting >> n & 1u ? controller.buffers[n].id : controller.ids_elsewhere;
     return controller.waiting;
+}
+
+uint32_t can_waiting_id(unsigned n)
+{
+    return controller.waiting >> n & 1u ? controller.buffers[n].id : controller.ids_elsewhere;
 }
 
 void can_abort(uint32_t buffers)

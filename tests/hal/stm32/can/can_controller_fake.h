@@ -17,7 +17,7 @@ struct can_fake {
     struct frame buffers[CAN_BUFFERS];
     unsigned order[CAN_BUFFERS];   /* which frame it was, of all that were taken */
     unsigned taken;
-    uint32_t ids_elsewhere;   /* what can_waiting has for buffers that are free */
+    uint32_t ids_elsewhere;   /* what can_waiting_id has for buffers that are free */
     struct frame sent[FAKE_SENT_MAX];
     unsigned sent_count;
     uint32_t aborted;         /* buffers that were last given up */
