@@ -6,7 +6,7 @@ import pytest
 
 from host_sim.api import run
 from host_sim.protocol.codec import COUNTERS, Frame, Protocol
-from host_sim.protocol.generated import ANSWER_WANTS_RANGES, PROFILES, TICK_SPAN, Opcode, Reason, Result
+from host_sim.protocol.generated import ANSWER_WANTS_RANGES, MESSAGES, PROFILES, TICK_SPAN, Opcode, Reason, Result
 from host_sim.recording.log_reader import read_log
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.arena import Arena
@@ -66,7 +66,8 @@ def test_bodies_keep_the_contract_of_the_wire(source, profile, tmp_path):
     for one, next_ in pairwise(senses):
         assert next_["tick"] == (one["tick"] + 1) % TICK_SPAN
         assert next_["counter"] == (one["counter"] + 1) % COUNTERS
-    before = [said[i - 1] for i, it in enumerate(said) if i > begun + 1 and it.name == "SENSES"]
+    own = [it for it in said[begun + 1 :] if MESSAGES[it.name].sender == "SIM"]  # the robot answers in between
+    before = [one for one, next_ in pairwise(own) if next_.name == "SENSES"]
     assert all((it.name == "RANGES") == wants for it in before)
     drives = {(it.signals["tick"], it.signals["counter"]) for it in said[begun:] if it.name == "DRIVE"}
     assert all((it["tick"], it["counter"]) in drives for it in senses[:-1])
