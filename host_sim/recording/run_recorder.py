@@ -89,9 +89,9 @@ class RunRecorder:
             self.enter(environment_scene(record.begun, record.environments, arena))
         for i, client in enumerate(simulation.clients):
             if simulation.loop is None:
-                body, frozen = arena.bodies[i], self.histories[i].frozen
-                tick = Tick(simulation.senses[i], simulation.drives[i], client.memory, frozen)
-                self.add(i, tick, body.pose, lifted=body.lifted)
+                body = arena.bodies[i]
+                row = (*simulation.senses[i], *simulation.drives[i], 0, body.lifted, 0)
+                self._add(i, row, client.memory, body.pose)
             else:
                 self.add_block(i, simulation.loop.block(i), client.memory)
         if sum(map(_FOOD_EATEN, simulation.episode.robots)) != self.trajectory.meals[-1][1].count(1):
@@ -119,9 +119,7 @@ class RunRecorder:
         """
         self.between(robot, tick.started, tick.written)
         self.histories[robot].frozen = tick.frozen
-        row = bytearray(_PACKED.pack(*tick.senses, *tick.drive, 0, lifted, 0))
-        self._take(robot, row, tick.memory)
-        self.trajectory.tracks[robot].poses_flat.extend(pose)
+        self._add(robot, (*tick.senses, *tick.drive, 0, lifted, 0), tick.memory, pose)
 
     def between(self, robot: int, started: Memory | None, written: Sequence[Memory]) -> None:
         """Records starts and memory changes of one robot between the last tick and the next one.
@@ -163,6 +161,11 @@ class RunRecorder:
         for track, drive in zip(trajectory.tracks, drives, strict=True):
             if drive.eat:
                 track.meals.append(trajectory.ticks - 1)
+
+    def _add(self, robot: int, row: Sequence[int], memory: Memory, pose: Pose) -> None:
+        """Adds one robot's tick: the numbers of `ROW`, its eight cells, and its pose after the move."""
+        self._take(robot, bytearray(_PACKED.pack(*row)), memory)
+        self.trajectory.tracks[robot].poses_flat.extend(pose)
 
     def _take(self, robot: int, rows: Any, memory: Memory) -> None:
         """Adds the rows of ticks; the robot's report belongs to the last one."""
