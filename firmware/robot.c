@@ -43,9 +43,10 @@ static void judge(struct robot *robot, bool denied)
     if (denied) {
         robot->turn_denied = tells;
         note_denial(robot);
-    } else if (robot->denials > 0 && (tells || !robot->turn_denied)) {
-        robot->denials--;
+        return;
     }
+    if (robot->denials > 0 && (tells || !robot->turn_denied))
+        robot->denials--;
 }
 
 static bool has_ended(struct robot *robot, const struct senses *senses)
