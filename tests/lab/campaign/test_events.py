@@ -98,7 +98,7 @@ def test_the_power_goes_twice_in_a_row_while_flash_is_erased_and_the_memory_is_k
 def test_an_event_without_effect_fails_the_campaign(monkeypatch, where, event):
     monkeypatch.setattr("host_sim.lab.campaign.running.happen", lambda *_: None)
     for limit in ("_LEAST_S", "_FIRST_S", "_MOST_S"):  # what a busy host repeats would look like the effect
-        monkeypatch.setattr(f"host_sim.client.round_trip.{limit}", 10.0)
+        monkeypatch.setattr(f"host_sim.client.waiting.{limit}", 10.0)
 
     outcome = outcome_of(f"article {where} lockstep seed=12 limit=0.6 event={event}@20")
 
