@@ -136,6 +136,7 @@ SOURCES = ("firmware/*.[ch]", "hal/*.[ch]", "host_sim/*.[ch]", "host_sim/*.py", 
 LANGUAGES = {"c": "C", "h": "C", "js": "JavaScript", "py": "Python"}
 
 TWINS = {
+    "host_sim/sim/native/fleet.c": "tests/lab/study/test_trial.py",
     "host_sim/sim/native/log_lines.h": "tests/sim/test_native_equality.py",
     "host_sim/web/lab/files.js": "tests/web/sim/test_page_opening.py",
     "host_sim/web/native/page_open.c": "tests/web/sim/test_page_runs.py",

@@ -67,7 +67,7 @@ static void sense(struct fleet_robot *robot)
     world_sense(robot->world, robot->body, robot->tick, &robot->core->in.senses);
 }
 
-/* A contact lasts as long as the robot has something in its way. */
+/* A contact lasts from blocked to clear, as in host_sim/lab/study/contacts.py. */
 static void note_contact(struct fleet_robot *robot, enum reason reason)
 {
     if (!((unsigned)AVOIDING_REASONS >> reason & 1u)) {
