@@ -1,13 +1,11 @@
 #include "firmware/brain.h"
 
 #include "firmware/behaviours/behaviour.h"
-#include "firmware/behaviours/listing.h"
-#include "firmware/memory/memory_kind.h"
-#include "firmware/memory/memory_write.h"
+#include "firmware/memory/memory.h"
 
 #define KIND(profile, name, kind) [profile] = kind,
 
-const uint8_t BRAIN_MEMORY_KINDS[PROFILE_COUNT] = {ROBOT_BEHAVIOURS(KIND)};
+const uint8_t BRAIN_MEMORY_KINDS[PROFILE_OWN + 1] = {ROBOT_BEHAVIOURS(KIND)};
 
 #define BEGIN(profile, name, kind) \
     case profile:            \
@@ -25,7 +23,7 @@ static bool begin(struct brain *brain)
 
 bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed)
 {
-    if (profile >= PROFILE_COUNT)
+    if (profile >= PROFILE_COUNT && (profile != PROFILE_OWN || !OWN_IS_LINKED))
         return false;
     random_seed(&brain->random, seed);
     brain->profile = profile;
@@ -33,6 +31,8 @@ bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed)
     brain->awaits = 0;
     brain->used = 0;
     brain->unlearned = 0;
+    for (uint8_t i = 0; i < sizeof brain->own; i++)
+        brain->own[i] = 0;
     brain->changed = memory_translate(&brain->memory, (enum memory_kind)BRAIN_MEMORY_KINDS[profile])
                    || brain->changed;
     brain->learns = begin(brain);

@@ -24,11 +24,12 @@ struct brain {
     uint8_t awaits;          /* what to do when the current action ends; 0: nothing */
     uint8_t tried_feel;      /* feel when the last turn away from an obstacle began; 0: it teaches nothing */
     uint8_t tried_side;      /* and its side, tried or remembered */
-    uint8_t used;            /* used_cells.h: bit p for cell p */
+    uint8_t used;            /* bit p for cell p */
     uint8_t unlearned;       /* likewise: emptied by boredom since the start */
     bool chasing, ate;       /* searcher: it is going to food; the last step reached it */
     bool lost;               /* searcher: it has lost sight of food since its last meal */
     uint16_t since_mm;       /* searcher: distance since it last looked around or saw food */
+    uint8_t own[8];          /* of a behaviour of one's own; all 0 at a start */
     bool learns;             /* whether the profile learns; if not, its memory is not stored */
     bool wants_ranges;       /* true: the behaviour decides by range_mm */
     bool frozen;             /* true: it learns no more */
@@ -37,13 +38,13 @@ struct brain {
 
 bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed);
         /* Prepares for the first decision with that profile. The memory is kept, converted to the profile's kind.
-           False if there is no such profile; nothing is changed then. */
+           False if the robot has no such profile; nothing is changed then. */
 
 bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT]);
         /* Sets the memory. If its kind is not the profile's, selects the first profile of that kind. False if the
            bytes are not a memory; nothing is changed then. */
 
-extern const uint8_t BRAIN_MEMORY_KINDS[PROFILE_COUNT];
+extern const uint8_t BRAIN_MEMORY_KINDS[PROFILE_OWN + 1];
         /* The kind of memory that a profile uses, an enum memory_kind. */
 
 bool brain_write(struct brain *brain, uint8_t which, uint32_t bytes);

@@ -1,6 +1,6 @@
 #include "firmware/sharing.h"
 
-#include "firmware/memory/confidence.h"
+#include "firmware/memory/memory.h"
 
 enum { HALF = CELL_COUNT / 2, SIDE_BITS = 3 };
 

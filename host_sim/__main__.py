@@ -21,21 +21,11 @@ def main() -> int:
     interruptible = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if interruptible:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
-    try:
-        from host_sim.cli.main import main as run  # noqa: PLC0415 - this takes the time
+    from host_sim.cli.main import main as run  # noqa: PLC0415 - this takes the time
 
-        if interruptible:
-            signal.signal(signal.SIGINT, signal.default_int_handler)
-        return run()
-    except ModuleNotFoundError as error:
-        if (error.name or "host_sim").startswith("host_sim"):
-            raise
-        from host_sim.base.extra_library import missing  # noqa: PLC0415 - see above
-        from host_sim.base.paths import INSTALLED  # noqa: PLC0415 - see above
-
-        again = f"{error.name} is missing from .venv: remove that folder and run the command again"
-        sys.stderr.write(f"octet: {missing(error.name or '', '') if INSTALLED else again}\n")
-        return 1
+    if interruptible:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    return run()
 
 
 if __name__ == "__main__":

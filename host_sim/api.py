@@ -1,4 +1,4 @@
-"""For programs of your own: runs and logs without the command line. docs/recipes.md shows how.
+"""For programs of your own: runs and logs without the command line. docs/python.md shows how.
 
 >>> from host_sim.api import RunConfig, run
 >>> done = run(RunConfig(seed=1, environments=1, limit_s=20))
@@ -25,10 +25,10 @@ from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import world_path, write_world
 from host_sim.report.replay_page import write_page
-from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.make import Memory, make
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
+from host_sim.sim.world_record import EpisodeResult
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -19,17 +19,29 @@ MAY_INCLUDE = {
     "hal/can_body/": ("firmware/io.h", "hal/hal.h", "hal/link/link.h", "hal/protocol/"),
     "hal/flash_store/": ("firmware/io.h", "hal/hal.h"),
     "hal/port/": ("firmware/io.h", "hal/hal.h", "hal/can_body/port.h", "hal/protocol/health.h"),
-    "hal/port/cortex_m/": ("hal/hal.h", "hal/can_body/port.h", "hal/flash_store/", "hal/protocol/health.h"),
-    "hal/boot/": ("hal/hal.h", "hal/flash_store/", "hal/link/link.h", "hal/port/cortex_m/"),
+    "hal/port/cortex_m/": (
+        *("hal/hal.h", "hal/can_body/port.h", "hal/flash_store/", "hal/link/"),
+        "hal/protocol/health.h",
+    ),
     "hal/stm32/": (
-        *("hal/boot/", "hal/can_body/port.h", "hal/flash_store/", "hal/link/"),
+        *("hal/can_body/port.h", "hal/flash_store/", "hal/link/"),
         *("hal/pins_body/", "hal/port/"),
     ),
+    "hal/rp2040/": ("hal/flash_store/", "hal/link/", "hal/pins_body/", "hal/port/"),
     "hal/library/": ("firmware/", "hal/protocol/"),
-    "hal/pins_body/": ("firmware/io.h", "hal/hal.h", "hal/can_body/port.h", "hal/protocol/"),
-    "host_sim/world/native/": ("firmware/io.h", "hal/boot/sha512.h", "hal/pins_body/"),
+    "hal/pins_body/": (
+        "firmware/io.h",
+        "firmware/motion/speed_control.h",
+        "hal/hal.h",
+        "hal/can_body/port.h",
+        "hal/protocol/",
+    ),
+    "host_sim/world/native/": ("firmware/io.h", "firmware/motion/speed_control.h"),
     "host_sim/program/native/": ("firmware/", "hal/library/", "host_sim/world/native/trig.h"),
-    "host_sim/sim/native/": ("firmware/", "hal/link/link.h", "hal/protocol/e2e.h", "host_sim/world/native/"),
+    "host_sim/sim/native/": (
+        *("firmware/", "hal/flash_store/crc32.h", "hal/link/link.h", "hal/protocol/e2e.h"),
+        "host_sim/world/native/",
+    ),
 }
 FOLDERS = ("firmware", "hal", "host_sim/world/native", "host_sim/program/native", "host_sim/sim/native")
 GENERATED = ("octet.h", "board_pins.h", "build_id.h", "robot_words.h")
@@ -88,6 +100,7 @@ PLANTED = [
     ("hal/protocol/crc8.c", "host_sim/world/native/world.h"),
     ("host_sim/world/native/world.c", "hal/protocol/wire.h"),
     ("host_sim/world/native/world.c", "firmware/robot.h"),
+    ("host_sim/world/native/world.c", "hal/pins_body/proximity.h"),
     ("host_sim/world/native/world.c", "host_sim/sim/native/loop.h"),
     ("host_sim/sim/native/loop.c", "hal/library/exchange.h"),
     ("host_sim/program/native/machine.c", "host_sim/sim/native/loop.h"),

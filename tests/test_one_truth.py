@@ -174,7 +174,7 @@ def test_no_other_file_says_to_be_the_twin_of_another(texts):
     [
         "/* Ranges: as host_sim/world/ranges.py has them. */",
         "// as host_sim/sim/loop.c\n// * has it",
-        "The firmware's `memory_kind.c` has the same rules.",
+        "The firmware's `memory.c` has the same rules.",
         "/* As in host_sim/world/change_effects.py. */",
     ],
 )

@@ -19,7 +19,7 @@ FILES_MAX, LINES_MIN, LINE_MAX = 30, 40, 118
 STAND_ALONE = {
     "host_sim/web/sim/due_changes.js": "the schedule of changes, apart from what they do",
     "host_sim/web/sim/world_news.js": "the sentences of changes, apart from the rows of a run",
-    "host_sim/world/obstacles.py": "a view of one struct, as body.py is",
+    "host_sim/world/arena.py": "a view of one struct, as body.py is",
 }
 PYTHON = re.compile(r"^\s*(?:from ([\w.]+) import ([\w, ]+|\()|import ([\w.]+))", re.MULTILINE)
 JAVASCRIPT = re.compile(r'from "(\.[^"]+)"')
@@ -85,7 +85,7 @@ def test_no_module_is_too_small_to_stand_alone(texts):
     assert too_small(texts) <= set(STAND_ALONE)
 
 
-@pytest.mark.parametrize("where", ["host_sim/live/board_feed.py", "host_sim/web/board/board.js"])
+@pytest.mark.parametrize("where", ["host_sim/live/page_talk.py", "host_sim/web/board/board.js"])
 def test_a_small_module_with_one_importer_is_found(texts, where):
     planted = str(PurePath(where).with_stem("planted"))
     line = {".js": 'import { planted } from "./planted.js";', ".py": "from host_sim.live.planted import planted"}
@@ -112,3 +112,17 @@ def test_a_line_that_is_too_long_is_found():
     fine = f"/* {'x' * (LINE_MAX - 6)} */"
 
     assert too_long(f"{fine}\n{fine} ") == [f"{fine} "]
+
+
+def rooms_without_a_sentence(rooms: Iterable[str], architecture: str) -> set[str]:
+    """The folders of host_sim of which docs/architecture.md does not say what they may know."""
+    told = re.findall(r"^  \| `(\w+)/` \| \w.{20,}\|$", architecture, re.MULTILINE)
+    return set(rooms) - set(told)
+
+
+def test_each_room_of_host_sim_has_a_sentence_that_says_what_it_may_know(files):
+    rooms = {file.split("/")[1] for file in files if re.match(r"host_sim/\w+/", file)}
+    architecture = (ROOT / "docs/architecture.md").read_text()
+
+    assert rooms_without_a_sentence(rooms, architecture) == set()
+    assert rooms_without_a_sentence({*rooms, "attic"}, architecture) == {"attic"}

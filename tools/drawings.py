@@ -8,7 +8,8 @@ from pathlib import Path
 
 from host_sim.base.errors import UsageError
 from host_sim.emulator.board_pins import Pins
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import SimParams
+from tools.schematic import draw_schematic, has_robot, read_robot
 
 _STYLE = """<style>
 text { font: 12px sans-serif; fill: #222 }
@@ -47,13 +48,15 @@ def _wiring(pins: Pins, rows: int) -> Iterator[str]:
     left = _EDGE + _LABEL + 40
     yield f'<rect class="board" x="{left}" y="{_EDGE}" width="{_BOARD}" height="{(rows + 1) * _ROW}" rx="8"/>'
     yield f'<text class="middle" x="{left + _BOARD / 2}" y="{_EDGE + _ROW}">{pins.board}</text>'
+    if pins.top:
+        yield f'<text class="middle" x="{left + _BOARD / 2}" y="{_EDGE - 5}">{pins.top}</text>'
     signals = {pin: signal for signal, pin in pins.signals.items()}
     for side, header in enumerate(pins.headers):
         for row, name in enumerate(header):
             y = _EDGE + (row + 1) * _ROW
             anchor = "end" if side else "start"
             yield f'<text class="{anchor}" x="{left + (_BOARD - 8 if side else 8)}" y="{y + 4}">{name}</text>'
-            signal = signals.get(f"P{name}", "")
+            signal = signals.get(name if name.startswith("GP") else f"P{name}", "")
             if signal in pins.ends:
                 part, terminal = pins.ends[signal]
                 x = left + _BOARD + 40 if side else _EDGE
@@ -209,6 +212,8 @@ def write_drawings(pins: Pins, folder: Path) -> list[Path]:
         "upper-plate.svg": upper,
         "upper-plate.dxf": dxf_of(upper),
     }
+    if has_robot(pins):
+        drawings[f"{pins.board}-schematic.svg"] = draw_schematic(read_robot(pins))
     for name, text in drawings.items():
         (folder / name).write_text(text)
     return [folder / name for name in drawings]

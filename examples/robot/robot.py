@@ -41,7 +41,8 @@ class Robot:
 
     def __init__(self, node=1):
         self.node, self.cells, self.parameters = node, [0] * 8, DEFAULTS
-        self.running = self.frozen = self.profile = self.lockstep = self.owner = self.held = self.opcodes = 0
+        self.running = self.frozen = self.profile = self.lockstep = self.owner = self.opcodes = 0
+        self.held = self.obeyed = 0
         self.tick = self.counter = self.part_ms = self.uptime = self.action = self.strangers = 0
         self.knows_tick = self.hears_owner = False
         self.heard_ms, self.silences, self.faults, self.news, self.first = 0, 0, [0] * 11, 0, 0
@@ -93,6 +94,10 @@ class Robot:
         if self.knows_tick and not is_next:
             return self.count(STALE)
         self.count(MISSED, ahead - 1 if self.knows_tick else 0)
+        if self.lockstep and self.owner:
+            answer = self.drive[0][1] if self.knows_tick else bytes(8)
+            both = bytes(ours ^ theirs for ours, theirs in zip(answer[1:], data[1:], strict=True))
+            self.obeyed = binascii.crc32(both, self.obeyed)
         self.tick, self.counter, self.senses, self.knows_tick, self.hears_owner = tick, counter, data, True, True
         self.heard_ms, self.silences = now_ms, 0
         self.part_ms += self.parameters[TICK_MS]
@@ -122,6 +127,7 @@ class Robot:
             forgets = opcode == STOP and not had_owner
             self.held = 0 if forgets else binascii.crc32(data[1:], self.held)
             self.opcodes = 0 if forgets else self.opcodes + opcode
+            self.obeyed = 0 if forgets or opcode in (START, RESUME) else self.obeyed
         self.count(REFUSED, int(result != DONE))
         kinds = {WRITE: [MEMORY], ERASE: [MEMORY], STOP: WHOLE, REPORT: WHOLE}.get(opcode, [])
         told = [frame for kind in kinds for frame in self.report(kind)]
@@ -195,8 +201,8 @@ class Robot:
             fields = *flags, (self.owner, 24), (self.uptime % 65536, 32), (0x4B13, 48)
             return self.say(HEARTBEAT, *fields, counter=self.counters.get(HEARTBEAT, 0) if silent else None)
         if message == HEALTH:
-            held = binascii.crc32(b"" if self.owner else bytes(self.cells), self.held) % 65536
-            return self.say(HEALTH, (1, 15), (held, 48))
+            held = binascii.crc32(b"" if self.owner else bytes(self.cells), self.held) ^ self.obeyed
+            return self.say(HEALTH, (1, 15), (held % 65536, 48))
         split, values = (4, self.cells) if message == MEMORY else (6, self.faults)
         page = self.say(message, *((value, 16 + 8 * i) for i, value in enumerate(values[:split])))
         rest = ((value, 16 + 8 * i) for i, value in enumerate(values[split:]))

@@ -1,6 +1,5 @@
 /* adaptive: as forgetful, but a cell that has proved its worth is not forgotten at the first failure. */
 #include "firmware/behaviours/behaviour.h"
-#include "firmware/behaviours/used_cells.h"
 
 enum { CONFIDENCE = 1, PRAISE = 1 };
 

@@ -1,6 +1,5 @@
 /* article: a trial that helped is remembered, and what is remembered is done again. */
 #include "firmware/behaviours/behaviour.h"
-#include "firmware/behaviours/listing.h"
 #include "firmware/pattern.h"
 
 bool article_begin(struct brain *brain)

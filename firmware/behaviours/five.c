@@ -1,9 +1,7 @@
 /* five: the article's robot with a turn for each reading of all five sensors. The front three still decide what is in
  * the way and judge a trial. Boredom can strike again, as in rearmed, forgetting turns for what was in the way. */
 #include "firmware/behaviours/behaviour.h"
-#include "firmware/behaviours/listing.h"
-#include "firmware/memory/feel_memory.h"
-#include "firmware/memory/memory_kind.h"
+#include "firmware/memory/memory.h"
 #include "firmware/pattern.h"
 
 bool five_begin(struct brain *brain)

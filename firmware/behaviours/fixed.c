@@ -1,7 +1,6 @@
 /* fixed: the article's "simple coding solution": every front pattern has its programmed turn. */
 #include "firmware/behaviours/behaviour.h"
-#include "firmware/behaviours/listing.h"
-#include "firmware/memory/memory_write.h"
+#include "firmware/memory/memory.h"
 #include "firmware/pattern.h"
 
 bool fixed_begin(struct brain *brain)

@@ -1,6 +1,5 @@
 /* forgetful: when it is bored, it forgets what it has used since it was blocked, and can be bored again. */
 #include "firmware/behaviours/behaviour.h"
-#include "firmware/behaviours/used_cells.h"
 
 enum { CONFIDENCE = 0, PRAISE = 0 };   /* a cell is a side and no more */
 

@@ -1,4 +1,4 @@
-#include "firmware/behaviours/listing.h"
+#include "firmware/behaviours/behaviour.h"
 
 #include "firmware/pattern.h"
 

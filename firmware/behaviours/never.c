@@ -1,7 +1,6 @@
 /* never: it remembers nothing, and tries each time that it is blocked. After too many trials in a row the next one is
  * a bigger turn: trials alone reach only eight directions, and a corner can block them all. */
 #include "firmware/behaviours/behaviour.h"
-#include "firmware/behaviours/listing.h"
 
 bool never_begin(struct brain *brain)
 {

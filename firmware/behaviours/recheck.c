@@ -1,6 +1,5 @@
 /* recheck: the article's challenge: each remembered turn is checked, and forgotten if it did not help. */
 #include "firmware/behaviours/behaviour.h"
-#include "firmware/behaviours/listing.h"
 #include "firmware/pattern.h"
 
 bool recheck_begin(struct brain *brain)

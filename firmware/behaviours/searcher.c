@@ -2,8 +2,6 @@
  * it drives straight on, turns once around where it has not looked for a while, and goes straight to the food that it
  * sees. */
 #include "firmware/behaviours/behaviour.h"
-#include "firmware/behaviours/listing.h"
-#include "firmware/behaviours/used_cells.h"
 #include "firmware/pattern.h"
 
 enum {

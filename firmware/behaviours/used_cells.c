@@ -1,7 +1,6 @@
-#include "firmware/behaviours/used_cells.h"
+#include "firmware/behaviours/behaviour.h"
 
-#include "firmware/behaviours/listing.h"
-#include "firmware/memory/confidence.h"
+#include "firmware/memory/memory.h"
 #include "firmware/pattern.h"
 
 enum { BLAME = -2 };

@@ -1,4 +1,4 @@
-#include "firmware/memory/confidence.h"
+#include "firmware/memory/memory.h"
 
 enum { CONFIDENCE_MAX = 3, SIDE_BITS = 2 };
 

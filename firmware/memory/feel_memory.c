@@ -1,4 +1,4 @@
-#include "firmware/memory/feel_memory.h"
+#include "firmware/memory/memory.h"
 
 #include "firmware/pattern.h"
 

@@ -1,7 +1,4 @@
-#include "firmware/memory/memory_kind.h"
-
-#include "firmware/memory/confidence.h"
-#include "firmware/memory/feel_memory.h"
+#include "firmware/memory/memory.h"
 
 /* The side sensors' bits of a reading, in each combination. */
 static const uint8_t beside[] = {0, FEEL_RIGHT, FEEL_LEFT, FEEL_RIGHT | FEEL_LEFT};

@@ -1,6 +1,4 @@
-#include "firmware/memory/memory_write.h"
-
-#include "firmware/memory/memory_kind.h"
+#include "firmware/memory/memory.h"
 
 enum {
     HALF = CELL_COUNT / 2,

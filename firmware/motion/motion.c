@@ -15,6 +15,8 @@ enum {
     SPEED_TICKS = 9,                               /* after one more with the same command, wheels reach half of it */
     STOPPED_COUNTS = 5,                            /* of both wheels in a tick: almost at rest */
     HOLD_TICKS = 5,                                /* a body without a new drive continues this long, then rests */
+    STANDING_MS = 2000,                            /* a wheel that stands still this long is dead, */
+    STANDING_COUNTS = 3,                           /* though its odometer may waver this far */
     ASTRAY_PER_S = 5,                              /* wheels may go astray as far as they both roll in 1/5 second */
     CREDIBLE_EIGHTHS = 13,                         /* of the fastest commanded speed is credible, */
     CREDIBLE_COUNTS = 2,                           /* and this much more, for rounding over few ticks */
@@ -143,10 +145,26 @@ static void judge_way(struct motion *motion, int32_t apart, int32_t together)
     motion->astray = (uint16_t)(astray < WAY_LIMIT ? astray : WAY_LIMIT);
 }
 
+/* Neither lag nor delay nor gears keep a wheel that obeys from rolling for that long. */
+static void judge_standing(struct standing *wheel, int32_t rolled, unsigned ticks)
+{
+    int32_t way = wheel->way + rolled;
+
+    if (wheels_magnitude(way) > STANDING_COUNTS) {
+        *wheel = (struct standing){.way = 0};
+        return;
+    }
+    wheel->way = (int8_t)way;
+    if (wheel->ticks <= UINT8_MAX - HOLD_TICKS)
+        wheel->ticks = (uint8_t)(wheel->ticks + ticks);
+}
+
 static void follow(struct motion *motion, int32_t left, int32_t right, unsigned ticks)
 {
     motion->turn_left = wheels_limited(motion->turn_left - (left - right) * WHEELS_TURN_UNIT, TURN_LIMIT);
     motion->way_left = (int16_t)wheels_limited(motion->way_left - (left + right), WAY_LIMIT);
+    judge_standing(&motion->left, left, motion->kind == MOTION_REST ? 0 : ticks);
+    judge_standing(&motion->right, right, motion->kind == MOTION_REST ? 0 : ticks);
     judge_way(motion, left - right, left + right);
     owed_settle(&motion->apart, left - right, ticks);
     owed_settle(&motion->together, left + right, ticks);
@@ -274,6 +292,14 @@ void motion_begin(struct motion *motion, const struct config *config, const stru
         motion->astray = limit;   /* wheels that obey again are soon believed */
 }
 
+/* Whether a wheel has stood still too long, in any number of actions. */
+static bool stands(const struct motion *motion, const struct config *config)
+{
+    unsigned ticks = motion->left.ticks > motion->right.ticks ? motion->left.ticks : motion->right.ticks;
+
+    return ticks * config->value[TICK_MS] >= STANDING_MS;
+}
+
 void motion_drive(struct motion *motion, const struct config *config, struct drive *drive)
 {
     int16_t speed = speed_for(counts_left(motion), config, full_speed(motion, config));
@@ -281,6 +307,8 @@ void motion_drive(struct motion *motion, const struct config *config, struct dri
 
     if (speed < 0)
         counts = -counts;
+    if (stands(motion, config))
+        motion->ticks_left = 0;
     owed_tell(&motion->apart, is_turn(motion) ? counts : 0);
     owed_tell(&motion->together, is_turn(motion) ? 0 : counts);
     drive->left_mm_s = speed;

@@ -10,6 +10,12 @@
 enum motion_kind { MOTION_REST, MOTION_STEP, MOTION_BACK, MOTION_TURN, MOTION_TURN_UNTIL_FOOD, MOTION_GLANCE };
         /* The kind of an action. Where a glance ends is not judged. */
 
+/* A wheel since it last rolled farther than the odometer of a wheel that stands still may waver. */
+struct standing {
+    int8_t way;       /* rolled, 0.1 mm */
+    uint8_t ticks;    /* of turns and steps; saturates above 2 s */
+};
+
 struct motion {
     int32_t turn_left;         /* still to turn, right positive: left wheel less right wheel, 0.1 mm / 16384 */
     int16_t way_left;          /* still to drive: left wheel plus right wheel, 0.1 mm */
@@ -21,9 +27,11 @@ struct motion {
     uint8_t tick;              /* as of the last senses */
     uint8_t kind;              /* of the current action: an enum motion_kind */
     bool referenced;           /* the odometers above are valid */
+    uint8_t rest_ticks;        /* rest still to come before the action ends */
     struct owed apart;         /* left wheel less right wheel */
     struct owed together;      /* left wheel plus right wheel */
-    uint8_t rest_ticks;        /* rest still to come before the action ends */
+    struct standing left;
+    struct standing right;
 };
 
 void motion_start(struct motion *motion);
@@ -40,7 +48,8 @@ bool motion_is_credible(const struct motion *motion, const struct config *config
            restarted body, and not credible either. */
 
 bool motion_gave_up(const struct motion *motion);
-        /* Whether the action has taken so long that the wheels cannot have obeyed. */
+        /* Whether the action was abandoned: it has taken so long that the wheels cannot have obeyed, or one of them
+           has stood still for 2 s of turns and steps, however many. */
 
 bool motion_tells(const struct motion *motion);
         /* Whether the action is long enough to judge how well the wheels follow: a turn of some size. */
@@ -68,6 +77,6 @@ void motion_begin(struct motion *motion, const struct config *config, const stru
         /* Starts a turn, a step, or one tick of rest. */
 
 void motion_drive(struct motion *motion, const struct config *config, struct drive *drive);
-        /* Sets the wheel speeds for this tick so that the action does not overshoot. */
+        /* Sets the wheel speeds for this tick so that the action does not overshoot, or abandons it, too. */
 
 #endif

@@ -1,6 +1,6 @@
 /* owed.h: estimates how far the wheels will still roll once no more is commanded. Motors follow commands late. A
  * speed loop with gain 1 eventually rolls the commanded distance, so it owes the difference between the distance
- * commanded and the distance rolled, whatever its lag and delay. docs/motion.md explains why. */
+ * commanded and the distance rolled, whatever its lag and delay. docs/bodies.md explains why. */
 #ifndef OCTET_OWED_H
 #define OCTET_OWED_H
 

@@ -41,7 +41,7 @@ int hal_open(struct hal **hal, int argc, char *const argv[])
 {
     static struct hal body;   /* one per program: main does not know its size */
     struct port port;
-    uint16_t ids[WIRE_LISTEN_COUNT + 1];
+    uint16_t ids[WIRE_LISTEN_COUNT];
     int result = port_open(&port, argc, argv);
 
     if (result < 0)
@@ -51,8 +51,7 @@ int hal_open(struct hal **hal, int argc, char *const argv[])
     body.wire.health.crash = port.crash;
     body.wire.health.clock_exact = port.clock_exact;
     wire_ids(&body.wire, ids);
-    ids[WIRE_LISTEN_COUNT] = port_id();
-    result = link_open(&body.link, port.link, ids, WIRE_LISTEN_COUNT + (port_id() != 0 ? 1u : 0u));
+    result = link_open(&body.link, port.link, ids, WIRE_LISTEN_COUNT);
     if (result < 0)
         return result == LINK_E_NAME ? HAL_E_USAGE : HAL_E_BODY;
     body.heard_ms = port_clock_ms();
@@ -152,15 +151,6 @@ static int take_senses(struct hal *hal, struct input *in)
     return result;
 }
 
-/* Handles a frame for the boot loader or machine rather than the robot. */
-static void serve_port(struct hal *hal, const struct frame *frame)
-{
-    struct frame answer;
-
-    if (port_frame(frame, hal->wire.session.owner == 0, &answer) && link_send(hal->link, &answer) < 0)
-        wire_count(&hal->wire, FAULT_UNSENT);
-}
-
 /* Waits for one frame. Returns the robot's input in it, or INPUT_SILENCE. */
 static int receive_input(struct hal *hal, struct input *in, uint32_t wait_ms)
 {
@@ -172,10 +162,6 @@ static int receive_input(struct hal *hal, struct input *in, uint32_t wait_ms)
     if (result != 1)
         return result == LINK_E_CLOSED ? (int)HAL_E_CLOSED : (int)INPUT_SILENCE;
     announce(hal);   /* before the answer */
-    if (port_id() != 0 && frame.id == port_id()) {
-        serve_port(hal, &frame);
-        return INPUT_SILENCE;
-    }
     kind = read_frame(hal, &frame, in);
     return kind == INPUT_SENSES ? take_senses(hal, in) : (int)kind;
 }

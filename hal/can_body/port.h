@@ -29,12 +29,6 @@ void port_alive(bool outage);
         /* Feeds the watchdog and drives the status light. Called whenever the body begins to wait: at least every
            HAL_SILENCE_MS plus the time of a store. outage: no senses arrive. */
 
-uint16_t port_id(void);
-        /* An identifier that the port itself listens for; 0: none. Call after port_open. */
-
-bool port_frame(const struct frame *frame, bool at_rest, struct frame *answer);
-        /* Handles a frame with that identifier. at_rest: nobody drives the robot. True: send *answer. */
-
 int port_load(uint8_t memory[CELL_COUNT]);
 uint32_t port_entropy(void);
         /* As hal_load and hal_entropy in hal.h. */

@@ -1,7 +1,7 @@
 /* flash.h: pages of flash memory, as the flash store needs them. Exactly one implementation is linked in.
  *
- * Pages 0 and 1 belong to the store. With a boot loader, page FLASH_PAGES + n is the chip's nth page, of the same
- * size. In a longer sector only the first page can be erased, which erases the whole sector.
+ * Pages 0 and 1 belong to the store of the memory. On a chip with a body on pins, page FLASH_PAGES + n is the chip's
+ * nth page, of the same size.
  *
  * Flash is written in units of some bytes, each unit once between two erases; zeros can be written over anything. An
  * offset is in bytes from the start of a page. Offsets and counts are multiples of flash_unit(). */

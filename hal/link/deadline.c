@@ -1,4 +1,4 @@
-#include "hal/link/deadline.h"
+#include "hal/link/link_kind.h"
 
 #include <poll.h>
 #include <stddef.h>

@@ -2,6 +2,9 @@
 #ifndef OCTET_LINK_KIND_H
 #define OCTET_LINK_KIND_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "hal/link/link.h"
 
 struct link {
@@ -24,5 +27,19 @@ struct link_kind {
 };      /* Contracts as in link.h. Each kind's own struct begins with its struct link. */
 
 extern const struct link_kind LINK_KIND_SOCKETCAN, LINK_KIND_FD, LINK_KIND_SLCAN;
+
+/* Waits with a deadline that signals do not extend. */
+
+int64_t deadline_in_ms(uint32_t ms);
+        /* The deadline that far from now, ns of the monotonic clock. */
+
+uint32_t deadline_left_ms(int64_t deadline);
+        /* Time left, rounded up; 0: the deadline has passed. */
+
+bool deadline_await_input(int fd, int64_t deadline);
+        /* Waits until fd is readable or has an error: true. False: the deadline came first. */
+
+bool deadline_pause(int64_t deadline);
+        /* Sleeps for a millisecond, or less if a signal comes. False, without sleeping: the deadline has passed. */
 
 #endif

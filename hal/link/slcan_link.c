@@ -9,7 +9,6 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "hal/link/deadline.h"
 #include "hal/link/link_kind.h"
 #include "hal/link/slcan.h"
 

@@ -11,7 +11,6 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#include "hal/link/deadline.h"
 #include "hal/link/link_kind.h"
 
 /* Our flags equal the kernel's, so that identifiers need no conversion. */

@@ -1,22 +1,25 @@
 #include "hal/pins_body/calibrate.h"
 
-#include "hal/pins_body/wheel.h"
+#include "firmware/motion/speed_control.h"
 
 enum {
     SETTLING_TICKS = 10, LIGHT_TICKS = 16,
     LOW_DUTY = 16384, HIGH_DUTY = 49152,
     PUSH = 64,                       /* divisor of duty times millivolts, against overflow */
     STAIR_BEATS = 100,               /* 0.5 s: the motors settle much sooner */
-    LOW_MARK = 2,                    /* the second of the marks: the end of the lower level */
     TURN_MM_S = 150,
     TURNS = 4,
     TURN_BEATS = 8000,               /* 40 s: the maximum duration of all turns */
+    TURNED_MAX = INT32_MAX / 1000,   /* counts: 30 times the widest track's */
     /* Counts, left wheel less right one, of TURNS turns on a track of 1000 mm: 2 pi times 1000 mm each. */
     COUNTS_1000 = (int)(1608495439LL * TURNS / WHEEL_COUNT_256),
     /* Units of the feed-forward (push per count of a stair) and of the dead band (push). */
     FORWARD_1000 = (int)(1000LL * WHEEL_NOMINAL_MV * WHEEL_COUNT_256 / (PUSH * STAIR_BEATS * WHEEL_PERIOD_MS * 256)),
     DEAD_10 = (int)(10LL * WHEEL_NOMINAL_MV * TRAIT_DEAD_OF / TRAIT_DEAD_BY / PUSH)
 };
+
+/* A staircase: the motors rest, and settle on each level before they are measured there. */
+enum { STAIR_REST, STAIR_LOW_SETTLES, STAIR_LOW, STAIR_HIGH_SETTLES, STAIR_HIGH };
 
 void calibrate_begin(struct calibration *calibration, uint8_t measures)
 {
@@ -56,49 +59,53 @@ static bool measure_light(struct calibration *calibration, const struct calibrat
     if (calibration->sights < SETTLING_TICKS + LIGHT_TICKS)
         return false;
     for (unsigned i = 0; i < FEEL_COUNT; i++)
-        take(calibration, traits, BODY_NEAR_RIGHT + i,
-             rounded((int32_t)calibration->light[i], TRAIT_LIGHT * LIGHT_TICKS));
+        if ((look->has >> i & 1) != 0)
+            take(calibration, traits, BODY_NEAR_RIGHT + i,
+                 rounded((int32_t)calibration->light[i], TRAIT_LIGHT * LIGHT_TICKS));
     return true;
 }
 
-/* A wheel's counts between two successive marks. */
-static int32_t stair(const struct calibration *calibration, unsigned side, unsigned mark)
+/* A wheel's counts in a stair, the mean of both directions. */
+static int32_t counted(const uint16_t *marks, unsigned stair)
 {
-    return (int16_t)(uint16_t)(calibration->marks[side][mark + 1] - calibration->marks[side][mark]);
+    return (int16_t)(uint16_t)(marks[stair - 1] - marks[stair]) / 2;
 }
 
 /* Returns the motor's lag after the step, ms; negative if it did not follow. Once the slope is in range, no sum can
  * overflow. */
-static int32_t take_motor(struct calibration *calibration, unsigned side, int32_t battery_mv, struct traits *traits)
+static int32_t take_motor(struct calibration *calibration, unsigned side, struct traits *traits)
 {
-    int32_t low = stair(calibration, side, 0), high = stair(calibration, side, 2), more = high - low;
-    int32_t push = LOW_DUTY / PUSH * calibration->low_mv, step = HIGH_DUTY / PUSH * battery_mv - push;
+    const uint16_t *marks = calibration->marks[side];
+    int32_t low = counted(marks, STAIR_LOW), high = counted(marks, STAIR_HIGH), more = high - low;
+    int32_t ahead = (int16_t)marks[STAIR_REST], back = -(int16_t)marks[STAIR_HIGH];
+    int32_t push = LOW_DUTY / PUSH / 2 * calibration->both_mv[STAIR_LOW];
+    int32_t step = HIGH_DUTY / PUSH / 2 * calibration->both_mv[STAIR_HIGH] - push;
 
+    if (ahead > 2 * back || back > 2 * ahead)
+        more = 0;   /* it hardly turns in one direction: that is refused */
     take(calibration, traits, BODY_FORWARD_LEFT + side, rounded(step, more * FORWARD_1000 / 1000));
     if (calibration->refused != 0)
         return 0;
     if (low > more || low < -more)
         low = more;   /* no motor counts like that: its dead band comes out of range, without an overflow */
     take(calibration, traits, BODY_DEAD_LEFT + side,
-         rounded((push - rounded(step / 16 * low, more) * 16) * 10, DEAD_10));
-    return rounded((high - stair(calibration, side, 1)) * STAIR_BEATS * WHEEL_PERIOD_MS, more);
+         rounded((push - rounded(step / 64 * low, more) * 64) * 10, DEAD_10));
+    return rounded((high - counted(marks, STAIR_HIGH_SETTLES)) * STAIR_BEATS * WHEEL_PERIOD_MS, more);
 }
 
 static bool measure_motors(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits)
 {
-    unsigned mark = calibration->beats / STAIR_BEATS;
-    int32_t battery_mv = (int32_t)look->battery_mv;
+    unsigned stairs = calibration->beats / STAIR_BEATS, stair = (stairs - 1) % CALIBRATE_STAIRS;
 
-    if (mark == 0 || calibration->beats % STAIR_BEATS != 0)
+    if (stairs == 0 || calibration->beats % STAIR_BEATS != 0)
         return false;
     for (unsigned side = 0; side < PINS_SIDES; side++)
-        calibration->marks[side][mark - 1] = look->counts[side];
-    if (mark == LOW_MARK)
-        calibration->low_mv = battery_mv;
-    if (mark < CALIBRATE_MARKS)
+        calibration->marks[side][stair] = (uint16_t)(look->counts[side] - calibration->marks[side][stair]);
+    calibration->both_mv[stair] = (uint16_t)(calibration->both_mv[stair] + look->battery_mv);
+    if (stairs < 2 * CALIBRATE_STAIRS)
         return false;
     take(calibration, traits, BODY_LAG_MS,
-         rounded(take_motor(calibration, 0, battery_mv, traits) + take_motor(calibration, 1, battery_mv, traits), 2));
+         rounded(take_motor(calibration, 0, traits) + take_motor(calibration, 1, traits), 2));
     return true;
 }
 
@@ -115,6 +122,7 @@ static void turn(struct calibration *calibration, const struct calibrate_look *l
 
 static bool measure_track(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits)
 {
+    int32_t turned;
     bool sees;
 
     turn(calibration, look);
@@ -132,7 +140,10 @@ static bool measure_track(struct calibration *calibration, const struct calibrat
         calibration->first = calibration->turned;
     if (calibration->sights <= TURNS)
         return false;
-    take(calibration, traits, BODY_TRACK_MM, rounded((calibration->turned - calibration->first) * 1000, COUNTS_1000));
+    turned = calibration->turned - calibration->first;
+    if ((uint32_t)turned > TURNED_MAX)
+        turned = 0;   /* no wheels turn like that, and none backward */
+    take(calibration, traits, BODY_TRACK_MM, rounded(turned * 1000, COUNTS_1000));
     return true;
 }
 
@@ -161,9 +172,12 @@ bool calibrate_beat(struct calibration *calibration, const struct calibrate_look
 
 int32_t calibrate_duty(const struct calibration *calibration)
 {
+    static const uint16_t DUTIES[CALIBRATE_STAIRS] = {0, LOW_DUTY, LOW_DUTY, HIGH_DUTY, HIGH_DUTY};
+    int stair = (calibration->beats - 1) / STAIR_BEATS;
+
     if (calibration->measures != MEASURE_MOTORS)
         return 0;
-    return calibration->beats <= LOW_MARK * STAIR_BEATS ? LOW_DUTY : HIGH_DUTY;
+    return stair < CALIBRATE_STAIRS ? DUTIES[stair] : -DUTIES[stair - CALIBRATE_STAIRS];
 }
 
 int16_t calibrate_mm_s(const struct calibration *calibration)

@@ -1,8 +1,9 @@
 /* calibrate.h: a body measures itself, one thing at a time, as BODY_MEASURE names it.
  *
  * Light: the light of its own LEDs that each sensor receives from a white wall 60 mm away, the mean of 16 ticks.
- * Motors, wheels in the air: two levels of duty, and a step between them. A line through the two speeds gives the
- * dead band (its offset) and the feed-forward (its slope). The distance missing after the step gives the lag.
+ * Motors, wheels in the air: two levels of duty, and a step between them, forward and then backward; both directions
+ * count alike. A line through the two speeds gives the dead band (its offset) and the feed-forward (its slope). The
+ * distance missing after the step gives the lag.
  * Track, turning on the spot beside one wall: both wheels' distances from a sight of it to the fourth after that. */
 #ifndef OCTET_CALIBRATE_H
 #define OCTET_CALIBRATE_H
@@ -12,7 +13,7 @@
 
 enum { MEASURE_NOTHING, MEASURE_LIGHT, MEASURE_MOTORS, MEASURE_TRACK, MEASURE_ENDS };
 
-enum { CALIBRATE_MARKS = 4 };
+enum { CALIBRATE_STAIRS = 5 };        /* of the motors' duty, in each direction */
 
 struct calibration {
     uint8_t measures;                 /* one of these */
@@ -21,8 +22,8 @@ struct calibration {
     uint8_t sights;                   /* of the wall */
     uint16_t beats;                   /* since it began */
     uint16_t counts[PINS_SIDES];      /* in the last beat */
-    uint16_t marks[PINS_SIDES][CALIBRATE_MARKS];
-    int32_t low_mv;                   /* of the battery at the lower level */
+    uint16_t marks[PINS_SIDES][CALIBRATE_STAIRS];   /* counts at the end of each: forward, and then those since */
+    uint16_t both_mv[CALIBRATE_STAIRS];             /* of the battery there, the sum of both directions */
     int32_t turned, first;            /* left wheel less right, counts: since it began, and up to the first sight */
     int32_t found;                    /* what was refused */
     uint32_t light[FEEL_COUNT];
@@ -33,6 +34,7 @@ struct calibrate_look {
     uint32_t battery_mv;
     bool senses;                      /* there is new light: */
     const uint16_t *back;             /* as in struct proximity */
+    uint8_t has;                      /* the sensors, as PINS_SENSORS: the others are not measured */
     bool wall;                        /* the front sensor is triggered */
 };
 

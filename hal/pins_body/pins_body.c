@@ -70,7 +70,8 @@ static void measure(struct hal *hal, const struct guard_look *seen)
     struct calibration *calibration = &hal->upkeep.calibration;
     const struct calibrate_look look = {
         .counts = {seen->counts[0], seen->counts[1]}, .battery_mv = seen->battery_mv,
-        .senses = hal->beat == BEAT_DARK, .back = hal->proximity.back, .wall = hal->proximity.feel >> FRONT & 1u,
+        .senses = hal->beat == BEAT_DARK, .back = hal->proximity.back, .has = PINS_SENSORS,
+        .wall = hal->proximity.feel >> FRONT & 1u,
     };
 
     if (guard_forbids(&hal->guard) || seen->bumped)

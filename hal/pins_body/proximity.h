@@ -4,10 +4,7 @@
 
 #include "firmware/io.h"
 
-enum {
-    PROXIMITY_NEAR = 1200,          /* of 4095: a wall at 60 mm, unless calibrated */
-    PROXIMITY_HYSTERESIS_PART = 10  /* a sensor releases at a tenth less than it triggers at */
-};
+enum { PROXIMITY_HYSTERESIS_PART = 10 };   /* a sensor releases at a tenth less than it triggers at */
 
 struct proximity {
     uint16_t near[FEEL_COUNT];      /* light that triggers a sensor */

@@ -5,7 +5,7 @@
 
 #include "hal/pins_body/calibrate.h"
 #include "hal/pins_body/proximity.h"
-#include "hal/pins_body/wheel.h"
+#include "firmware/motion/speed_control.h"
 
 struct upkeep {
     struct traits traits;

@@ -1,4 +1,4 @@
-#include "hal/protocol/frames.h"
+#include "hal/protocol/wire.h"
 
 #include "hal/protocol/e2e.h"
 

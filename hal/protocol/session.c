@@ -61,6 +61,7 @@ static void begin(struct session *session)
     session->owner = session->request.owner;
     session->hears = true;
     session->knows_tick = false;
+    session->heard = 0;
 }
 
 void session_executed(struct session *session, enum result result)
@@ -72,7 +73,7 @@ void session_executed(struct session *session, enum result result)
     if (opcode == OPCODE_START)
         session->lockstep = session->request.lockstep;
     if (opcode == OPCODE_STOP && session->owner == 0) {
-        session->told = session->told_opcodes = 0;
+        session->told = session->heard = session->told_opcodes = 0;
     } else if (opcode != OPCODE_GET && opcode != OPCODE_REPORT) {
         session->told = session->telling;
         session->told_opcodes = (uint8_t)(session->told_opcodes + opcode);

@@ -27,6 +27,8 @@ struct session {
                                for a tick that had others, */
     uint32_t telling;       /* and what it becomes once the request is carried out */
     uint8_t told_opcodes;   /* the sum of those commands' opcodes */
+    uint32_t heard;         /* CRC-32 over the senses taken since the owner has started the robot, each combined with
+                               the drive before them */
 };
 
 enum arrival { ARRIVAL_FRESH, ARRIVAL_AGAIN, ARRIVAL_STALE };

@@ -74,4 +74,26 @@ uint32_t wire_id(const struct wire *wire, uint32_t id_of_node_1);
 void wire_count(struct wire *wire, enum fault fault);
         /* Counts a fault of this kind. */
 
+/* The frames of one output, as they are being built. */
+
+struct frames {
+    struct frame *first;
+    size_t count;
+};
+
+struct frame *frames_add(struct frames *frames, const struct wire *wire, uint32_t id_of_node_1, uint8_t len);
+        /* Appends a frame of zeros. The identifier is that of node 1 in octet.dbc; it becomes that of this node. */
+
+uint8_t frames_count_up(struct wire *wire, enum counted kind);
+        /* Returns the alive counter for a message of this kind, and advances it. */
+
+/* The messages that report the robot's state. */
+
+void wire_report_start(struct wire *wire);
+        /* Begins a run and its first second: no report is in progress, and no other robot has sent its memory yet. */
+
+void wire_report(struct wire *wire, const struct output *out, struct frames *frames);
+        /* Writes what is due of the report: all of it if it is marked whole, else one part an output, from the output
+           that brings it on. A new memory is told at once, and holds up the next part by one output. */
+
 #endif

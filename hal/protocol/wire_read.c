@@ -109,10 +109,25 @@ static void note_other(struct wire *wire, const struct frame *frame, uint8_t tic
     wire->other_crc = crc;
 }
 
+/* Each byte of the senses is combined with that of the drive that answered those before. */
+static void hold(struct wire *wire, const struct frame *senses, bool are_first)
+{
+    static const uint8_t none[OCTET_DRIVE_LENGTH];
+    const uint8_t *drive = are_first ? none : wire->drive.data;
+    uint8_t both[OCTET_SENSES_LENGTH];
+
+    if (wire->session.owner == 0)
+        return;
+    for (unsigned i = 1; i < OCTET_SENSES_LENGTH; i++)
+        both[i] = senses->data[i] ^ drive[i];
+    wire->session.heard = crc32_more(wire->session.heard, &both[1], OCTET_SENSES_LENGTH - 1u);
+}
+
 static enum input_kind read_senses(struct wire *wire, const struct frame *frame, struct senses *senses)
 {
     struct octet_senses_t got;
     unsigned missed = 0;
+    bool are_first = !wire->session.knows_tick;
 
     if (!e2e_is_whole(frame, OCTET_SENSES_LENGTH) || octet_senses_unpack(&got, frame->data, frame->len) != 0)
         return refused(wire, FAULT_DAMAGED);
@@ -129,6 +144,7 @@ static enum input_kind read_senses(struct wire *wire, const struct frame *frame,
         break;
     }
     count_many(wire, FAULT_MISSED, missed);
+    hold(wire, frame, are_first);
     wire->senses_crc = wire->other_crc = frame->data[0];
     fill_senses(wire, &got, senses);
     return INPUT_SENSES;

@@ -1,4 +1,4 @@
-#include "hal/protocol/wire_report.h"
+#include "hal/protocol/wire.h"
 
 #include "build_id.h"
 #include "hal/flash_store/crc32.h"
@@ -80,6 +80,14 @@ static void write_faults(struct wire *wire, unsigned page, struct frames *frames
     e2e_protect(frame);
 }
 
+/* On its own clock the robot may miss senses, and the owner cannot tell which. */
+static uint16_t held(const struct session *session, const uint8_t memory[CELL_COUNT])
+{
+    uint32_t told = crc32_more(session->told, memory, session->owner ? 0 : CELL_COUNT);
+
+    return (uint16_t)(session->lockstep ? told ^ session->heard : told);
+}
+
 static void write_health(struct wire *wire, const uint8_t memory[CELL_COUNT], struct frames *frames)
 {
     struct frame *frame = frames_add(frames, wire, OCTET_HEALTH_FRAME_ID, OCTET_HEALTH_LENGTH);
@@ -92,7 +100,7 @@ static void write_health(struct wire *wire, const uint8_t memory[CELL_COUNT], st
         .rx_errors = wire->health.bus.rx_errors,
         .bus_offs = wire->health.bus.bus_offs,
         .dropped = wire->health.bus.dropped,
-        .held = (uint16_t)crc32_more(wire->session.told, memory, wire->session.owner ? 0 : CELL_COUNT),
+        .held = held(&wire->session, memory),
     };
 
     (void)octet_health_pack(frame->data, &health, sizeof frame->data);

@@ -1,8 +1,6 @@
 #include "hal/protocol/wire.h"
 
 #include "hal/protocol/e2e.h"
-#include "hal/protocol/frames.h"
-#include "hal/protocol/wire_report.h"
 #include "octet.h"
 
 static uint16_t faults_in_all(const struct wire *wire)

@@ -1,5 +1,5 @@
 /* bxCAN, the controller of STM32F1, F2 and F4 (RM0090 32, RM0008 24). */
-#include "hal/stm32/can_controller.h"
+#include "hal/port/cortex_m/can_controller.h"
 
 #include <string.h>
 

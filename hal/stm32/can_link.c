@@ -3,10 +3,10 @@
 
 #include <stdbool.h>
 
-#include "hal/stm32/can_controller.h"
-#include "hal/stm32/can_queue.h"
+#include "hal/port/cortex_m/can_controller.h"
+#include "hal/port/cortex_m/can_queue.h"
+#include "hal/port/cortex_m/uart.h"
 #include "hal/stm32/can_timing.h"
-#include "hal/stm32/line.h"
 #include "hal/stm32/machine.h"
 
 enum { RECOVERY_MS = 250 };   /* between attempts to recover from bus-off: four times what a full bus needs */

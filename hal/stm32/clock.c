@@ -8,8 +8,7 @@ enum {
     HSERDY = 1u << 17,
     PLLON = 1u << 24,
     PLLRDY = 1u << 25,
-    SW = 3u,            /* CFGR */
-    SWS = 3u << 2
+    SWS = 3u << 2       /* CFGR */
 };
 
 static const struct clock_table *const chip = &CLOCK_TABLE;
@@ -57,7 +56,7 @@ struct clocks clock_start(void)
     /* An emulator without a clock controller, as QEMU's, runs at full speed at once. */
     if (chip->on_after_reset && !(*chip->cr & chip->on_after_reset))
         return CLOCK_SOURCES[1].clocks;
-    systick_start(CLOCK_SLOW.core_hz);
+    systick_start(CLOCK_SLOW.core_hz, CLOCK_SYSTICK_DIVISOR);
     *chip->acr = chip->caches | (*chip->acr & chip->waits_mask);   /* a reset may leave a data cache on */
     source = &CLOCK_SOURCES[start_crystal() ? 1 : 0];
     if (start_pll(source->pll) && switch_to_pll(source->pll))
@@ -66,17 +65,10 @@ struct clocks clock_start(void)
     return CLOCK_SLOW;
 }
 
-void clock_stop(void)
-{
-    *chip->cfgr = chip->internal;
-    (void)comes_up(chip->cfgr, SWS, (chip->internal & SW) << 2, SWITCH_MS);
-    *chip->cr &= ~(uint32_t)(HSEON | PLLON);
-}
-
 uint32_t chip_reset_flags(void)
 {
     uint32_t flags = *chip->csr;
 
     *chip->csr = flags | chip->forget;
-    return flags;
+    return flags & chip->brown_out ? flags | CHIP_POWER_ON : flags;
 }

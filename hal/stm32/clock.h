@@ -13,6 +13,7 @@ struct clock_table {
     volatile uint32_t *cr, *cfgr, *pll, *csr, *acr;   /* of RCC, the one that sets up the PLL, and of the flash */
     uint32_t on_after_reset; /* a bit of CR that is never 0 on the chip itself, or 0 */
     uint32_t forget;         /* in CSR: clears the flags */
+    uint32_t brown_out;      /* in CSR: the flag of a brown-out, if power-on does not cover it */
     uint32_t internal;       /* CFGR: the internal oscillator alone */
     uint32_t buses;          /* CFGR: the same, with buses slow enough for the PLL, if its setting does not say so */
     uint32_t switch_to_pll;  /* CFGR: SW */
@@ -26,9 +27,6 @@ struct clock_table {
 extern const struct clock_table CLOCK_TABLE;
 extern const struct clock_source CLOCK_SOURCES[2];   /* the internal oscillator, the crystal */
 extern const struct clocks CLOCK_SLOW;   /* the internal oscillator alone */
-
-void clock_stop(void);
-        /* Returns to the internal oscillator alone, as after a reset. */
 
 enum {
     CRYSTAL_MS = 100,        /* most start in 2 ms; the vendor's code allows as much */

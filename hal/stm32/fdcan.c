@@ -1,5 +1,5 @@
 /* FDCAN, the controller of STM32G0, G4 and similar (RM0440 44), in classic CAN mode. */
-#include "hal/stm32/can_controller.h"
+#include "hal/port/cortex_m/can_controller.h"
 
 #include <string.h>
 

@@ -8,14 +8,12 @@ enum {
     WATCHDOG_FEED = 0xAAAA,
     WATCHDOG_ON = 0xCCCC,
     WATCHDOG_BY_32 = 3,
-    WATCHDOG_BY_128 = 5,
     WATCHDOG_COUNTS = 2000,      /* data sheets: 1.07..2.13 s on F103, 1.36..3.76 s on F405, 1.88..2.17 s on G431 */
     WATCHDOG_WAIT_MAX = 200000   /* polls; the change takes up to 5 periods of the slow clock */
 };
 
 enum {                           /* in RCC_CSR: RM0008 7.3.10, RM0090 7.3.21, RM0440 7.4.28 */
     FLAG_PIN = 1 << 26,
-    FLAG_POWER_ON = 1 << 27,     /* or brown-out */
     FLAG_SOFTWARE = 1 << 28,
     FLAG_WATCHDOGS = 3 << 29
 };
@@ -23,11 +21,11 @@ enum {                           /* in RCC_CSR: RM0008 7.3.10, RM0090 7.3.21, RM
 static struct clocks clocks;     /* one machine per program */
 
 /* Called first, so that any hang ends in a reset. If the update does not complete, the longest period remains. */
-static void start_watchdog(uint32_t divisor)
+static void start_watchdog(void)
 {
     IWDG.kr = WATCHDOG_ON;
     IWDG.kr = WATCHDOG_UNLOCK;
-    IWDG.pr = divisor;
+    IWDG.pr = WATCHDOG_BY_32;
     IWDG.rlr = WATCHDOG_COUNTS;
     for (unsigned i = 0; i < WATCHDOG_WAIT_MAX && IWDG.sr != 0; i++)
         continue;
@@ -36,10 +34,15 @@ static void start_watchdog(uint32_t divisor)
 
 uint32_t mcu_start(void)
 {
-    start_watchdog(WATCHDOG_BY_32);
+    start_watchdog();
     clocks = clock_start();
     pins_start();
     return clocks.core_hz;
+}
+
+uint32_t mcu_systick_divisor(void)
+{
+    return CLOCK_SYSTICK_DIVISOR;
 }
 
 bool mcu_clock_is_exact(void)
@@ -52,11 +55,6 @@ struct clocks machine_clocks(void)
     return clocks;
 }
 
-void mcu_be_patient(void)
-{
-    start_watchdog(WATCHDOG_BY_128);
-}
-
 void mcu_feed(void)
 {
     IWDG.kr = WATCHDOG_FEED;
@@ -67,7 +65,7 @@ enum reset_cause mcu_reset_cause(void)
 {
     uint32_t flags = chip_reset_flags();
 
-    if (flags & FLAG_POWER_ON)
+    if (flags & CHIP_POWER_ON)
         return RESET_POWER_ON;
     if (flags & FLAG_WATCHDOGS)
         return RESET_WATCHDOG;

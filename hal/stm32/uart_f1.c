@@ -1,6 +1,7 @@
 /* The serial port of an STM32F1, F2 or F4 (RM0008 27, RM0090 30): one status register, one data register. */
-#include "hal/stm32/uart.h"
+#include "hal/port/cortex_m/uart.h"
 
+#include "hal/stm32/machine.h"
 #include "hal/stm32/registers.h"
 
 enum {
@@ -12,9 +13,9 @@ enum {
     CR1_UE = 1 << 13
 };
 
-void uart_start(uint32_t clock_hz, uint32_t baud)
+void uart_start(uint32_t baud)
 {
-    UART.brr = (clock_hz + baud / 2) / baud;
+    UART.brr = (machine_clocks().usart_hz + baud / 2) / baud;
     UART.cr2 = 0;
     UART.cr3 = 0;
     UART.cr1 = CR1_UE | CR1_TE | CR1_RE;

@@ -1,7 +1,8 @@
 /* The serial port of STM32F0, F3, G4, L4 and similar (RM0440 37). Its FIFO holds eight bytes, 0.7 ms at 115200 baud,
  * while the core stalls for the flash. */
-#include "hal/stm32/uart.h"
+#include "hal/port/cortex_m/uart.h"
 
+#include "hal/stm32/machine.h"
 #include "hal/stm32/uart_g4_registers.h"
 
 enum {
@@ -14,10 +15,10 @@ enum {
     CR1_FIFOEN = 1 << 29
 };
 
-void uart_start(uint32_t clock_hz, uint32_t baud)
+void uart_start(uint32_t baud)
 {
     UART.cr1 = 0;
-    UART.brr = (clock_hz + baud / 2) / baud;
+    UART.brr = (machine_clocks().usart_hz + baud / 2) / baud;
     UART.cr2 = 0;
     UART.cr3 = 0;
     UART.presc = 0;

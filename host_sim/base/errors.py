@@ -1,4 +1,6 @@
-"""The errors that users see. Each message is one line that says what is wrong and what to do."""
+"""Errors that people see, and the wording of their messages."""
+
+from collections.abc import Iterable
 
 
 class OctetError(Exception):
@@ -52,5 +54,40 @@ class LinkDownError(RobotError):
     """The line to the robot is gone: the other end is closed, the bus is down, the adapter is unplugged."""
 
 
+class BrainError(RobotError):
+    """A behaviour in a C file of its user has made a mistake: the message says where, and with which senses."""
+
+
 class DoubtfulError(OctetError):
     """The run went on to its end and its files were written, but its result is unreliable."""
+
+
+def near_word(word: str, words: Iterable[str]) -> str | None:
+    """The most similar word; None if none is similar.
+
+    >>> near_word("corridor", ["random", "corridors"])
+    'corridors'
+    """
+    from difflib import get_close_matches  # noqa: PLC0415 - only mistakes need it
+
+    return next(iter(get_close_matches(word, list(words), 1)), None)
+
+
+def meant(word: object, words: Iterable[object]) -> str:
+    """The end of a message about an unknown word: the nearest known word, or all of them if none is near.
+
+    >>> meant("artcle", ["article", "fixed"])
+    'did you mean article?'
+    """
+    every = [str(each) for each in words]
+    near = near_word(str(word), every)
+    return f"did you mean {near}?" if near else f"choose from {', '.join(every)}"
+
+
+def counted(count: int, what: str) -> str:
+    """A number and what is counted, in the singular or in the plural.
+
+    >>> counted(1, "seed"), counted(2, "seed")
+    ('1 seed', '2 seeds')
+    """
+    return f"{count} {what}" if count == 1 else f"{count} {what}s"

@@ -18,6 +18,18 @@ ROOT = _TREE if INSTALLED else PACKAGE.parent
 BUILD = ROOT / "build"
 """Build output."""
 
+
+def project() -> str:
+    """The text of pyproject.toml: the project's name, version and extras."""
+    return (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+
+
+def version() -> str:
+    """The version of the project."""
+    found = re.search(r'^version = "(.+)"$', project(), re.MULTILINE)
+    return found[1] if found else "of no version"
+
+
 _CALLED = {
     r"(run|build (it|them) with) tools/setup( \w+)?": "this wheel was built without it",
     r"\btools/octet\b": "octet",
@@ -44,7 +56,7 @@ def image_path(board: str, link: str) -> Path:
     """Path of a firmware image.
 
     Args:
-        board: Name of the board, as in hal/stm32/boards; also the name of its CMake preset.
+        board: Name of the board, as in hal/*/boards; also the name of its CMake preset.
         link: A link that its chip has, such as `bxcan` or `slcan`.
 
     Raises:

@@ -7,9 +7,13 @@ from pathlib import Path
 from typing import NamedTuple
 from xml.etree import ElementTree as ET
 
-from host_sim.base.atomic_file import write_bytes
+from host_sim.base.files import write_bytes
 
 _NOT_IN_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+_ELEMENTS = {"failed": ("failure", "failures"), "error": ("error", "errors"), "skipped": ("skipped", "skipped")}
+"""JUnit's element for a result, and the attribute that counts them; a check that passed has none."""
 
 
 class Case(NamedTuple):
@@ -17,7 +21,7 @@ class Case(NamedTuple):
 
     Attributes:
         name: Name of the check.
-        result: `passed`, `failed` or `skipped`.
+        result: `passed`, `failed`, `error` if it could not be checked, or `skipped`.
         text: Details, such as why it failed.
         seconds: Duration, s; 0 if unknown.
     """
@@ -48,13 +52,14 @@ def write_results(suite: str, cases: Sequence[Case], json_path: Path | None, jun
 
 def _junit(suite: str, cases: Sequence[Case]) -> bytes:
     results = [case.result for case in cases]
-    numbers = {"tests": len(cases), "failures": results.count("failed"), "skipped": results.count("skipped")}
+    counts = {many: results.count(result) for result, (_, many) in _ELEMENTS.items()}
+    numbers = {"tests": len(cases), **counts}
     top = ET.Element("testsuite", {"name": suite, **{name: str(number) for name, number in numbers.items()}})
     for case in cases:
         element = ET.SubElement(top, "testcase", classname=suite, name=_text(case.name), time=f"{case.seconds:.3f}")
-        if case.result != "passed":
-            kind, lines = ("failure", "skipped")[case.result == "skipped"], _text(case.text)
-            ET.SubElement(element, kind, message=lines.partition("\n")[0]).text = lines
+        if case.result in _ELEMENTS:
+            one, lines = _ELEMENTS[case.result][0], _text(case.text)
+            ET.SubElement(element, one, message=lines.partition("\n")[0]).text = lines
     return ET.tostring(top, encoding="unicode", xml_declaration=True).encode()
 
 

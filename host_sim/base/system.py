@@ -31,7 +31,6 @@ HAS_ROBOT_PROCESSES = sys.platform == "linux"
 """Whether the firmware can run as a process of its own, on a socket pair or a CAN interface."""
 
 _HAS_ALARM = hasattr(signal, "setitimer")
-_OTHERS = stat.S_IRWXG | stat.S_IRWXO
 _FILES = 512
 
 
@@ -89,11 +88,6 @@ def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return mask
-
-
-def is_own(about: os.stat_result) -> bool:
-    """Whether only this user can access a file. On Windows the user's own folder ensures that."""
-    return not hasattr(os, "geteuid") or (about.st_uid == os.geteuid() and not about.st_mode & _OTHERS)
 
 
 def files_max() -> int:

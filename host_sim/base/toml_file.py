@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from host_sim.base.errors import UsageError
-from host_sim.base.regular_file import read_text
+from host_sim.base.files import read_text
 
 _SIZE_MAX = 1_000_000
 _WHERE = re.compile(r" ?\(at (?:line (\d+), column \d+|end of document)\)")

@@ -1,4 +1,4 @@
-"""`tools/octet dbc`: prints a DBC or KCD file for any nodes."""
+"""`tools/octet dbc`: prints a DBC file for any nodes."""
 
 import argparse
 import re
@@ -11,7 +11,6 @@ _EXAMPLES = """\
 examples:
   tools/octet dbc --nodes 1-8 > robots.dbc       the robots 1 to 8
   tools/octet dbc --node 3 > robot.dbc           robot 3 alone
-  tools/octet dbc --nodes 1,3,5 --kcd > robots.kcd
 """
 _SPAN = re.compile(r"(\d{1,3})(?:-(\d{1,3}))?")
 
@@ -22,7 +21,7 @@ def add(commands: Subparsers) -> None:
         commands,
         "dbc",
         _dbc,
-        summary="print a DBC or KCD file for any nodes",
+        summary="print a DBC file for any nodes",
         description="Prints the messages of any nodes as a DBC file: with cycle times, send types, start values,\n"
         "the parameters of the end-to-end protection, and unique names per node, such as N3_SENSES_feel.",
         epilog=_EXAMPLES,
@@ -30,9 +29,6 @@ def add(commands: Subparsers) -> None:
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument("--nodes", type=nodes, metavar="FIRST-LAST", help="node numbers, such as 1-8 or 1,3,5-7")
     which.add_argument("--node", type=number(1, NODE_MAX), metavar="NODE", help="one node number")
-    parser.add_argument(
-        "--kcd", action="store_true", help="print KCD instead, which cannot hold send types and protection"
-    )
 
 
 def nodes(text: str) -> list[int]:
@@ -45,8 +41,7 @@ def nodes(text: str) -> list[int]:
 
 
 def _dbc(arguments: argparse.Namespace) -> int:
-    from host_sim.report.dbc_file import dbc_text, kcd_text
+    from host_sim.report.dbc_file import dbc_text
 
-    wanted = arguments.nodes or [arguments.node]
-    sys.stdout.write(kcd_text(wanted) if arguments.kcd else dbc_text(wanted))
+    sys.stdout.write(dbc_text(arguments.nodes or [arguments.node]))
     return 0

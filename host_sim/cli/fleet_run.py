@@ -4,21 +4,18 @@ import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from host_sim.base.atomic_file import write_bytes
-from host_sim.base.counted import counted
-from host_sim.cli.outputs import FLEET_PAGE, FLEET_PICTURE, SUMMARY, keep_earlier, tell
-from host_sim.cli.progress_line import ProgressLine
+from host_sim.base.errors import counted
+from host_sim.base.files import write_bytes
+from host_sim.base.progress_line import ProgressLine
+from host_sim.cli.outputs import FLEET_PICTURE, SUMMARY, keep_earlier, tell
 from host_sim.cli.run_options import FLEET_TABLE, RunOptions
 from host_sim.recording.fleet_summary import summarize_fleet, table
 from host_sim.recording.run_folder import run_folder
 from host_sim.recording.summary import Summary
-from host_sim.report.fleet_page import write_fleet_page
 from host_sim.report.fleet_picture import write_fleet_picture
 from host_sim.sim.fleet import FleetResult, run_fleet, shared_world
-from host_sim.sim.fleet_film import FleetFilm
 from host_sim.sim.run_config import RunConfig
-from host_sim.world.params import SimParams
-from host_sim.world.worlds import world_of
+from host_sim.world.geometry import SimParams
 
 _WHERE = {"one": "all in one world", "own": "each in its own world", "hall": "all in one hall"}
 
@@ -30,12 +27,11 @@ def conduct_fleet(options: RunOptions) -> Summary:
         UsageError: There is no such world; nothing was changed.
         OctetError: The run failed.
     """
-    config, line = options, ProgressLine(shown=options.talks)
+    config, line = options, ProgressLine(shown=options.verbose)
     results: list[FleetResult] = []
-    film = FleetFilm()
-    run = run_fleet(config, _progress_shown(line, config, results), film)
+    run = run_fleet(config, _progress_shown(line, config, results))
     with run_folder(options.out), line:
-        if options.talks:
+        if options.verbose:
             what = f"{counted(config.robots, 'robot')}, {_WHERE[config.worlds]}, profile {config.profile}"
             print(f"fleet     {what}, seeds from {config.seed}")
         began = time.monotonic()
@@ -46,9 +42,8 @@ def conduct_fleet(options: RunOptions) -> Summary:
         keep_earlier(options)
         write_bytes(options.out / FLEET_TABLE, table(results).encode())
         _draw(options.out / FLEET_PICTURE, config, results)
-        write_fleet_page(options.out / FLEET_PAGE, config, film, _params(config))
         summary.write(options.out / SUMMARY)
-    tell(options, summary, [options.out / name for name in (FLEET_PAGE, FLEET_PICTURE, FLEET_TABLE, SUMMARY)])
+    tell(options, summary, [options.out / name for name in (FLEET_PICTURE, FLEET_TABLE, SUMMARY)])
     return summary
 
 
@@ -66,13 +61,9 @@ def _progress_shown(
     return show
 
 
-def _params(config: RunConfig) -> SimParams:
-    return world_of(config.world).params if config.worlds == "own" else shared_world(config, 1)[1]
-
-
 def _draw(path: Path, config: RunConfig, results: Sequence[FleetResult]) -> None:
     if config.worlds == "own":
-        write_fleet_picture(path, results, world_of(config.world).params)
+        write_fleet_picture(path, results, config.chosen_world.params)
         return
     layout, params = shared_world(config, config.environments)
     eaten = next(result.eaten for result in results if result.environment == config.environments)

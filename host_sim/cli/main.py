@@ -9,7 +9,6 @@ import contextlib
 import errno
 import importlib
 import os
-import re
 import signal
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -18,19 +17,22 @@ from types import FrameType
 from typing import NoReturn
 
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.base.paths import ROOT, as_called
+from host_sim.base.paths import INSTALLED, as_called, version
 from host_sim.base.system import ENDING_SIGNALS
 from host_sim.cli.parsing import Parser
 
 _ROOMS = ("cli", "lab/*")
 _GROUPS = {
-    "start": ("run", "watch", "page", "talk"),
-    "look at a run": ("replay", "picture", "export", "world", "convert"),
-    "measure": ("compare", "study", "tune", "campaign", "reproduce", "dask"),
-    "CAN bus and protocol": ("monitor", "load", "check-robot", "dbc", "protocol"),
-    "firmware": ("calibrate", "update", "keygen"),
+    "start": ("run", "watch", "page", "talk", "class", "new"),
+    "look at a run": ("replay", "picture", "export", "world", "debug"),
+    "measure": ("compare", "study", "tune", "campaign", "grade"),
+    "CAN bus and protocol": ("check", "dbc"),
+    "firmware": ("calibrate",),
 }
 """The commands, in the order of the list."""
+
+_BROKEN_PIPE = 141
+"""128 and the number of SIGPIPE, which not all systems have."""
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
@@ -55,11 +57,29 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     def run() -> int:
         parsed = _parse(arguments)
-        code: int = parsed.command(parsed)
-        sys.stdout.flush()
+        code = _call(parsed)
+        try:
+            sys.stdout.flush()
+        except BrokenPipeError:  # all is done, and the reader has read enough
+            _drop_output()
         return code
 
     return _run(run)
+
+
+def _call(parsed: argparse.Namespace) -> int:
+    """Calls a command; one that lacks a library ends with a message that says how to install it."""
+    try:
+        code: int = parsed.command(parsed)
+    except ModuleNotFoundError as error:
+        name = error.name or "host_sim"
+        if name.startswith("host_sim"):
+            raise
+        from host_sim.base.extra_library import missing
+
+        again = f"{name} is missing from .venv: remove that folder and run the command again"
+        raise OctetError(missing(name, *parsed.stages(parsed)) if INSTALLED else again) from None
+    return code
 
 
 def judge(arguments: Sequence[str]) -> Sequence[str]:
@@ -93,9 +113,9 @@ def _run(action: Callable[[], int]) -> int:
         except OctetError as error:
             print(as_called(f"octet: {error}"), file=sys.stderr)
             return error.exit_code
-        except BrokenPipeError:  # the reader of standard output has closed it
+        except BrokenPipeError:  # the reader of standard output has closed it before the end
             _drop_output()
-            return 1
+            return _BROKEN_PIPE
         except OSError as error:
             if error.filename is not None:  # a path that the system refuses, such as too long a name
                 print(f"octet: cannot use {error.filename}: {error.strerror}", file=sys.stderr)
@@ -132,19 +152,13 @@ def parser_of(given: Sequence[str]) -> Parser:
 def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     given = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
     if given == ["--version"]:
-        print(_version(), flush=True)
+        print(f"Octet {version()}", flush=True)
         raise SystemExit(0)
     parsed, unknown = parser_of(given).parse_known_args(given)
     if unknown:
         parsed.parser.unknown_option(unknown)
     parsed.check(parsed)
     return parsed
-
-
-def _version() -> str:
-    """The version of the project."""
-    found = re.search(r'^version = "(.+)"$', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)
-    return f"Octet {found[1] if found else 'of no version'}"
 
 
 def _overview(parsers: Mapping[str, Parser]) -> str:

@@ -11,22 +11,21 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
-from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import OctetError
 from host_sim.base.extra_library import missing
+from host_sim.base.files import read_bytes, write_bytes
 from host_sim.base.paths import PAGE_WASM, as_called
-from host_sim.base.regular_file import read_bytes
 from host_sim.base.system import signals_held
 from host_sim.cli.run_options import FLEET_TABLE, LOGS, RunOptions
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import RobotClient
+from host_sim.recording.phrases import news_of
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, summarize
 from host_sim.recording.trajectory import Trajectory
-from host_sim.recording.world_file import world_path, write_world
-from host_sim.sim.episode_result import EpisodeResult
+from host_sim.recording.world_file import world_path, world_text, write_world
 from host_sim.sim.simulation import Simulation
-from host_sim.view.news import news_of
+from host_sim.sim.world_record import EpisodeResult
 
 SUMMARY, PICTURE, PAGE = "summary.json", "arena.png", "replay.html"
 """The files in a run's output folder, beside the log and its world file."""
@@ -37,10 +36,10 @@ FAULTS = "faults.txt"
 REFUSED = "refused.log"
 """File in the run's folder: the frames that were refused, each with its reason."""
 
-FLEET_PICTURE, FLEET_PAGE = "fleet.png", "fleet.html"
+FLEET_PICTURE = "fleet.png"
 """The files of a fleet in its output folder, beside its table and summary."""
 
-FILES = (SUMMARY, PICTURE, PAGE, FAULTS, REFUSED, FLEET_PICTURE, FLEET_PAGE, FLEET_TABLE, *LOGS)
+FILES = (SUMMARY, PICTURE, PAGE, FAULTS, REFUSED, FLEET_PICTURE, FLEET_TABLE, *LOGS)
 """All of them, apart from the world file beside the log."""
 
 _SUMMARY_MAX = 10_000_000
@@ -57,6 +56,7 @@ class Outputs:
         log: Its log.
         episodes: The results of its environments so far.
         cut_short: Whether a person or a signal ended it early.
+        over_s: When a watched run was over, on the monotonic clock: its pages took longer. 0.0 for any other.
     """
 
     options: RunOptions
@@ -65,6 +65,7 @@ class Outputs:
     log: FrameLog
     episodes: list[EpisodeResult] = field(default_factory=list)
     cut_short: bool = False
+    over_s: float = 0.0
     _began_s: float = field(default_factory=time.monotonic)
 
     @property
@@ -72,13 +73,18 @@ class Outputs:
         """Whether there was a first tick."""
         return any(client.inbox.ticks for client in self.simulation.clients)
 
+    @property
+    def has_begun_or_is_first(self) -> bool:
+        """Whether to write it: a run without a tick replaces no other."""
+        return self.has_begun or not any((self.options.out / name).exists() for name in LOGS)
+
     def write(self) -> Summary:
         """Writes all files, with signals held back. Files of an earlier run are kept in the folder `OUT.1`.
 
         Raises:
             OctetError: A file cannot be written.
         """
-        wall_s = time.monotonic() - self._began_s
+        wall_s = (self.over_s or time.monotonic()) - self._began_s
         if len(self.episodes) < len(self.simulation.record.begun):
             self.episodes.append(self.simulation.leave())
         with signals_held():
@@ -112,20 +118,23 @@ class Outputs:
 
     def _draw(self) -> None:
         # Loaded late, so that runs start sooner.
-        from host_sim.report.replay_page import write_page
-
-        trajectory = self.recorder.trajectory
-        trajectory.news = news_of(self.simulation.record)
-        if trajectory.ticks:
-            laboratory = self._laboratory(trajectory)
-            write_page(self.options.out / PAGE, trajectory, self.simulation.record.title, laboratory)
+        if (text := self.page()) is not None:
+            write_bytes(self.options.out / PAGE, text.encode())
             try:
                 from host_sim.report.picture import write_picture
 
-                write_picture(self.options.out / PICTURE, trajectory)
+                write_picture(self.options.out / PICTURE, self.recorder.trajectory)
             except ModuleNotFoundError as error:  # drawing libraries are an extra of the wheel
-                if self.options.talks:
+                if self.options.verbose:
                     print(f"left out  {PICTURE}: {missing(error.name or '', 'run')}")
+
+    def page(self) -> str | None:
+        """The page of the run so far; None before its first tick."""
+        from host_sim.report.replay_page import page, run_data
+
+        trajectory, record = self.recorder.trajectory, self.simulation.record
+        trajectory.news = news_of(record)
+        return page(run_data(trajectory, record.title), self._laboratory(trajectory)) if trajectory.ticks else None
 
     def _laboratory(self, trajectory: Trajectory) -> dict[str, Any] | None:
         """The data with which the page answers "What if?"; None if the firmware was not built for pages."""
@@ -135,12 +144,13 @@ class Outputs:
 
         clients = self.simulation.clients
         commands = sorted((it for client in clients for it in client.dialogue.commands), key=itemgetter(0))
-        return laboratory(self.options.log, trajectory, self.simulation.record, commands)
+        record = self.simulation.record
+        return laboratory(world_text(record), trajectory, record, commands)
 
 
 def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
     """Writes the injected faults, as rules for single frames."""
-    from host_sim.faults.faulty_link import FaultyLink
+    from host_sim.transport.faulty_link import FaultyLink
 
     links = [client.connection.link for client in clients]
     schedules = [link.schedule for link in links if isinstance(link, FaultyLink)]
@@ -172,7 +182,7 @@ def keep_earlier(options: RunOptions) -> None:
         replaced, kept = f"replaced  the run in {out}{_seed_of(out / SUMMARY)}", _beside(out)
         for path in earlier:
             _keep(path)
-        if options.talks:
+        if options.verbose:
             there = any((kept / path.name).exists() for path in earlier)
             print(replaced + f", which is in {kept.name} now" * there)
 
@@ -181,7 +191,7 @@ def tell(options: RunOptions, summary: Summary, files: Sequence[Path]) -> None:
     """Prints the result of a run in the requested format, and the list of files."""
     if options.json:
         sys.stdout.write(summary.to_json())
-    elif options.talks:
+    elif options.verbose:
         there = [path for path in files if path.exists()]
         wrote = f"wrote     {', '.join(map(_linked, there))}"
         print("\n".join(filter(None, (summary.text, wrote, _next(options, there), summary.ending))))
@@ -192,7 +202,8 @@ def _next(options: RunOptions, there: Sequence[Path]) -> str:
     if options.log not in there:
         return ""
     log = "" if options.log == RunOptions.out / LOGS[0] else f" --log {options.log}"
-    then = f"next      open {PAGE} in a browser; ask the robot: tools/octet talk{log}; meddle: tools/octet watch"
+    page = f"open {PAGE} in a browser; " if options.out / PAGE in there else ""
+    then = f"next      {page}ask the robot: tools/octet talk{log}; change things while it runs: tools/octet watch"
     return as_called(then)
 
 

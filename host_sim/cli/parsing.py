@@ -5,13 +5,13 @@ import math
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias
 
-from host_sim.base.errors import UsageError
-from host_sim.base.near_word import meant, near_word
+from host_sim.base.errors import UsageError, meant, near_word
+from host_sim.base.files import read_words
 from host_sim.base.paths import as_called
-from host_sim.base.regular_file import read_words
 from host_sim.protocol.words import PARAMETERS
 
 Subparsers: TypeAlias = "argparse._SubParsersAction[Parser]"
@@ -28,9 +28,13 @@ class Parser(argparse.ArgumentParser):
 
     Attributes:
         summary: A command's line in the list of commands.
+        more: Titles of the groups of options that only --help-all shows.
+        more_text: Last lines of its help text that only --help-all shows.
     """
 
     summary = ""
+    more: Sequence[str] = ()
+    more_text = ""
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """As in `argparse.ArgumentParser`, but suggests the nearest choice."""
@@ -54,13 +58,22 @@ class Parser(argparse.ArgumentParser):
         near = near_word(flag, re.findall(r"--[\w-]+", self.format_help())) if flag.startswith("-") else None
         self.error(f"unrecognized arguments: {' '.join(words)}" + (f": did you mean {near}?" if near else ""))
 
+    def shorten_help(self, groups: Sequence[str], text: str) -> None:
+        """Leaves groups of options, and some last lines, to --help-all."""
+        self.more, self.more_text = groups, text
+        self.add_argument("--help-all", action=_HelpAll, nargs=0, help="show every option and parameter, and exit")
+
     def format_help(self) -> str:
         """As in `argparse.ArgumentParser`, with the project's commands as they are called here."""
-        return as_called(super().format_help())
+        it = copy(self)
+        it.epilog = "\n\n".join(filter(None, [self.more_text, self.epilog]))
+        return as_called(super(Parser, it).format_help())
 
     def print_help(self, file: Any = None) -> None:
         """As in `argparse.ArgumentParser`, but raises an OSError if the output is full."""
-        print(self.format_help(), end="", file=file, flush=True)
+        it = copy(self)
+        it._action_groups = [group for group in self._action_groups if group.title not in self.more]
+        print(as_called(super(Parser, it).format_help()), end="", file=file, flush=True)
 
     def error(self, message: str) -> NoReturn:
         """As in `argparse.ArgumentParser`, but raises instead of exiting.
@@ -69,6 +82,12 @@ class Parser(argparse.ArgumentParser):
             UsageError: Always.
         """
         raise UsageError(f"{message}; see {self.prog} --help")
+
+
+class _HelpAll(argparse.Action):
+    def __call__(self, parser: Any, *_: object) -> None:
+        print(parser.format_help(), end="", flush=True)
+        parser.exit()
 
 
 def add_command(  # noqa: PLR0913 - what a command's help is made of
@@ -127,6 +146,17 @@ def file_path(text: str) -> Path:
     if not text:
         raise argparse.ArgumentTypeError("the file name is empty")
     return Path(text)
+
+
+def word_or_file(words: Sequence[str], ending: str) -> Callable[[str], str]:
+    """An argument type: one of these words, or the name of a file with this ending."""
+
+    def parse(text: str) -> str:
+        if text in words or text.endswith(ending):
+            return text
+        raise argparse.ArgumentTypeError(f"there is no {text!r}: {meant(text, words)}, or name a {ending} file")
+
+    return parse
 
 
 def output_of(*endings: str) -> Callable[[str], Path]:

@@ -3,8 +3,8 @@
 import argparse
 
 from host_sim.base.errors import UsageError
-from host_sim.cli.log_options import add_log_options, resimulated
 from host_sim.cli.parsing import Parser, Subparsers, add_command, check_outputs, number, output_of
+from host_sim.cli.run_options import add_log_options, resimulated
 
 _EXAMPLES = """\
 examples:

@@ -1,14 +1,15 @@
 """`tools/octet replay`: compares a recorded log with the current firmware, or writes it as a page."""
 
 import argparse
+import shlex
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from host_sim.base.errors import UsageError
-from host_sim.base.paths import PAGE_WASM
-from host_sim.cli.log_options import add_log_options, resimulated
+from host_sim.base.paths import PAGE_WASM, as_called
+from host_sim.cli.own_source import add_source_options, check_own, own_of
 from host_sim.cli.parsing import Subparsers, add_command, check_outputs, file_path
+from host_sim.cli.run_options import add_log_options, resimulated
 
 if TYPE_CHECKING:
     from host_sim.recording.resimulation import Resimulation
@@ -40,6 +41,7 @@ def add(commands: Subparsers) -> None:
     parser.add_argument(
         "--html", type=file_path, metavar="FILE", help="instead, write the run to FILE as a page to play in a browser"
     )
+    add_source_options(parser)
     parser.add_argument("--protocol", action="store_true", help="check only that the robot keeps to the protocol")
     parser.add_argument(
         "--what-if",
@@ -59,17 +61,18 @@ def _check(arguments: argparse.Namespace) -> None:
 
 def _replay(arguments: argparse.Namespace) -> int:
     if arguments.protocol:
-        return _check_protocol(arguments.log, arguments.node)
+        return _check_protocol(arguments)
     return _compare(arguments) if arguments.html is None else _write_page(arguments)
 
 
-def _check_protocol(log: Path, first_node: int) -> int:
+def _check_protocol(arguments: argparse.Namespace) -> int:
     """Checks only the protocol, for the robots from a node on."""
     from host_sim.protocol.codec import Protocol
     from host_sim.recording.conversation import check_conversation
     from host_sim.recording.log_reader import nodes_in, read_log
 
-    lines, sound = read_log(log), True
+    log, first_node = arguments.log, arguments.node
+    lines, sound = read_log(log, arguments.channel), True
     for node in sorted({first_node, *(node for node in nodes_in(lines) if node > first_node)}):
         found = check_conversation(lines, Protocol(node))
         counts = f"{found.commands} commands and {found.drives} senses answered, {len(found.problems)} problems"
@@ -86,15 +89,21 @@ def _compare(arguments: argparse.Namespace) -> int:
     from host_sim.recording.world_file import read_world, world_path
 
     log, first_node = arguments.log, arguments.node
-    lines, world = read_log(log), world_path(log)
-    program = read_world(world).program if world.exists() and not arguments.no_world else None
-    equal = True
+    lines, world = read_log(log, arguments.channel), world_path(log)
+    record = read_world(world) if world.exists() and not arguments.no_world else None
+    program, own, equal = record.program if record else None, own_of(arguments, record), True
     nodes = sorted({first_node, *(node for node in nodes_in(lines) if node > first_node)})
     for node in nodes:
         protocol = Protocol(node)
-        outcome = replay(lines, protocol, program)
+        outcome = replay(lines, protocol, program, own)
         print(report(outcome, f"{log}, node {node}" if len(nodes) > 1 else str(log), protocol))
         equal = equal and outcome.difference is None
+        if outcome.difference and not outcome.drives and not own:
+            check_own(arguments, (line.frame for line in lines), protocol)
+        if outcome.difference and not program:
+            where = f"--node {node} --at {outcome.difference.time_us / 1e6:.6f}".rstrip("0").rstrip(".")
+            where += f" --profile {shlex.quote(own.name)}" if own else ""
+            print(as_called(f"  debugger  tools/octet debug {shlex.quote(str(log))} {where}"))
     if note := lines.note():
         print(f"octet: {note}", file=sys.stderr)
     return 0 if equal else 1
@@ -113,9 +122,10 @@ def _write_page(arguments: argparse.Namespace) -> int:
 def _laboratory(arguments: argparse.Namespace, result: "Resimulation") -> dict[str, Any]:
     """The data that the page needs to ask "What if?"."""
     from host_sim.recording.log_reader import read_log
-    from host_sim.report.laboratory import commands_in, laboratory
+    from host_sim.report.laboratory import commands_in, laboratory, world_beside
 
-    found = laboratory(arguments.log, result.trajectory, result.record, commands_in(read_log(arguments.log)))
+    commands = commands_in(read_log(arguments.log, arguments.channel))
+    found = laboratory(world_beside(arguments.log), result.trajectory, result.record, commands)
     if "why" in found and arguments.what_if:
         print(f"octet: {found['why']}", file=sys.stderr)
     return found

@@ -1,22 +1,28 @@
-"""The options of `run` and `watch`: those of `RunConfig`, and where a run's files go and how people watch it."""
+"""The options of `run` and `watch`: those of `RunConfig`, its files, and how people watch it; and those of a log."""
 
 import argparse
+import sys
 from argparse import Namespace
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from host_sim.backends.bus_choice import check_robot
 from host_sim.base.compressed_file import COMPRESSED
 from host_sim.base.errors import UsageError
-from host_sim.cli.parsing import file_path, number, settings
-from host_sim.faults.rule import read_rules
+from host_sim.cli.parsing import file_path, number, settings, word_or_file
 from host_sim.protocol.words import NODE_MAX
-from host_sim.sim.run_config import Option, RunConfig, flag_of, option, options_of
-from host_sim.transport.bit_rates import BIT_RATE
+from host_sim.sim.access import PICO, check_robot
+from host_sim.sim.option import Option, flag_of, option, options_of
+from host_sim.sim.run_config import C_FILE, RunConfig
+from host_sim.transport.link import BIT_RATE
+from host_sim.transport.rule import read_rules
+from host_sim.world.body_kinds import PINS
 from host_sim.world.changes import read_changes
-from host_sim.world.physics_names import PYMUNK
+from host_sim.world.names import PYMUNK
+
+if TYPE_CHECKING:
+    from host_sim.recording.resimulation import Resimulation
 
 LOGS = ("run.log", f"run.log{COMPRESSED}")
 """The log in a run's output folder: the plain one and the compressed one."""
@@ -39,15 +45,18 @@ _PARSERS: dict[Any, Callable[[str], Any]] = {
 _GROUPS = {
     "the most used": (
         *("environments", "seed", "world", "profile", "settings", "robots", "memory", "out", "watch", "terminal"),
-        "real_time",
+        *("real_time", "limit_s", "body", "changes", "robot"),
     ),
-    "the world": ("limit_s", "worlds", "body", "changes", "physics"),
+    "the world": ("worlds", "physics"),
     "the robot, and the bus that it is on": (
-        *("bus", "bitrate", "robot", "robot_command", "program", "board", "node", "owner", "reconnect_s"),
+        *("bus", "bitrate", "robot_command", "program", "board", "node", "owner", "reconnect_s", "fast", "gdb"),
     ),
     "faults, and when a result is doubtful": ("faults", "fault_seed", "unanswered_max", "gap_max_s", "late_max"),
 }
 """The options by their groups in the help text; the rest are output options."""
+_OUTPUT = "the output"
+OTHER_GROUPS = (*list(_GROUPS)[1:], _OUTPUT)
+"""The groups that only --help-all shows."""
 
 
 @dataclass(frozen=True)
@@ -91,14 +100,20 @@ class RunOptions(RunConfig):
         return self.out / LOGS[self.compress_log]
 
     @property
-    def talks(self) -> bool:
+    def verbose(self) -> bool:
         """Whether to print progress and results as text."""
         return not (self.quiet or self.json)
 
     @property
     def stages(self) -> list[str]:
         """The stages of tools/setup that the run needs."""
-        robot = {"qemu": ["images"], "emulated": ["images", "emulator"]}.get(self.robot, ["run"])
+        emulated = ["pico"] if self.board == PICO else ["images"]
+        if self.board != PICO or self.body == PINS:
+            emulated.append("emulator")
+        robot = {"qemu": ["images"], "emulated": emulated}.get(self.robot, ["run"])
+        robot = ["run", *robot] if self.profile.endswith(C_FILE) and robot != ["run"] else robot
+        if self.gdb:
+            robot = ["debug-images" if self.robot == "qemu" else "debug"]
         return robot if self.listen is None else [*robot, "classroom"]
 
 
@@ -106,7 +121,7 @@ def add_options(parser: argparse.ArgumentParser, command: str) -> None:
     """Adds a command's options; only those given on the command line are set."""
     rows = options_of(RunOptions)
     others = [name for name in rows if not any(name in names for names in _GROUPS.values())]
-    for title, names in {**_GROUPS, "the output": others}.items():
+    for title, names in {**_GROUPS, _OUTPUT: others}.items():
         group = parser.add_argument_group(title)
         for name in names:
             if command in rows[name][1].commands:
@@ -136,7 +151,7 @@ def run_options(arguments: Namespace, **others: Any) -> RunOptions:
         raise UsageError("--robot-command is empty: name a program, or leave it out")
     options = RunOptions(**{**given, **others})
     _check(options)
-    if options.robot_command and options.bus == "auto":
+    if (options.robot_command or options.gdb) and options.bus == "auto":
         return replace(options, bus="fd")
     return options
 
@@ -152,7 +167,9 @@ def _argument(it: Any, row: Option) -> dict[str, Any]:
     text = f"{row.text} ({'; '.join(values)})" if values else row.text
     how: dict[str, Any] = {"help": text.replace("%", "%%"), "metavar": row.metavar}
     how["type"] = number(*row.limits, kind) if row.limits else _PARSERS.get(kind, str)
-    if row.choices:
+    if row.ending:
+        how["type"] = word_or_file(row.choices, row.ending)
+    elif row.choices:
         how["choices"] = row.choices
     if row.const is not None:
         how |= {"nargs": "?", "const": row.const}
@@ -172,6 +189,7 @@ def _check(options: RunOptions) -> None:
         other = "--bus none" if options.bus == "none" else f"--robot {options.robot}"
         raise UsageError(f"--robot-command starts a program on fd or socketcan: leave {other} out")
     _check_program(options)
+    _check_gdb(options)
     if options.board and options.robot != "emulated":
         raise UsageError(f"--board {options.board} is for --robot emulated: add that, or leave --board out")
     if options.bitrate != BIT_RATE and options.bus.partition(":")[0] in _NO_ADAPTER:
@@ -182,6 +200,19 @@ def _check(options: RunOptions) -> None:
         _check_fleet(options)
     else:
         check_robot(options.bus, options.robot, options.nodes)
+
+
+def _check_gdb(options: RunOptions) -> None:
+    """Refuses what cannot wait for a robot at a breakpoint."""
+    here = {"spawn": ("auto", "fd"), "qemu": ("auto", "none", "fd")}
+    if options.gdb and options.bus not in here.get(options.robot, ()):
+        raise UsageError(
+            "--gdb starts the robot, on a socket pair or in QEMU: leave --bus and --robot out, or take qemu"
+        )
+    for name in ("real_time", "watch", "robots", "robot_command", "program") if options.gdb else ():
+        if getattr(options, name) != getattr(RunOptions, name):
+            flag = flag_of(name, options_of(RunOptions)[name][1])
+            raise UsageError(f"--gdb stops one robot, and nobody else waits for it: leave {flag} out")
 
 
 def _check_program(options: RunOptions) -> None:
@@ -206,3 +237,34 @@ def _check_fleet(options: RunOptions) -> None:
     unsuited += ["--physics pymunk"] if options.physics == PYMUNK else []
     if unsuited:
         raise UsageError(f"{_FLEETS} has no bus and keeps its memories in {FLEET_TABLE}: leave {unsuited[0]} out")
+
+
+def add_channel(parser: argparse.ArgumentParser) -> None:
+    """Adds the option that selects one bus of a log."""
+    which = "the interface or channel, such as can0, if the log has robots on several"
+    parser.add_argument("--channel", metavar="NAME", help=which)
+
+
+def add_log_options(parser: argparse.ArgumentParser) -> None:
+    """Adds the options that `replay` and `picture` share."""
+    add = parser.add_argument
+    add("log", type=file_path, metavar="RUN.LOG", help="log of a run, of candump or of python-can")
+    add_channel(parser)
+    add_option(parser, "node")
+    add(
+        "--no-world",
+        action="store_true",
+        help="ignore seed and world file and draw the path from the odometers only, as for a real body",
+    )
+
+
+def resimulated(arguments: argparse.Namespace) -> "Resimulation":
+    """The run in a log; a log that is cut short is reported on stderr."""
+    from host_sim.recording.resimulation import resimulate
+
+    result = resimulate(arguments.log, arguments.node, ignore_world=arguments.no_world, channel=arguments.channel)
+    if result.note:
+        print(f"octet: {result.note}", file=sys.stderr)
+    if not result.stopped:
+        print(f"octet: {arguments.log} ends before the run does; showing what it has", file=sys.stderr)
+    return result

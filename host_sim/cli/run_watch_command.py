@@ -4,10 +4,10 @@ import argparse
 import sys
 from dataclasses import replace
 
-from host_sim.backends.images import BOARDS
 from host_sim.base.system import HAS_ROBOT_PROCESSES
 from host_sim.cli.parsing import Subparsers, add_command, parameter_table
-from host_sim.cli.run_options import RunOptions, add_options, run_options
+from host_sim.cli.run_options import OTHER_GROUPS, RunOptions, add_options, run_options
+from host_sim.sim.access import BOARDS
 
 _RUN_EXAMPLES = f"""\
 examples:
@@ -67,16 +67,17 @@ def _add(commands: Subparsers, name: str, *, examples: str, summary: str, descri
         lambda arguments: _conduct(arguments.options),
         summary=summary,
         description=description,
-        epilog=f"{parameter_table()}\n\n{examples}",
+        epilog=examples,
         check=check,
         stages=lambda arguments: arguments.options.stages,
     )
     parser.usage = "%(prog)s [OPTION ...]"
+    parser.shorten_help(OTHER_GROUPS, parameter_table())
     add_options(parser, name)
 
 
 def _conduct(options: RunOptions) -> int:
-    from host_sim.cli.conduct import conduct
+    from host_sim.cli.single_run import conduct
 
     if options.robot == "observe":
         _look_on(options)
@@ -87,9 +88,10 @@ def _conduct(options: RunOptions) -> int:
     elif options.watch:
         conduct(_watched(options))
     else:
-        from host_sim.backends.bus_choice import choose_bus
+        from host_sim.sim.access import choose_bus
 
-        conduct(replace(options, bus=choose_bus(options.bus, options.robot)))
+        bus = "none" if options.fast else choose_bus(options.bus, options.robot)
+        conduct(replace(options, bus=bus))
     return 0
 
 

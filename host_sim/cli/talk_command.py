@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
-from host_sim.cli.log_options import resimulated
 from host_sim.cli.parsing import Subparsers, add_command, file_path, number
+from host_sim.cli.run_options import add_channel, resimulated
 from host_sim.protocol.words import NODE_MAX
 
 if TYPE_CHECKING:
@@ -49,6 +49,7 @@ def add(commands: Subparsers) -> None:
         help="the robot's number (default: %(default)s)",
     )
     add("--no-world", action="store_true", help="ignore seed and world file, as for a real body")
+    add_channel(parser)
     add("--memory", type=file_path, metavar="FILE", help="ask about a memory file alone, without a log")
     add(
         "--script",

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from host_sim.cli.parsing import DEFAULT, Subparsers, add_command, check_outputs, number, output_of
 from host_sim.cli.run_options import add_option
-from host_sim.world.world_names import WORLD_NAMES
+from host_sim.world.names import WORLD_NAMES
 
 _EXAMPLES = """\
 examples:

@@ -1,17 +1,72 @@
-"""Commands to a robot: start, stop, and changes of its memory."""
+"""What is asked of a robot: the handshake, and commands."""
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
-from host_sim.base.errors import RobotError
-from host_sim.client.report_checks import holds
+from host_sim.base.errors import RivalError, RobotError
+from host_sim.client.inbox import holds
 from host_sim.client.robot_client import RobotClient
-from host_sim.client.session import Session
-from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, MEMORY_KINDS, PROFILES, MemoryKind
+from host_sim.client.session import Session, Told
+from host_sim.protocol.codec import Frame
+from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, MEMORY_KINDS, MemoryKind
 from host_sim.world.memory_kinds import translated, with_sides
 
+_LISTEN_S = 0.1
+"""A robot driven by another simulator receives senses at shorter intervals than this."""
+
+
+def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) -> None:
+    """Stops the robot and receives its reports; the log begins with these frames.
+
+    Args:
+        client: A client whose robot is not started.
+        timeout_s: Time to wait for the robot, s.
+        shared: Whether other simulators may be on the bus; if so, listens for them first.
+
+    Raises:
+        FirmwareError: The robot was built from another layout of the messages.
+        RivalError: Another simulator drives the robot.
+        RobotError: The robot does not answer.
+    """
+    held: list[Frame] = []
+    client.inbox.record = held.append
+    try:
+        if shared:
+            _listen(client)
+        client.reports.forget()
+        client.inbox.told = Told(takes_senses=client.connection.sense is None)
+        client.dialogue.expect_reports("stop")
+        if client.dialogue.ask("stop", {}, timeout_s) is None:
+            raise RobotError(
+                f"no robot answered as node {client.node} within {timeout_s:g} s; {client.dialogue.account()}"
+            )
+        assert client.inbox.last is not None
+        held[:] = [client.inbox.asked.last, client.inbox.last]
+        client.reports.await_all()  # reports before the answer are not in the log
+        if not client.dialogue.await_reports():
+            client.dialogue.demand_reports("stop")
+        if not holds(client.inbox):  # it had an owner, and received other commands
+            client.dialogue.demand_reports("stop")
+        client.firmware = client.firmware or client.reports.boot
+    finally:
+        client.inbox.record = client.log.add
+    for frame in held:
+        client.log.add(frame)
+
+
+def _listen(client: RobotClient) -> None:
+    """Makes sure that no other simulator drives the robot, before it is stopped."""
+    client.waiting.receive(client.inbox.take, _LISTEN_S)
+    rival = client.inbox.rivals.heard
+    if rival is not None:
+        raise RivalError(
+            f"node {client.node} is driven by another simulator: heard {client.protocol.describe(rival)}; "
+            "end that one, or use another --node"
+        )
+
+
 _HALF = CELL_COUNT // 2
-_KINDS = {number: MEMORY_KINDS[name] for name, number in PROFILES.items()}
+_KINDS = dict(enumerate(MEMORY_KINDS.values()))
 
 
 def start(client: RobotClient, session: Session, memory: Sequence[int] | None = None) -> None:
@@ -53,7 +108,7 @@ def stop(client: RobotClient) -> None:
         client.dialogue.demand_reports("report")  # one of the two reports may have been damaged in transit
     client.check_held()
     client.check_settled()
-    for doubt in client.punctuality.doubts():
+    for doubt in client.deadlines.doubts():
         client.distrust(doubt)
 
 

@@ -1,14 +1,13 @@
-"""Sorts all frames from a robot's side: answers, drives, reports, and unexpected frames."""
+"""Sorts all frames from a robot's side: answers, drives, reports, and others; compares reports with the session."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from host_sim.base.errors import SessionLostError
-from host_sim.client.asked_commands import AskedCommands, Rivals, Told
+from host_sim.base.errors import FirmwareError, SessionLostError
 from host_sim.client.robot_reports import REPORTS, Arrival, RobotReports
-from host_sim.client.session import FrameCounts, Session
+from host_sim.client.session import AskedCommands, FrameCounts, Rivals, Session, Told
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, Protocol, counter_of
-from host_sim.protocol.generated import REST, TICK_SPAN, Drive, Reason, Result
+from host_sim.protocol.generated import REST, TICK_SPAN, Drive, Fault, Reason, Result
 
 _TICK_MASK = TICK_SPAN - 1
 _FORGED, _COMMANDED = "somebody sends frames in the robot's name", "somebody else commands the robot"
@@ -28,7 +27,7 @@ class Inbox:
         owner: Owner ID of this simulator.
         counts: Frame counters.
         asked: The commands that were sent.
-        told: The commands that the robot has carried out.
+        told: The commands that the robot has carried out, and the senses that it has obeyed.
         rivals: Other simulators that command it.
         refuse: Called with each refused frame and the reason.
         check: Called with each heartbeat and each new report; it may raise what `take` raises.
@@ -116,6 +115,10 @@ class Inbox:
         self.drive, self._drive_tick, self._drive_frame = drive, self.ticks, frame
         self.last = frame
         self.counts.received += 1
+        told = self.told
+        if told.asked is not None:  # as told.take_drive does: a call takes too long in each tick
+            told.answered.append((told.asked, frame))
+            told.asked = None
         self.record(frame)
         return drive
 
@@ -174,6 +177,7 @@ class Inbox:
             self._accept(frame)
         elif is_new and self.session is not None and self.session.halted:
             self._drive_tick = self.ticks - ((self.sent_tick - drive.tick) & _TICK_MASK)
+            self.told.take_drive(frame)
             self._accept(frame)
             return drive
         else:
@@ -280,3 +284,48 @@ class Inbox:
         """
         if self.session is not None:
             raise SessionLostError(f"it {how} (tick {self.tick})", doubt=doubt, booted=booted)
+
+
+def check_report(inbox: Inbox, report: DecodedFrame) -> None:
+    """Checks a new report, or a heartbeat sent in silence, which need not be new.
+
+    Raises:
+        SessionLostError: The robot may no longer be the one that was started, or no longer be alone.
+        FirmwareError: The robot was built from another layout of the messages.
+    """
+    if report.name == "HEARTBEAT":
+        _check_heartbeat(inbox, report)
+        if not report.signals["silent"] and inbox.asked.answered and not is_as_started(inbox):
+            inbox.lose("does not run as it was told here")
+    elif report.name == "EMERGENCY" and report.signals["kinds"] >> Fault.TWIN & 1:
+        inbox.lose("hears another robot with its number")
+    elif report.name == "HEALTH" and inbox.asked.answered and not holds(inbox):
+        inbox.lose("does not hold what it was told here")
+    elif report.name == "BOOT" and not inbox.reporting:
+        inbox.lose("started anew", booted=True)
+
+
+def _check_heartbeat(inbox: Inbox, heartbeat: DecodedFrame) -> None:
+    theirs, ours = heartbeat.signals["layout"], inbox.protocol.layout
+    if not inbox.protocol.fits(theirs):
+        inbox.lose("reports another layout of the messages")
+        hashes = f"hash {theirs:04X}, ours {ours:04X}"
+        raise FirmwareError(f"the robot was built from another octet.dbc ({hashes}): rebuild it")
+    if not heartbeat.signals["state"] and inbox.session is not None and not inbox.session.halted:
+        inbox.lose("reports that it is stopped")
+    if heartbeat.signals["owner"] not in (0, inbox.owner):
+        inbox.lose(f"obeys simulator {heartbeat.signals['owner']}")
+
+
+def holds(inbox: Inbox) -> bool:
+    """Whether the robot's last report shows that it holds exactly the commands and senses sent here."""
+    return inbox.told.agrees(inbox.reports.held, inbox.reports.memory)
+
+
+def is_as_started(inbox: Inbox) -> bool:
+    """Whether the robot's last heartbeat shows that it runs as it was started here."""
+    session, said = inbox.session, inbox.reports.heartbeat
+    if session is None or inbox.told.given_up:
+        return True
+    ours = session.profile, int(inbox.lockstep), int(session.frozen)
+    return (said["profile"], said["lockstep"], said["frozen"]) == ours

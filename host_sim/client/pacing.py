@@ -95,7 +95,7 @@ class _Wheels:
         self.waited += 1
         if self.waited * tick_s > self.client.connection.deadline_s:
             raise self.client.dialogue.no_answer(f"tick {tick}")
-        if self.client.punctuality.miss(round(self.waited * tick_s, 6), tick_s):
+        if self.client.deadlines.miss(round(self.waited * tick_s, 6), tick_s):
             self.client.distrust(f"the robot did not answer for {self.waited * tick_s:g} s")
 
 
@@ -139,7 +139,7 @@ class RealTime:
         early = self._listen(begin_s, until_all_answer=False)
         late_s, lost_s = max(self._now() - begin_s, 0.0), 0.0
         for wheels, sensed in zip(self._wheels, senses, strict=True):
-            lost_s = wheels.client.punctuality.begin(late_s, self._tick_s)
+            lost_s = wheels.client.deadlines.begin(late_s, self._tick_s)
             wheels.client.send_senses(sensed)
         self._next_s = begin_s + lost_s + self._tick_s
         fresh = self._listen(self._next_s, until_all_answer=True)

@@ -4,16 +4,14 @@ from collections.abc import Mapping
 from functools import partial
 
 from host_sim.base.errors import SessionLostError
-from host_sim.client.connection import Connection
+from host_sim.client.connection import Connection, RoundTrip, Waiting
+from host_sim.client.deadlines import Deadlines
 from host_sim.client.dialogue import Dialogue
 from host_sim.client.frame_log import FrameLog
-from host_sim.client.inbox import Inbox
+from host_sim.client.inbox import Inbox, check_report, holds, is_as_started
 from host_sim.client.incidents import Incident, RefusedFrames
-from host_sim.client.punctuality import Punctuality
-from host_sim.client.report_checks import check_report, holds, is_as_started
 from host_sim.client.robot_reports import RobotReports
 from host_sim.client.session import FrameCounts
-from host_sim.client.waiting import RoundTrip, Waiting
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import NOTHING_NEAR, Drive, MemoryKind, Ranges, Senses
 
@@ -36,7 +34,7 @@ class RobotClient:
         inbox: Processes incoming frames.
         waiting: Waits for incoming frames.
         dialogue: Sends commands.
-        punctuality: Timing quality in real time.
+        deadlines: Timing quality in real time.
         refused: The frames that were refused.
         incidents: The first `INCIDENTS_MAX` events that make the result of the run doubtful.
         unlisted: Number of incidents after those.
@@ -68,7 +66,7 @@ class RobotClient:
         self.connection, self.protocol, self.log = connection, protocol, log
         self.round_trip = RoundTrip()
         self.inbox = Inbox(protocol, log.add, connection.now, lockstep, owner)
-        self.punctuality = Punctuality()
+        self.deadlines = Deadlines()
         self.refused = RefusedFrames(log)
         self.inbox.refuse = self.refused.add
         self.inbox.check = partial(check_report, self.inbox)
@@ -125,9 +123,11 @@ class RobotClient:
             self.unlisted += 1
 
     def check_held(self) -> None:
-        """Notes an incident if, by its last report, the robot does not hold the commands sent here."""
+        """Notes an incident if, by its last report, the robot does not hold the commands and senses sent here."""
         if not holds(self.inbox) or not is_as_started(self.inbox):
-            self.distrust("the robot does not hold what it was told here: somebody else commands it")
+            self.distrust(
+                "the robot does not hold what it was told here: somebody else commands it, or a frame was altered"
+            )
             self.inbox.told.given_up = True
 
     def send_senses(self, senses: Senses) -> None:
@@ -135,6 +135,7 @@ class RobotClient:
         inbox = self.inbox
         counter = inbox.expect_drive(senses.tick)
         self._senses = frame = self.protocol.encode_senses(senses, counter)
+        inbox.told.asked = frame if inbox.lockstep and inbox.told.takes_senses else None
         if self.wants_ranges:
             self._send_ranges(senses.tick, counter)
         # On some kernels, reading the clock takes longer than everything else here.
@@ -150,11 +151,13 @@ class RobotClient:
     def note_sent(self, senses: Senses) -> None:
         """Takes over the senses of one tick that were sent and logged elsewhere."""
         self._senses = self.protocol.encode_senses(senses, self.inbox.expect_drive(senses.tick))
+        self.inbox.told.ask(self._senses)
         self._timed = False
         self.inbox.counts.sent += 1
 
     def repeat_senses(self) -> None:
-        """Sends the senses of the last tick again, and the distances sent before them."""
+        """In lockstep: sends the senses of the last tick again, and the distances sent before them."""
+        self.inbox.told.ask(self._senses)
         if self.wants_ranges:
             self.waiting.repeat(self._ranges)
         self._expect_answers(self.connection.line.copies)

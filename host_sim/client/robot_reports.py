@@ -89,7 +89,7 @@ class RobotReports:
         faults_before: Previously reported value of each counter.
         heartbeat: The signals of its HEARTBEAT; empty before the first.
         boot: The signals of its BOOT, which names the firmware; empty before the first.
-        held: HEALTH's checksum of the commands that the robot has carried out.
+        held: HEALTH's checksum of the commands that the robot has carried out, and of the senses that it has obeyed.
         memories: Number of whole memories so far.
         ended: Whether the last frame of a whole report has arrived since `await_end`.
         gap: Number of memories that were lost on the way before the first one since this was last set to None.

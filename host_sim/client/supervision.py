@@ -1,8 +1,7 @@
 """Determines what happened to a robot that dropped out of its session, and restarts it if possible."""
 
-from host_sim.base.errors import FirmwareError, RivalError, SessionLostError, TwinError
-from host_sim.client.commands import freeze, start
-from host_sim.client.handshake import handshake
+from host_sim.base.errors import FirmwareError, OctetError, RivalError, SessionLostError, TwinError
+from host_sim.client.commands import freeze, handshake, start
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.protocol.codec import COUNTERS
@@ -63,8 +62,8 @@ def recover(client: RobotClient, lost: SessionLostError) -> None:
         client.distrust(f"{lost.doubt}: {lost}")
     try:
         _find_out(client, lost)
-    except (RivalError, TwinError) as meddled:
-        client.distrust(str(meddled))
+    except OctetError as why:  # whatever it is, the robot is not known to be as it was
+        client.distrust(str(why))
         raise
 
 

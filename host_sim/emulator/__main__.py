@@ -65,18 +65,15 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--board", choices=CHIPS, default="feather_stm32f405", help="which board (default: %(default)s)"
     )
-    parser.add_argument(
-        "--boot", action="store_true", help="start through the boot loader, if there is one for the board"
-    )
     parser.add_argument("--bus", metavar="INTERFACE:CHANNEL", required=True, help="the python-can bus that it joins")
     return parser
 
 
-def _join(name: str, bus: str, *, boot: bool) -> None:
+def _join(name: str, bus: str) -> None:
     from host_sim.emulator.board import start_board  # noqa: PLC0415 - says what to install if Unicorn is missing
 
     with open_bus(bus) as opened:
-        joined = JoinedBoard(start_board(name, boot=boot), opened)
+        joined = JoinedBoard(start_board(name), opened)
         sys.stdout.write(f"octet: an emulated {name} listens on {bus}\n")
         sys.stdout.flush()
         try:
@@ -97,7 +94,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     parsed = _parser().parse_args(arguments)
     try:
-        _join(parsed.board, parsed.bus, boot=parsed.boot)
+        _join(parsed.board, parsed.bus)
     except OctetError as error:
         sys.stderr.write(f"octet: {error}\n")
         return error.exit_code

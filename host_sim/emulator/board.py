@@ -2,9 +2,9 @@
 
 import struct
 import time
+from abc import ABC, abstractmethod
 from collections import deque
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
 from pathlib import Path
 
 from host_sim.base.errors import OctetError, UsageError
@@ -16,6 +16,7 @@ from host_sim.emulator.hardware import Faults, Hardware
 from host_sim.emulator.registers import PowerCut
 from host_sim.protocol.codec import Frame
 from host_sim.transport.slcan_link import encode
+from host_sim.transport.socket_pair import EXTENDED
 
 _BOOT_S = 0.6
 """Enough time to erase a page of flash."""
@@ -24,79 +25,43 @@ _ELF_HEADER, _PROGRAM_HEADER = struct.Struct("<4s5B7x2H5I3H"), struct.Struct("<8
 _ELF_32_BITS, _ELF_ARM, _ELF_LOADED = 1, 40, 1
 
 
-@dataclass(frozen=True)
-class Slots:
-    """The slots of a boot loader.
-
-    Attributes:
-        span: Start and end of the slots, bytes from the start of the flash.
-        images: Their contents: (offset in the flash, bytes).
-    """
-
-    span: tuple[int, int]
-    images: Sequence[tuple[int, bytes]] = ()
-
-
-class EmulatedBoard:
+class TimedBoard(ABC):
     """A `Link` to a board. Time on the board passes within `receive` and `pass_time`, and only there.
 
     Attributes:
-        hardware: Core, memories and peripherals.
-        resets: Cause of each reset so far, after that of power-up.
         drift: Fraction by which its time runs faster than the simulator's: 0.02 for 2 %, negative if slower.
     """
 
-    def __init__(
-        self,
-        chip: Chip,
-        image: Path,
-        faults: Faults | None = None,
-        *,
-        serial: bool = False,
-        slots: Slots | None = None,
-    ) -> None:
-        """Flashes the image and runs it until startup is complete.
+    drift = 0.0
 
-        Args:
-            chip: The chip on the board.
-            image: The `.elf` file.
-            faults: Hardware faults to simulate.
-            serial: Whether frames go over the serial line as slcan text instead of over the bus.
-            slots: If the image is a boot loader: its slots and the images written there by a probe.
-
-        Raises:
-            OctetError: The image cannot be read.
-            BoardError: The image did something that the hardware does not allow.
-        """
-        self.resets: list[str] = []
-        self.drift = 0.0
-        self._serial = serial
+    def __init__(self) -> None:
+        """It has said nothing yet."""
         self._said: deque[CanFrame] = deque()
-        self._reset_cause: str | None = None
-        self._deadline = NEVER
-        self.hardware = Hardware(chip, faults or Faults(), self._receive, self._ask_reset)
-        for at, data in slots.images if slots else ():
-            self.hardware.flash.memory[at : at + len(data)] = data
-        self.hardware.flash_image(load_segments(image), slots.span if slots else (0, 0))
-        self._clock = self.hardware.clock
-        self._set_alarm = self._clock.add(self._due)
-        self._said.extend(self._listen(round(_BOOT_S * SECOND)))
 
+    @property
+    @abstractmethod
+    def _moment(self) -> int:
+        """The board's time since power-up, in `SECOND`."""
+
+    @abstractmethod
+    def _run_until(self, moment: int) -> None:
+        """Runs until the board sends something, at most until a moment."""
+
+    @abstractmethod
+    def _stop(self) -> None:
+        """Ends `_run_until`."""
+
+    @abstractmethod
     def send(self, frame: Frame) -> None:
         """As in `Link`."""
-        if self._serial:
-            self.hardware.feed_line(encode(frame))
-        else:
-            self.put(CanFrame(frame.id, frame.data))
 
-    def put(self, frame: CanFrame) -> None:
-        """Queues a frame of any kind from another node on the bus."""
-        if self.hardware.on_bus:
-            self.hardware.can.put(frame)
+    @abstractmethod
+    def status(self) -> str:
+        """The state of the board in a few words."""
 
     def now(self) -> float:
         """The board's time since power-up, s. Lockstep timeouts use it, so that they do not depend on host load."""
-        return self._clock.now / SECOND
+        return self._moment / SECOND
 
     def receive(self, timeout_s: float) -> Frame | None:
         """As in `Link`. The timeout is in board time, which, apart from drift, never runs faster than the wall clock.
@@ -105,7 +70,7 @@ class EmulatedBoard:
             BoardError: The image does what the hardware does not allow.
         """
         began = time.monotonic()
-        self._run_until(self._clock.now + round(timeout_s * (1 + self.drift) * SECOND))
+        self._run_until(self._moment + round(timeout_s * (1 + self.drift) * SECOND))
         if self._said:
             frame = self._said.popleft()
             return Frame(-1, b"") if frame.extended or frame.remote else Frame(frame.id, frame.data)
@@ -116,10 +81,83 @@ class EmulatedBoard:
         """Lets time pass on the board, without waiting for the wall clock.
 
         Returns:
-            The frames that it sent meanwhile.
+            The frames that it sent meanwhile; a 29-bit identifier is flagged `EXTENDED`.
         """
         said = self._listen(round(span_s * SECOND))
-        return [Frame(frame.id, frame.data) for frame in said]
+        return [Frame(frame.id | (EXTENDED if frame.extended else 0), frame.data) for frame in said]
+
+    def close(self) -> None:
+        """As in `Link`."""
+        self._said.clear()
+
+    def _listen(self, span: int) -> list[CanFrame]:
+        """Advances time by a span; returns the frames sent by then."""
+        end = self._moment + span
+        heard: list[CanFrame] = []
+        while self._moment < end:
+            self._run_until(end)
+            heard.extend(self._said)
+            self._said.clear()
+        return heard
+
+    def _has_news(self) -> bool:
+        return bool(self._said)
+
+    def _receive(self, frame: CanFrame) -> None:
+        self._said.append(frame)
+        self._stop()
+
+
+class EmulatedBoard(TimedBoard):
+    """A board whose chip is emulated here.
+
+    Attributes:
+        hardware: Core, memories and peripherals.
+        resets: Cause of each reset so far, after that of power-up.
+    """
+
+    def __init__(
+        self,
+        chip: Chip,
+        image: Path,
+        faults: Faults | None = None,
+        *,
+        serial: bool = False,
+    ) -> None:
+        """Flashes the image and runs it until startup is complete.
+
+        Args:
+            chip: The chip on the board.
+            image: The `.elf` file.
+            faults: Hardware faults to simulate.
+            serial: Whether frames go over the serial line as slcan text instead of over the bus.
+
+        Raises:
+            OctetError: The image cannot be read.
+            BoardError: The image did something that the hardware does not allow.
+        """
+        super().__init__()
+        self.resets: list[str] = []
+        self._serial = serial
+        self._reset_cause: str | None = None
+        self._deadline = NEVER
+        self.hardware = Hardware(chip, faults or Faults(), self._receive, self._ask_reset)
+        self.hardware.flash_image(load_segments(image))
+        self._clock = self.hardware.clock
+        self._set_alarm = self._clock.add(self._due)
+        self._said.extend(self._listen(round(_BOOT_S * SECOND)))
+
+    def send(self, frame: Frame) -> None:
+        """As in `Link`."""
+        if self._serial:
+            self.hardware.feed_line(encode(frame))
+        else:
+            self.put(CanFrame(frame.id & ~EXTENDED, frame.data, extended=bool(frame.id & EXTENDED)))
+
+    def put(self, frame: CanFrame) -> None:
+        """Queues a frame of any kind from another node on the bus."""
+        if self.hardware.on_bus:
+            self.hardware.can.put(frame)
 
     def cut_power(self) -> None:
         """Switches the board off and on again; only the flash keeps its contents."""
@@ -135,19 +173,9 @@ class EmulatedBoard:
         """The state of the board in a few words."""
         return f"is an emulated {self.hardware.chip.name}, and was reset {len(self.resets)} times"
 
-    def close(self) -> None:
-        """As in `Link`."""
-        self._said.clear()
-
-    def _listen(self, span: int) -> list[CanFrame]:
-        """Advances time by a span; returns the frames sent by then."""
-        end = self._clock.now + span
-        heard: list[CanFrame] = []
-        while self._clock.now < end:
-            self._run_until(end)
-            heard.extend(self._said)
-            self._said.clear()
-        return heard
+    @property
+    def _moment(self) -> int:
+        return self._clock.now
 
     def _run_until(self, moment: int) -> None:
         """Runs until the board sends something, at most until a moment."""
@@ -160,10 +188,6 @@ class EmulatedBoard:
                 self.cut_power()
             if self._reset_cause is not None:
                 self.restart(self._reset_cause)
-            self.hardware.follow_vectors()
-
-    def _has_news(self) -> bool:
-        return bool(self._said)
 
     def _due(self) -> int:
         if self._deadline <= self._clock.now:
@@ -171,8 +195,7 @@ class EmulatedBoard:
             self.hardware.core.stop()
         return self._deadline
 
-    def _receive(self, frame: CanFrame) -> None:
-        self._said.append(frame)
+    def _stop(self) -> None:
         self.hardware.core.stop()
 
     def _ask_reset(self, cause: str) -> None:
@@ -181,7 +204,7 @@ class EmulatedBoard:
 
 
 def start_board(
-    name: str, faults: Faults | None = None, link: str = "", *, boot: bool = False, version: int = 1
+    name: str, faults: Faults | None = None, link: str = "", image: Callable[[str, str], Path] = image_path
 ) -> EmulatedBoard:
     """Starts a board with its built image.
 
@@ -189,8 +212,7 @@ def start_board(
         name: One of `CHIPS`.
         faults: Hardware faults to simulate.
         link: The link of the image, such as `bxcan` or `slcan`; by default that for the board's CAN controller.
-        boot: Whether the board starts through a boot loader, with the image in its first slot.
-        version: Version of that image.
+        image: Names the image, given board and link.
 
     Raises:
         UsageError: No board has that name.
@@ -201,15 +223,7 @@ def start_board(
         raise UsageError(f"no board {name!r}; there are {', '.join(CHIPS)}")
     link = link or CHIPS[name].link
     serial = link == "slcan"
-    if not boot:
-        return EmulatedBoard(CHIPS[name], image_path(name, link), faults, serial=serial)
-    from host_sim.update.image import LAYOUTS, built_images  # noqa: PLC0415 - only updates need the packages
-    from host_sim.update.keys import development_key  # noqa: PLC0415 - as above
-
-    image = built_images(name, link, version, development_key())[0]
-    first, second = LAYOUTS[name].slots
-    slots = Slots((first, second + LAYOUTS[name].slot_bytes), [(first, image.data)])
-    return EmulatedBoard(CHIPS[name], image_path(name, f"{link}-boot"), faults, serial=serial, slots=slots)
+    return EmulatedBoard(CHIPS[name], image(name, link), faults, serial=serial)
 
 
 def load_segments(path: Path) -> list[tuple[int, bytes]]:

@@ -1,6 +1,7 @@
 """The pins of a board, checked against the pin functions of its chip: for C, documentation and emulation.
 
-A board's file in hal/stm32/boards names a pin for each signal; `pins.toml` in its chip's folder lists pin functions.
+A board's file in the folder `boards` of its family names a pin for each signal; `pins.toml` in its chip's folder has
+the functions of pins.
 """
 
 import re
@@ -12,15 +13,16 @@ from host_sim.base.errors import UsageError
 from host_sim.base.paths import ROOT
 from host_sim.base.toml_file import parse_toml
 
-STM32 = Path("hal", "stm32")
-"""Folders of boards and chips, relative to the root."""
+HAL = Path("hal")
+"""The folder of the families of chips, relative to the root."""
 
 ADC = "ADC"
 """Function of an analogue input."""
 
 _SET = re.compile(r"^set\((\w+) ([^)]*)\)", re.MULTILINE)
-_PIN = re.compile(r"P([A-I])(\d+)")
-_ALWAYS = ("LED", "CAN_RX", "CAN_TX", "UART_RX", "UART_TX")
+_PIN = re.compile(r"P([A-I])(\d+)|GP(\d+)")
+_ALWAYS = ("LED", "UART_RX", "UART_TX")
+_CAN = ("CAN_RX", "CAN_TX")
 
 
 def settings(path: Path) -> dict[str, str]:
@@ -29,8 +31,13 @@ def settings(path: Path) -> dict[str, str]:
 
 
 def place_of(pin: str) -> tuple[int, int]:
-    """Port number (0 for A) and pin number of a pin."""
-    return ord(pin[1]) - ord("A"), int(pin[2:])
+    """Port number (0 for A, or if there is only one) and pin number of a pin."""
+    return 0 if pin.startswith("GP") else ord(pin[1]) - ord("A"), int(pin[2:])
+
+
+def board_files(root: Path = ROOT) -> dict[str, Path]:
+    """The file of each board."""
+    return {path.stem: path for path in sorted((root / HAL).glob("*/boards/*.cmake"), key=lambda path: path.stem)}
 
 
 class ChipPins:
@@ -39,18 +46,21 @@ class ChipPins:
     Attributes:
         signals: The pin function of each signal, such as `CAN rx`; plain inputs and outputs are omitted.
         channels: The ADC channel of each pin that has one.
+        wiring: By part, the terminals of signals that end elsewhere than on other boards.
     """
 
     def __init__(self, name: str, root: Path = ROOT) -> None:
         """Reads a chip's pin table."""
-        table = parse_toml((root / STM32 / name / "pins.toml").read_text())
+        path = next(it for pattern in ("", "*/") for it in (root / HAL).glob(f"{pattern}{name}/pins.toml"))
+        table = parse_toml(path.read_text())
         self.name = name
-        self._all = {f"P{port}{n}" for port, count in table["ports"].items() for n in range(count)}
+        self._all = {f"P{port}{n}" for port, count in table.get("ports", {}).items() for n in range(count)}
         self._all |= set(table.get("more", ()))
         self._reserved: dict[str, str] = table["reserved"]
         self._functions: dict[str, list[dict[str, Any]]] = table["functions"]
         self.signals: dict[str, str] = table["signals"]
         self.channels: dict[str, int] = table.get("channels", {})
+        self.wiring: dict[str, dict[str, str]] = table.get("wiring", {})
 
     def check(self, signals: dict[str, str]) -> None:
         """Checks that each signal has a pin of its own that the chip has.
@@ -125,6 +135,7 @@ class Pins:
         remap: The AFIO_MAPR fields for these pins.
         led_high: Whether the LED is on while its pin is high.
         headers: Pin labels of the board's two headers, top to bottom; empty if unknown.
+        top: What is at the top end of the board; empty for nothing.
         ends: By signal, the component and terminal at the far end of the wire, for a robot with a body on pins.
     """
 
@@ -134,6 +145,7 @@ class Pins:
     remap: int
     led_high: bool
     headers: list[list[str]]
+    top: str
     ends: dict[str, tuple[str, str]]
 
     @property
@@ -145,7 +157,7 @@ class Pins:
 
     def header(self) -> str:
         """The contents of the header that board.h includes."""
-        lines = [f"/* Generated from hal/stm32/boards/{self.board}.cmake. */"]
+        lines = [f"/* Generated from the board's file, {self.board}.cmake. */"]
         numbers: dict[str, object] = {}
         for signal, pin in self.signals.items():
             port, number = place_of(pin)
@@ -159,7 +171,7 @@ class Pins:
 
     def table(self) -> str:
         """The wiring table in Markdown."""
-        lines = ["| signal | pin | as | goes to |", "| --- | --- | --- | --- |"]
+        lines = ["| signal | pin | as | goes to |", "|---|---|---|---|"]
         for signal, pin in sorted(self.signals.items(), key=lambda row: place_of(row[1])):
             use = self.chip.signals.get(signal, "input or output")
             end = ": ".join(self.ends.get(signal, ("",)))
@@ -167,29 +179,38 @@ class Pins:
         return "\n".join(lines) + "\n"
 
 
-def _ends(root: Path) -> dict[str, tuple[str, str]]:
+def _ends(root: Path, chip: ChipPins) -> dict[str, tuple[str, str]]:
     parts = parse_toml((root / "hal" / "pins_body" / "wiring.toml").read_text())
-    return {signal: (part, end) for part, ends in parts.items() for signal, end in ends.items()}
+    return {
+        signal: (part, end)
+        for table in (parts, chip.wiring)
+        for part, ends in table.items()
+        for signal, end in ends.items()
+    }
 
 
 def read_pins(board: str, root: Path = ROOT) -> Pins:
-    """Reads the pins of a board.
+    """Reads the pins of a board, by its name or its file.
 
     Raises:
         UsageError: There is no such board, two signals share a pin, or a pin lacks the function of its signal.
     """
-    path = root / STM32 / "boards" / f"{board}.cmake"
+    files = board_files(root)
+    path = Path(board) if board.endswith(".cmake") else files.get(board, Path(f"{board}.cmake"))
+    board = path.stem
     if not path.exists():
-        names = ", ".join(sorted(each.stem for each in path.parent.glob("*.cmake")))
-        raise UsageError(f"no board {board}; there are {names}")
+        raise UsageError(f"no board {board}; there are {', '.join(files)}")
     given = {name.removeprefix("OCTET_"): value for name, value in settings(path).items()}
     chip = ChipPins(given["CHIP"], root)
     signals = {name: pin for name, pin in given.items() if name in chip.signals or _PIN.fullmatch(pin)}
     try:
-        for name in (name for name in _ALWAYS if name not in signals):
+        needed = (*_ALWAYS, *(name for name in _CAN if name in chip.signals))
+        for name in (name for name in needed if name not in signals):
             raise UsageError(f"no pin for {name}")
         chip.check(signals)
         headers = [given[f"HEADER_{number}"].strip('"').split() for number in (1, 2) if f"HEADER_{number}" in given]
-        return Pins(board, signals, chip, chip.remap(signals), given["LED_HIGH"] == "1", headers, _ends(root))
+        top = given.get("HEADER_END", "").strip('"')
+        remap, led_high = chip.remap(signals), given["LED_HIGH"] == "1"
+        return Pins(board, signals, chip, remap, led_high, headers, top, _ends(root, chip))
     except UsageError as error:
         raise UsageError(f"{board}: {error}") from None

@@ -36,6 +36,7 @@ class Chip:
         places: For each peripheral, by its name, the base address; then, if it has a clock gate, the offset of a
             register of RCC, and the number of the enable bit in it.
         converter: Creates ADC1, for a robot with a body on pins; None if the board has no pins for one.
+        wide: Names of the timers with 32 bits.
     """
 
     name: str
@@ -52,6 +53,7 @@ class Chip:
     usart: Callable[[Clock, Callable[[], int], Callable[[int], None]], Usart]
     places: Mapping[str, tuple[int, ...]]
     converter: Callable[[int, Callable[[], int], Dma, Clock], Converter] | None = None
+    wide: Sequence[str] = ()
 
 
 WATCHDOG_BASE, CAN_BASE, SYSTICK_BASE = 0x40003000, 0x40006400, 0xE000E010
@@ -160,6 +162,7 @@ STM32G431 = Chip(
         "ADC1": (0x50000000, 0x4C, 13),
     },
     converter=ConverterG4,
+    wide=("TIM2",),
 )
 """ST NUCLEO-G431RB. Faster clocks need a higher core voltage and a pause at half speed: not modelled."""
 

@@ -12,7 +12,7 @@ _BEGIN, _SOFTWARE = 1 << 22, 7 << 17 | 1 << 20
 _SAMPLE_MAX, _PLACES_MAX = 4095, 6
 _G4_ON, _G4_START, _G4_REGULATOR, _G4_ASLEEP, _G4_CALIBRATE = 1, 1 << 2, 1 << 28, 1 << 29, 1 << 31
 _G4_REGULATED = 20 * SECOND // 10**6
-_G4_CFGR, _G4_DIVISORS = 1 << 13 | 3, (0, 1, 2, 4)
+_G4_CFGR, _G4_NO_QUEUE, _G4_DIVISORS = 1 << 13 | 3, 1 << 31, (0, 1, 2, 4)
 _G4_ISR, _G4_SQR1, _G4_CCR, _ADC1_REQUEST = 0x00, 0x30, 0x308, 5
 _CHANNEL_ON, _CIRCULAR, _MINC, _HALVES = 1, 1 << 5, 1 << 7, 1 << 8 | 1 << 10
 _CCR, _CNDTR, _CPAR, _CMAR, _STRIDE = 0x08, 0x0C, 0x10, 0x14, 20
@@ -169,8 +169,9 @@ class ConverterG4(Converter):
         """As in `Converter`, with the frequency of its bus."""
         self._regulated_at = 0
         self._cr = Register("CR", _G4_ASLEEP, on_write=self._write_cr)
-        names = {0x0C: "CFGR", 0x10: "CFGR2", 0x14: "SMPR1", 0x18: "SMPR2", 0x30: "SQR1", 0x34: "SQR2"}
+        names = {0x10: "CFGR2", 0x14: "SMPR1", 0x18: "SMPR2", 0x30: "SQR1", 0x34: "SQR2"}
         registers = plain({**names, _G4_CCR: "CCR", self.data: "DR"})
+        registers[0x0C] = Register("CFGR", _G4_NO_QUEUE)
         isr = Register("ISR", on_read=lambda: self._cr.value & _G4_ON)
         super().__init__(base, lambda: self._divided(hz()), dma, clock, {**registers, _G4_ISR: isr, 0x08: self._cr})
 

@@ -30,8 +30,8 @@ _STACKED = tuple(getattr(arm, f"UC_ARM_REG_{name}") for name in ("R0", "R1", "R2
 """Registers that the hardware stacks on exception entry, from the lowest address."""
 
 _RETURN_TO_THREAD = 0xFFFFFFF9
-_NMI, _HARD_FAULT = 2, 3
-_IBUSERR, _PRECISERR, _STKERR, _UNDEFINSTR = 1 << 8, 1 << 9, 1 << 12, 1 << 16
+_NMI, _HARD_FAULT, _FIRST_INTERRUPT = 2, 3, 16
+_IBUSERR, _PRECISERR, _STKERR, _UNDEFINSTR, _INVSTATE = 1 << 8, 1 << 9, 1 << 12, 1 << 16, 1 << 17
 _WFI = b"\x30\xbf"
 
 
@@ -76,7 +76,9 @@ class Core:
         on_fault: Called when the image faults; then its hard fault handler runs.
         vectors: Address of the current vector table.
         wakes: Returns whether an event ends its sleep after WFI.
-        on_nmi: Called when the non-maskable interrupt is taken, and when its handler returns.
+        acknowledge: Returns the number of the pending interrupt that is taken next, which then is pending no longer;
+            None if there is none.
+        on_exception: Called with the number of the active exception when it changes; 0 for none.
     """
 
     def __init__(self, clock: Clock, vectors: int) -> None:
@@ -88,9 +90,10 @@ class Core:
         """
         self.on_fault: Callable[[Fault], None] = lambda _fault: None
         self.wakes: Callable[[], bool] = lambda: True
-        self.on_nmi: Callable[[bool], None] = lambda _taken: None
+        self.acknowledge: Callable[[], int | None] = lambda: None
+        self.on_exception: Callable[[int], None] = lambda _number: None
         self._nmi = False
-        self._interrupted: int | None = None
+        self._active: list[tuple[int, int]] = []  # exceptions, with the stack pointers of what they interrupted
         self._clock, self._begin = clock, vectors
         self.vectors = vectors
         self._in_fault = False
@@ -134,11 +137,6 @@ class Core:
         read, write = (ffi.addressof(models, name) for name in ("window_read", "window_write"))
         _check(self._library.uc_mmio_map(self._engine, window.base, window.size, read, made, write, made))
 
-    def remove(self, base: int, size: int) -> None:
-        """Removes memory or registers."""
-        self._uc.mem_unmap(base, size)
-        self._uc.ctl_flush_tb()
-
     def write(self, address: int, data: bytes) -> None:
         """Writes to memory from outside the core."""
         self._uc.mem_write(address, data)
@@ -147,7 +145,8 @@ class Core:
         """Starts at the reset vector."""
         self._asleep = False
         self._in_fault = self._nmi = False
-        self._interrupted = None
+        self._active.clear()
+        self._uc.reg_write(arm.UC_ARM_REG_PRIMASK, 0)
         self.vectors = self._begin
         self._uc.reg_write(arm.UC_ARM_REG_SP, self._word(self.vectors))
         self._uc.reg_write(arm.UC_ARM_REG_LR, 0xFFFFFFFF)
@@ -164,6 +163,11 @@ class Core:
         self._nmi = True
         self.stop()
 
+    def request(self) -> None:
+        """Notes that an enabled interrupt is pending: taken at the end of the current basic block, unless masked."""
+        if self._takes_interrupts():
+            self.stop()
+
     def stop(self) -> None:
         """Ends `run` soon."""
         self._blocks.stopping = True
@@ -176,8 +180,7 @@ class Core:
             PowerCut: The power was cut during a flash operation.
         """
         self._blocks.stopping = False
-        if self._nmi and self._interrupted is None:
-            self._take_nmi()
+        self._take_exception()
         while not self._blocks.stopping:
             if self._asleep:
                 self._sleep()
@@ -186,7 +189,7 @@ class Core:
                 _check(self._library.uc_emu_start(self._engine, self._pc | _THUMB, 0, 0, 0))
             except UcError as error:
                 self._pc = self._uc.reg_read(arm.UC_ARM_REG_PC)
-                self._enter_fault(error)
+                self._end_block(error)
                 continue
             self._pc = self._uc.reg_read(arm.UC_ARM_REG_PC)
             self._clock.raise_failure()
@@ -214,36 +217,54 @@ class Core:
         self._unreachable = cast("int", access[2])
         return False
 
-    def _take_nmi(self) -> None:
-        self._nmi = False
-        self._interrupted = self._uc.reg_read(arm.UC_ARM_REG_SP)
+    def _takes_interrupts(self) -> bool:
+        """Whether neither PRIMASK nor an active exception holds interrupts back; all have the same priority."""
+        return not (self._in_fault or self._active or self._uc.reg_read(arm.UC_ARM_REG_PRIMASK))
+
+    def _take_exception(self) -> None:
+        """Takes what is pending, with the registers on the stack (ARMv7-M B1.5.6)."""
+        if self._nmi and _NMI not in dict(self._active):
+            self._nmi = False
+            self._enter(_NMI)
+        elif self._takes_interrupts() and (number := self.acknowledge()) is not None:
+            self._enter(_FIRST_INTERRUPT + number)
+
+    def _enter(self, number: int) -> None:
+        self._active.append((number, self._uc.reg_read(arm.UC_ARM_REG_SP)))
         self._uc.reg_write(arm.UC_ARM_REG_PC, self._pc)
         self._stack_registers()
-        self.on_nmi(True)
+        self.on_exception(number)
         self._uc.reg_write(arm.UC_ARM_REG_LR, _RETURN_TO_THREAD)
-        self._pc = self._word(self.vectors + 4 * _NMI)
+        self._pc = self._word(self.vectors + 4 * number)
+        if not self._pc & _THUMB:
+            self._enter_fault(_INVSTATE, None)
 
-    def _return_from_nmi(self, stack: int) -> None:
+    def _return(self) -> None:
+        """Goes back to what the latest exception interrupted."""
+        _, stack = self._active.pop()
         saved = self._uc.mem_read(self._uc.reg_read(arm.UC_ARM_REG_SP), 4 * len(_STACKED))
         for register, value in zip(_STACKED, struct.unpack(f"<{len(_STACKED)}I", saved), strict=True):
             self._uc.reg_write(register, value)
             if register == arm.UC_ARM_REG_PC:
                 self._pc = value
         self._uc.reg_write(arm.UC_ARM_REG_SP, stack)
-        self._interrupted = None
-        self.on_nmi(False)
+        self.on_exception(self._active[-1][0] if self._active else 0)
+        self._take_exception()
 
-    def _enter_fault(self, error: UcError) -> None:
-        """Enters the fault handler as the hardware does, with the registers on the stack."""
+    def _end_block(self, error: UcError) -> None:
+        """Handles what Unicorn cannot execute: the return from an exception, or a fault."""
         address, self._unreachable = self._unreachable, None
-        if self._interrupted is not None and self._pc | _THUMB == _RETURN_TO_THREAD:
-            self._return_from_nmi(self._interrupted)
+        if self._active and self._pc | _THUMB == _RETURN_TO_THREAD:
+            self._return()
             return
         if self._in_fault:
             raise BoardError(f"the core locked up: a fault at 0x{self._pc:08X} within the fault handler ({error})")
-        self._in_fault = True
         invalid = error.errno == uc.UC_ERR_INSN_INVALID
-        cause = _UNDEFINSTR if invalid else _IBUSERR if address == self._pc else _PRECISERR
+        self._enter_fault(_UNDEFINSTR if invalid else _IBUSERR if address == self._pc else _PRECISERR, address)
+
+    def _enter_fault(self, cause: int, address: int | None) -> None:
+        """Enters the fault handler as the hardware does, with the registers on the stack."""
+        self._in_fault = True
         cause |= 0 if self._stack_registers() else _STKERR
         self.on_fault(Fault(cause, address, self._pc))
         self._uc.reg_write(arm.UC_ARM_REG_LR, _RETURN_TO_THREAD)

@@ -60,6 +60,8 @@ class Flash(Peripheral):
     """Bit STRT of CR."""
     lock: ClassVar[int] = 1 << 31
     """Bit LOCK of CR."""
+    option_lock: ClassVar[int] = 0
+    """Bit OPTLOCK of CR."""
     failure: ClassVar[int]
     """Flag of SR for an internal error."""
     offsets: ClassVar[tuple[int, int, int]] = (0x04, 0x0C, 0x10)
@@ -85,7 +87,7 @@ class Flash(Peripheral):
         self.on_wait_states: Callable[[], None] = lambda: None
         self.on_unreadable: Callable[[], None] = lambda: None
         self._acr = Register("ACR", self.acr, on_write=self._write_acr)
-        self._cr = Register("CR", self.lock, on_write=self._write_cr)
+        self._cr = Register("CR", self.lock | self.option_lock, on_write=self._write_cr)
         self._sr = Register("SR", on_write=self._write_sr)
         keyr, sr, cr = self.offsets
         registers = {0x00: self._acr, keyr: Register("KEYR", on_write=self._write_key), sr: self._sr, cr: self._cr}
@@ -185,7 +187,7 @@ class Flash(Peripheral):
     def _write_cr(self, value: int) -> None:
         if self._cr.value & self.lock:
             raise BoardError("FLASH CR was written while it is locked")
-        self._cr.value = value & ~self.start
+        self._cr.value = value & ~self.start | self._cr.value & self.option_lock
         if value & self.start and value & _ERASE:
             self._erase(self.page_to_erase())
 

@@ -23,6 +23,7 @@ class FlashF1(Flash):
     erase_span: ClassVar[Mapping[int, int]] = {1024: 30 * SECOND // 1000}
     start = 1 << 6
     lock = 1 << 7
+    acr = 0x30
     failure = _F1_PGERR
 
     def __init__(self, clock: Clock, faults: FlashFaults) -> None:
@@ -80,6 +81,7 @@ class FlashG4(Flash):
     failure = _F4_OPERR
     offsets = (0x08, 0x10, 0x14)
     acr = 0x40600
+    option_lock = 1 << 30
     data_cache = 1 << 10
     _WORD, _DOUBLE = 4, 8
 

@@ -3,6 +3,7 @@
 import random
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 
 from host_sim.emulator.board_pins import read_pins
 from host_sim.emulator.can import CanFaults, CanFrame
@@ -21,8 +22,6 @@ from host_sim.emulator.system import SystemControl, SysTick, Watchdog
 from host_sim.emulator.timers import MotorTimer, Timer
 from host_sim.emulator.wiring import Wiring
 
-_NMI = 2
-"""Number of the exception."""
 _TIM1_UP = 25
 _WINDOWS = ((0x40000000, 0x80000), (0x48000000, 2 * PAGE), (0x50000000, PAGE), (0xE000E000, PAGE))
 """Address ranges of registers, (base, bytes)."""
@@ -60,7 +59,8 @@ class Hardware:
         wiring: The connections of its pins.
         space: All registers by address.
         faults: Fault exceptions that the image caused.
-        interrupts: The interrupt controller, which wakes the core.
+        peripherals: All parts with registers.
+        interrupts: The interrupt controller.
         robot: Motors, sensors and other parts wired to its pins; None if the board has none.
     """
 
@@ -81,8 +81,6 @@ class Hardware:
         """
         self.chip, self._heard = chip, heard
         self.faults: list[Fault] = []
-        self._slots = (0, 0)
-        self._in_slot = False
         self.clock = Clock(chip.oscillators.internal)
         self.core = Core(self.clock, FLASH)
         self.core.on_fault = self._note_fault
@@ -100,16 +98,18 @@ class Hardware:
         self.watchdog = Watchdog(self.clock, chip.slow_hz, lambda: restart("watchdog"))
         self.interrupts = Interrupts()
         self.core.wakes = lambda: self.interrupts.wakes
+        self.core.acknowledge = self.interrupts.acknowledge
+        self.interrupts.on_pending = self.core.request
         self.flash.on_unreadable = self.core.interrupt
-        self.core.on_nmi = lambda taken: self._scb.enter(_NMI if taken else 0)
+        self.core.on_exception = self._scb.enter
         self.robot: RobotOnPins | None = None
-        self._peripherals: list[Peripheral] = [
+        self.peripherals: list[Peripheral] = [
             *(self.rcc, self.flash, self.watchdog, self._systick, self._scb, self.interrupts),
             *(self.can, self.power, self.usart, *self.pins),
         ]
         mapr = Register("MAPR") if "AFIO" in chip.places else None
         if mapr is not None:
-            self._peripherals.append(Peripheral("AFIO", {0x00: Register("EVCR"), 0x04: mapr}))
+            self.peripherals.append(Peripheral("AFIO", {0x00: Register("EVCR"), 0x04: mapr}))
         self.wiring = Wiring(read_pins(chip.name), self.pins, mapr)
         if chip.converter is not None:
             self._add_robot(chip.converter)
@@ -120,26 +120,21 @@ class Hardware:
         """Whether the CAN controller is routed to the pins wired to the bus."""
         return self.wiring.meets("CAN_RX", "CAN_TX")
 
-    def flash_image(self, segments: list[tuple[int, bytes]], slots: tuple[int, int] = (0, 0)) -> None:
+    def flash_image(self, segments: list[tuple[int, bytes]]) -> None:
         """Writes an image, as a probe does, and resets the core.
 
         The image's pages become read-only memory; all others are handled by the flash's model.
 
         Args:
             segments: (address, bytes).
-            slots: Start and end of a boot loader's slots, bytes from the start of the flash, in whole pages of the
-                core. A program running in a slot cannot change them.
         """
         flash = self.flash
         for address, data in segments:
             offset = address - FLASH
             flash.memory[offset : offset + len(data)] = data
             flash.code_end = max(flash.code_end, -(-(offset + len(data)) // PAGE) * PAGE)
-        self._slots = slots
         self.core.add_rom(FLASH, bytes(flash.memory[: flash.code_end]))
-        for begin, end in ((flash.code_end, slots[0]), slots, (max(flash.code_end, slots[1]), len(flash.memory))):
-            if begin < end:
-                self.core.add_registers(self._flash_window(begin, end))
+        self.core.add_registers(self._flash_window(flash.code_end, len(flash.memory)))
         self.core.reset()
 
     def _flash_window(self, begin: int, end: int) -> Window:
@@ -151,24 +146,9 @@ class Hardware:
             lambda address, width, value: flash.write(address - FLASH, width, value),
         )
 
-    def follow_vectors(self) -> None:
-        """Makes the slots executable if the vector table is in one, else writable again."""
-        begin, end = self._slots
-        inside = begin <= self.core.vectors - FLASH < end
-        if inside == self._in_slot:
-            return
-        self._in_slot = inside
-        self.core.remove(FLASH + begin, end - begin)
-        if inside:
-            self.core.add_rom(FLASH + begin, bytes(self.flash.memory[begin:end]))
-        else:
-            self.core.add_registers(self._flash_window(begin, end))
-
     def _move_vectors(self, address: int) -> None:
         """Sets the vector table; takes effect between two basic blocks."""
         self.core.vectors = address
-        if self._slots[1]:
-            self.core.stop()
 
     def restart(self, cause: str) -> None:
         """Resets the chip; a loss of power scrambles the RAM too.
@@ -178,26 +158,26 @@ class Hardware:
         """
         if cause == "power":
             self._scramble_ram()
-        for peripheral in self._peripherals:
+        for peripheral in self.peripherals:
             peripheral.reset()
         self.rcc.restart(cause)
         self.core.reset()
-        self.follow_vectors()
 
     def _add_robot(self, create_converter: Callable[[int, Callable[[], int], Dma, Clock], Converter]) -> None:
         """Adds the peripherals and the wiring of a robot with a body on pins."""
         places, rcc = self.chip.places, self.rcc
-        motors = MotorTimer(self.clock, rcc.apb2_hz, lambda: self.interrupts.pend(_TIM1_UP))
-        timers = {name: Timer(name) for name in ("TIM2", "TIM3", "TIM4")}
         multiplexer = Multiplexer() if "DMAMUX" in places else None
+        pend, filters = partial(self.interrupts.pend, _TIM1_UP), multiplexer is not None  # as a G4 has both
+        motors = MotorTimer(self.clock, rcc.apb2_hz, pend, filters=filters)
+        timers = {name: Timer(name, wide=name in self.chip.wide) for name in ("TIM2", "TIM3", "TIM4")}
         dma = Dma(multiplexer)
         converter = create_converter(places["ADC1"][0], rcc.adc_hz, dma, self.clock)
-        self._peripherals += [motors, *timers.values(), dma, converter, *([multiplexer] if multiplexer else [])]
+        self.peripherals += [motors, *timers.values(), dma, converter, *([multiplexer] if multiplexer else [])]
         self.robot = RobotOnPins(self.core, self.wiring, motors, timers, converter)
 
     def _map(self) -> None:
         space = self.space
-        for peripheral in self._peripherals:
+        for peripheral in self.peripherals:
             base, *gate = self.chip.places[peripheral.name]
             if gate:
                 self.rcc.add_gate(peripheral, *gate)

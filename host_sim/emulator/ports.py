@@ -151,14 +151,18 @@ class GpioF4(Port):
     _OUTPUT, _ALTERNATE, _ANALOG, _UP = 1, 2, 3, 1
     resets: ClassVar[Mapping[str, int]] = {"GPIOA": 0xA8000000, "GPIOB": 0x00000280}
     """MODER after a reset: the debugger's pins are in use."""
+    speeds: ClassVar[Mapping[str, int]] = {"GPIOB": 0xC0}
+    pulls: ClassVar[Mapping[str, int]] = {"GPIOA": 0x64000000, "GPIOB": 0x100}
     other_resets = 0
 
     def __init__(self, name: str) -> None:
         """Creates the port in its reset state."""
         self._mode = Register("MODER", self.resets.get(name, self.other_resets))
-        self._pull, self._functions = Register("PUPDR"), [Register("AFRL"), Register("AFRH")]
+        speed = Register("OSPEEDR", self.speeds.get(name, 0))
+        self._pull = Register("PUPDR", self.pulls.get(name, 0))
+        self._functions = [Register("AFRL"), Register("AFRH")]
         self._open_drain = Register("OTYPER")
-        modes = {0x00: self._mode, 0x04: self._open_drain, 0x08: Register("OSPEEDR"), 0x0C: self._pull}
+        modes = {0x00: self._mode, 0x04: self._open_drain, 0x08: speed, 0x0C: self._pull}
         modes |= {0x1C: Register("LCKR"), 0x20: self._functions[0], 0x24: self._functions[1]}
         super().__init__(name, modes, data=0x10)
 
@@ -188,4 +192,5 @@ class GpioG4(GpioF4):
     """A port of an STM32G4 (RM0440 9.4): pins are analogue after a reset."""
 
     resets: ClassVar[Mapping[str, int]] = {"GPIOA": 0xABFFFFFF, "GPIOB": 0xFFFFFEBF}
+    speeds: ClassVar[Mapping[str, int]] = {"GPIOA": 0x0C000000, "GPIOB": 0xC0}
     other_resets = 0xFFFFFFFF

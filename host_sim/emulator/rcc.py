@@ -65,6 +65,10 @@ class Rcc(Peripheral):
     """Bit numbers of ON and READY of each source in CR."""
     forget: ClassVar[int] = 24
     """Bit RMVF of CSR."""
+    brown_out: ClassVar[int] = 0
+    """Flag of CSR that a loss of power sets, too."""
+    trimmed: ClassVar[int] = 0x80
+    """What is set in CR after a reset beside HSI's bits."""
 
     def __init__(
         self, clock: Clock, oscillators: Oscillators, flash_hz: Callable[[], int], faults: RccFaults
@@ -82,7 +86,9 @@ class Rcc(Peripheral):
         self._startup = _STARTUP | {HSE: round(faults.crystal_s * SECOND)}
         self._ready_at: dict[str, int] = {}
         self._gates: dict[tuple[int, int], Peripheral] = {}
-        self._cr = Register("CR", 1 << self.bits[HSI][0], on_read=self._read_cr, on_write=self._write_cr)
+        self._cr = Register(
+            "CR", self.trimmed | 1 << self.bits[HSI][0], on_read=self._read_cr, on_write=self._write_cr
+        )
         self._csr = Register("CSR", on_write=self._write_csr)
         super().__init__("RCC", {0x00: self._cr, self.csr_offset: self._csr, **self.layout()}, clocked=True)
         self.restart("power")
@@ -123,7 +129,7 @@ class Rcc(Peripheral):
             cause: A key of `RESET_FLAGS`.
         """
         if cause == "power":
-            self._csr.value = 0
+            self._csr.value = self.brown_out
         self.reset()
         self._csr.value |= RESET_FLAGS[cause]
 

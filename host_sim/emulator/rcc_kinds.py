@@ -56,7 +56,7 @@ class RccF1(Rcc):
 class RccF4(Rcc):
     """Reset and clock control of the F4, whose PLL has a register of its own."""
 
-    csr_offset = 0x74
+    csr_offset, brown_out = 0x74, 1 << 25
     pll_in: ClassVar[tuple[int, int]] = (950_000, 2_100_000)
     """Range of the PLL's input after its first divisor, Hz (datasheet, 5.3.10)."""
     pll_inside: ClassVar[tuple[int, int]] = (100_000_000, 432_000_000)
@@ -68,16 +68,16 @@ class RccF4(Rcc):
         0x0C: "CIR", 0x10: "AHB1RSTR", 0x20: "APB1RSTR", 0x24: "APB2RSTR", 0x40: "APB1ENR", 0x44: "APB2ENR",
         0x70: "BDCR",
     }  # fmt: skip
-    gates_on: ClassVar[Mapping[int, tuple[str, int]]] = {0x30: ("AHB1ENR", 0x00100000)}
-    """Reset values of gate registers with gates open after a reset."""
+    others: ClassVar[Mapping[int, tuple[str, int]]] = {0x30: ("AHB1ENR", 0x00100000)}
+    """Names and reset values of registers that are not 0 after a reset."""
 
     def layout(self) -> dict[int, Register]:
         """As in `Rcc`."""
         self.cfgr = Register("CFGR", self.cfgr_at[1], on_write=self._switch)
         self._pllcfgr = Register("PLLCFGR", self.pllcfgr_at[1], on_write=self._write_pllcfgr)
-        gates = {offset: Register(*gate) for offset, gate in self.gates_on.items()}
+        others = {offset: Register(*other) for offset, other in self.others.items()}
         own = {self.pllcfgr_at[0]: self._pllcfgr, self.cfgr_at[0]: self.cfgr}
-        return plain(self.without_effect) | gates | own
+        return plain(self.without_effect) | others | own
 
     def pll_source(self) -> str:
         """As in `Rcc`."""
@@ -114,16 +114,18 @@ class RccF4(Rcc):
 class RccG4(RccF4):
     """Reset and clock control of the G4; CAN's clock is selectable."""
 
-    csr_offset, forget = 0x94, 23
+    csr_offset, forget, brown_out, trimmed = 0x94, 23, 0, 0
     sources = ("", HSI, HSE, PLL)
     bits: ClassVar[Mapping[str, tuple[int, int]]] = {HSI: (8, 10), HSE: (16, 17), PLL: (24, 25)}
     pll_in, pll_inside = (2_660_000, 16_000_000), (96_000_000, 344_000_000)
     pllcfgr_at, cfgr_at = (0x0C, 0x1000), (0x08, 5)
     without_effect: ClassVar[Mapping[int, str]] = {
-        0x04: "ICSCR", 0x18: "CIER", 0x4C: "AHB2ENR", 0x50: "AHB3ENR", 0x5C: "APB1ENR2", 0x60: "APB2ENR",
+        0x18: "CIER", 0x4C: "AHB2ENR", 0x50: "AHB3ENR", 0x5C: "APB1ENR2", 0x60: "APB2ENR",
         0x88: "CCIPR", 0x90: "BDCR",
     }  # fmt: skip
-    gates_on: ClassVar[Mapping[int, tuple[str, int]]] = {0x48: ("AHB1ENR", 0x100), 0x58: ("APB1ENR1", 0x400)}
+    others: ClassVar[Mapping[int, tuple[str, int]]] = {
+        0x04: ("ICSCR", 0x40000000), 0x48: ("AHB1ENR", 0x100), 0x58: ("APB1ENR1", 0x400),
+    }  # fmt: skip
 
     def pll_source(self) -> str:
         """As in `Rcc`."""

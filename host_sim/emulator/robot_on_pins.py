@@ -1,7 +1,11 @@
 """The parts wired to a body's pins: motors, encoders, sensors, bumpers, a button and a battery."""
 
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from math import inf
 from typing import Any
 
+from host_sim.emulator.bridge import Winding, voltage
 from host_sim.emulator.converter import Converter
 from host_sim.emulator.core import Core
 from host_sim.emulator.timers import MotorTimer, Timer
@@ -12,7 +16,7 @@ from host_sim.world.world_library import world_library
 
 SIDES = ("LEFT", "RIGHT")
 SENSORS = [f"PROXIMITY_{name.upper().replace('-', '_')}" for name in FEEL]
-_SAMPLE_PER_MV = 4096 / 3300 / 3
+_SAMPLE_PER_MV = 4096 / 3300
 _ONE = 65536
 _CNT = 0x24
 
@@ -20,13 +24,10 @@ _NEAR_MM, _STRONG, _WEAK = 150, 4, 4
 """Bursts of a beacon in a tick: strong ones reach as far as it is seen, weak ones `_NEAR_MM`."""
 
 
-class RobotOnPins:
-    """Connects the pins of a board to a body of the world, a `struct kit`.
+class PartsOnPins(ABC):
+    """The parts of a body of the world, a `struct kit`, as a board's pins meet them.
 
     Attributes:
-        wiring: The board's wiring.
-        motors: TIM1.
-        timers: TIM2 to TIM4 by name.
         ffi: The interface to the world's library.
         library: The world's library.
         kit: The body; None if there is none: then nothing turns.
@@ -36,31 +37,49 @@ class RobotOnPins:
         counts_by: Sign of each encoder's counts: -1 if its wires are swapped.
         stalled: Whether each motor is blocked.
         swapped: Whether the connectors of the two motors are swapped.
-        converts: Whether the ADC updates the samples.
+        winding: The winding of both motors.
     """
 
-    def __init__(
-        self, core: Core, wiring: Wiring, motors: MotorTimer, timers: dict[str, Timer], converter: Converter
-    ) -> None:
-        """Starts with everything at rest.
+    divisor = 3.0
+    """Battery voltage as a multiple of that at its pin."""
 
-        Args:
-            core: The core whose memory receives the samples.
-            wiring: The board's wiring.
-            motors: TIM1.
-            timers: TIM2 to TIM4 by name.
-            converter: Samples the sensors.
-        """
-        self._core, self.wiring, self.motors, self.timers, self._converter = core, wiring, motors, timers, converter
+    def __init__(self) -> None:
+        """Starts with everything at rest."""
         self.ffi, self.library = world_library()
         self.kit: Any = None
         self.light, self.ambient, self.battery_v = [0] * len(SENSORS), 300, 7.4
         self._light: Any = self.ffi.new("uint16_t[]", len(SENSORS))
-        self.counts_by, self.stalled, self.swapped, self.converts = [1, 1], [False, False], False, True
+        self.counts_by, self.stalled, self.swapped = [1, 1], [False, False], False
         self._duty: Any = self.ffi.new("int32_t[2]")
-        self._counts = [0, 0]
-        self._channels = wiring.pins.channels
-        motors.on_update = self._beat
+        self._counts, self.winding = [0, 0], Winding()
+
+    @abstractmethod
+    def _set(self, signal: str, *, high: bool) -> None:
+        """Drives an input of the board."""
+
+    @abstractmethod
+    def _high(self, signal: str) -> bool:
+        """Whether the board drives an output high."""
+
+    @abstractmethod
+    def _input(self, signal: str) -> float:
+        """Fraction of time for which an input of the bridge is high."""
+
+    @abstractmethod
+    def _turn(self, side: int, more: int) -> None:
+        """Turns an encoder."""
+
+    @abstractmethod
+    def _measure(self, samples: Mapping[str, int]) -> None:
+        """Sets what the ADC finds for each signal, 0..4095."""
+
+    @abstractmethod
+    def _counted(self) -> list[int]:
+        """The counts of both encoders, as the board has them."""
+
+    @abstractmethod
+    def receive_bursts(self, count: int) -> None:
+        """Receives bursts of a beacon's light."""
 
     def join(self, kit: Any) -> None:
         """Connects the board to a body."""
@@ -92,14 +111,91 @@ class RobotOnPins:
         """Presses or releases the button."""
         self._set("BUTTON", high=not pressed)
 
-    def set_bridge_fault(self, failed: bool) -> None:
-        """Sets or clears the bridge's fault signal."""
-        self._set("BRIDGE_FAULT", high=not failed)
+    def set_bridge_fault(self, failed: bool, lasts_s: float = inf) -> None:
+        """Sets or clears the bridge's fault signal; one that lasts for a time is a spike."""
+        self._set("BRIDGE_FAULT", high=not failed or lasts_s < inf)
+
+    def _emf(self, side: int) -> float:
+        """Voltage that a motor generates by its speed, as a fraction of the battery's."""
+        if self.kit is None:
+            return 0.0
+        wheel = self.kit.wheels[side]
+        return float(wheel.speed * (_ONE - self.kit.speed_kept) / max(wheel.strength, 1) / self.kit.supply)
+
+    def _push(self, side: int) -> int:
+        """Motor voltage from an output of the bridge, 1/65536 of the battery's."""
+        if not self._high("BRIDGE_AWAKE"):
+            return 0
+        name, motor = SIDES[side], 1 - side if self.swapped else side
+        inputs = self._input(f"{name}_PWM"), self._input(f"{name}_BACK")
+        return round(voltage(*inputs, self._emf(motor), self.winding) * _ONE)
+
+    def beat(self) -> None:
+        """Lets the parts do what the board has told them for a beat of 5 ms."""
+        if self.kit is not None:
+            for side in range(2):
+                self._duty[side] = 0 if self.stalled[side] else self._push(1 - side if self.swapped else side)
+                if self.stalled[side]:
+                    self.kit.wheels[side].speed = 0
+            self.library.kit_push(self.kit, self._duty)
+            for side in range(2):
+                count = self.library.kit_count(self.kit, side)
+                more, self._counts[side] = count - self._counts[side], count
+                self._turn(side, self.counts_by[side] * ((more + 0x8000) % 0x10000 - 0x8000))
+        lit = self._high("INFRARED")
+        samples = {name: self.ambient + light * lit for light, name in zip(self.light, SENSORS, strict=True)}
+        self._measure({**samples, "BATTERY": round(self.volts * 1000 / self.divisor * _SAMPLE_PER_MV)})
+
+    @property
+    def volts(self) -> float:
+        """Voltage of the battery under the load of both motors, V."""
+        return self.battery_v if self.kit is None else self.library.kit_supply_mv(self.kit) / 1000
+
+    def figures(self) -> dict[str, Any]:
+        """Values at the pins: battery `volts`; left and right encoder `counts` and `duty` in %."""
+        return {
+            "volts": round(self.volts, 2),
+            "counts": self._counted(),
+            "duty": [round(self._push(side) * 100 / _ONE) for side in range(2)],
+        }
+
+
+class RobotOnPins(PartsOnPins):
+    """The parts at the pins of a board that is emulated here.
+
+    Attributes:
+        wiring: The board's wiring.
+        motors: TIM1.
+        timers: TIM2 to TIM4 by name.
+        converts: Whether the ADC updates the samples.
+    """
+
+    def __init__(
+        self, core: Core, wiring: Wiring, motors: MotorTimer, timers: dict[str, Timer], converter: Converter
+    ) -> None:
+        """Starts with everything at rest.
+
+        Args:
+            core: The core whose memory receives the samples.
+            wiring: The board's wiring.
+            motors: TIM1.
+            timers: TIM2 to TIM4 by name.
+            converter: Samples the sensors.
+        """
+        super().__init__()
+        self._core, self.wiring, self.motors, self.timers, self._converter = core, wiring, motors, timers, converter
+        self.converts = True
+        self._channels = wiring.pins.channels
+        motors.on_update = self.beat
+
+    def set_bridge_fault(self, failed: bool, lasts_s: float = inf) -> None:
+        """As in `PartsOnPins`."""
+        super().set_bridge_fault(failed, lasts_s)
         if self.wiring.meets("BRIDGE_FAULT"):
-            self.motors.break_at(low=failed)
+            self.motors.break_at(low=failed, lasts_s=lasts_s)
 
     def receive_bursts(self, count: int) -> None:
-        """Receives bursts of a beacon's light."""
+        """As in `PartsOnPins`."""
         timer = self.timers["TIM2"]
         if timer.counts_input_1() and self.wiring.meets("BEACON"):
             timer.count(count)
@@ -112,54 +208,23 @@ class RobotOnPins:
         port, pin = self.wiring.port(signal)
         return port.drives(pin)
 
-    def _push(self, side: int) -> int:
-        """Motor voltage, 1/65536 of the battery's: that of the PWM half-bridge minus the other's."""
-        if not self._high("BRIDGE_AWAKE"):
-            return 0
-        duty = self.motors.duty(2 + side) if self.wiring.meets(f"{SIDES[side]}_PWM") else 0.0
-        return round((duty - self._high(f"{SIDES[side]}_BACK")) * _ONE)
+    def _input(self, signal: str) -> float:
+        use = self.wiring.pins.chip.signals[signal]
+        return self.motors.duty(use.split()[1]) if self.wiring.meets(signal) else 0.0
 
-    def _beat(self) -> None:
-        if self.kit is not None:
-            for side in range(2):
-                self._duty[side] = 0 if self.stalled[side] else self._push(1 - side if self.swapped else side)
-                if self.stalled[side]:
-                    self.kit.wheels[side].speed = 0
-            self.library.kit_push(self.kit, self._duty)
-            for side in range(2):
-                self._count(side)
-        if self.converts:
-            self._fill()
-
-    def _count(self, side: int) -> None:
-        """Updates an encoder's count; with a wire missing, it counts nothing."""
-        count = self.library.kit_count(self.kit, side)
-        more, self._counts[side] = count - self._counts[side], count
+    def _turn(self, side: int, more: int) -> None:
+        """With a wire missing, an encoder counts nothing."""
         timer, name = self.timers[f"TIM{3 + side}"], f"{SIDES[side]}_ENCODER_"
         if timer.follows_encoder() and self.wiring.meets(f"{name}A") and self.wiring.meets(f"{name}B"):
-            timer.count(self.counts_by[side] * ((more + 0x8000) % 0x10000 - 0x8000))
+            timer.count(more)
 
-    @property
-    def volts(self) -> float:
-        """Voltage of the battery under the load of both motors, V."""
-        return self.battery_v if self.kit is None else self.library.kit_supply_mv(self.kit) / 1000
+    def _counted(self) -> list[int]:
+        return [self.timers[f"TIM{3 + side}"].registers[_CNT].read() for side in range(2)]
 
-    def figures(self) -> dict[str, Any]:
-        """Values at the pins: battery `volts`; left and right encoder `counts` and `duty` in %."""
-        return {
-            "volts": round(self.volts, 2),
-            "counts": [self.timers[f"TIM{3 + side}"].registers[_CNT].read() for side in range(2)],
-            "duty": [round(self._push(side) * 100 / _ONE) for side in range(2)],
-        }
-
-    def _fill(self) -> None:
-        shines, battery_v = self._high("INFRARED"), self.volts
-        samples = {}
-        for light, signal in zip(self.light, SENSORS, strict=True):
-            if self.wiring.meets(signal):
-                samples[self._channels[signal]] = self.ambient + light * shines
-        if self.wiring.meets("BATTERY"):
-            samples[self._channels["BATTERY"]] = round(battery_v * 1000 * _SAMPLE_PER_MV)
-        filled = self._converter.convert(samples)
+    def _measure(self, samples: Mapping[str, int]) -> None:
+        if not self.converts:
+            return
+        met = {self._channels[name]: sample for name, sample in samples.items() if self.wiring.meets(name)}
+        filled = self._converter.convert(met)
         if filled is not None:
             self._core.write(*filled)

@@ -148,6 +148,8 @@ class PowerControl(Peripheral):
     """
 
     names: ClassVar[Mapping[int, str]] = {0x0: "CR", 0x4: "CSR"}
+    resets: ClassVar[Mapping[int, int]] = {}
+    """Reset values other than 0, by offset."""
     control, status = 0x0, 0x4
     """Offsets of the control register and of the status register."""
     on, level, low = 4, 5, 2
@@ -158,7 +160,8 @@ class PowerControl(Peripheral):
     def __init__(self) -> None:
         """Starts with a sufficient supply."""
         self.supply_mv = _SUPPLY_MV
-        super().__init__("PWR", plain(self.names))
+        names = self.names.items()
+        super().__init__("PWR", {at: Register(name, self.resets.get(at, 0)) for at, name in names})
         self.registers[self.status].on_read = self._read_status
 
     def _read_status(self) -> int:
@@ -173,6 +176,7 @@ class PowerControlG4(PowerControl):
     names: ClassVar[Mapping[int, str]] = {
         0x00: "CR1", 0x04: "CR2", 0x08: "CR3", 0x0C: "CR4", 0x10: "SR1", 0x14: "SR2",
     }  # fmt: skip
+    resets: ClassVar[Mapping[int, int]] = {0x00: 0x200, 0x08: 0x8000}
     control, status = 0x04, 0x14
     on, level, low = 0, 1, 11
     levels_mv: ClassVar[Sequence[int]] = (2000, 2200, 2400, 2500, 2600, 2800, 2900, 0)

@@ -1,6 +1,7 @@
 """The timers of STM32F1 and G4 (RM0008 14, 15; RM0440 28, 29) as a robot uses them: PWM, encoders, pulses."""
 
 from collections.abc import Callable
+from math import inf
 
 from host_sim.emulator.clock import NEVER, SECOND, Clock
 from host_sim.emulator.registers import KeptPeripheral, Register
@@ -18,15 +19,17 @@ _ENCODER_BOTH, _EXTERNAL, _FROM_INPUT_1 = 3, 7, 5
 _INPUTS = 0x0303
 _INPUT_1, _BOTH_INPUTS = 0x0001, 0x0101
 _BREAK_ON, _BREAK_HIGH, _OUTPUTS_ON = 1 << 12, 1 << 13, 1 << 15
+_FILTER_AT, _FILTER_CYCLES = 16, (0, 2, 4, 8, 12, 16, 24, 32, 48, 64, 80, 96, 128, 160, 192, 256)
 _PWM_1, _MODE_MASK = 6, 7
 
 
 class Timer(KeptPeripheral):
     """TIM2 to TIM4: counts edges at its inputs."""
 
-    def __init__(self, name: str) -> None:
-        """At rest."""
-        super().__init__(name, _NAMES, {0x14: Register("EGR")}, resets={_ARR: _COUNT_MASK}, zeros_clear=[_SR])
+    def __init__(self, name: str, *, wide: bool = False) -> None:
+        """At rest; a wide one has 32 bits."""
+        top = 0xFFFFFFFF if wide else _COUNT_MASK
+        super().__init__(name, _NAMES, {0x14: Register("EGR")}, resets={_ARR: top}, zeros_clear=[_SR])
 
     def follows_encoder(self) -> bool:
         """Whether it is in encoder mode, counting both edges of both inputs."""
@@ -46,21 +49,24 @@ class Timer(KeptPeripheral):
 
 
 class MotorTimer(KeptPeripheral):
-    """TIM1: PWM of the motors on its complementary outputs, and an update event after a number of periods.
+    """TIM1: PWM of the motors, and an update event after a number of periods.
 
     Attributes:
         on_update: Called at each update event.
     """
 
-    def __init__(self, clock: Clock, bus_hz: Callable[[], int], pend: Callable[[], None]) -> None:
+    def __init__(
+        self, clock: Clock, bus_hz: Callable[[], int], pend: Callable[[], None], *, filters: bool = False
+    ) -> None:
         """At rest.
 
         Args:
             clock: The board's clock.
             bus_hz: Returns its clock frequency, Hz.
             pend: Makes its update interrupt pending.
+            filters: Whether it can filter its break input, as a G4's can.
         """
-        self._clock, self._bus_hz, self._pend = clock, bus_hz, pend
+        self._clock, self._bus_hz, self._pend, self._filters = clock, bus_hz, pend, filters
         self.on_update: Callable[[], None] = lambda: None
         self._next = NEVER
         self._cr1, self._bdtr = Register("CR1", on_write=self._write_cr1), Register("BDTR")
@@ -75,22 +81,25 @@ class MotorTimer(KeptPeripheral):
         self._next = NEVER
         self._set_alarm(NEVER)
 
-    def duty(self, channel: int) -> float:
-        """Fraction of time for which its complementary output is high, 0..1.
+    def duty(self, output: str) -> float:
+        """Fraction of time for which an output is high, 0..1; if it is a complementary one, it is on alone.
 
         Args:
-            channel: 1..3.
+            output: Its name, such as ch1, or ch2n if it is complementary.
         """
+        channel, enable = int(output[2]), 2 if output.endswith("n") else 0
         mode = self.get(0x18 + 4 * (channel > 2)) >> (4 if channel % 2 else 12) & _MODE_MASK  # noqa: PLR2004
-        on = (
-            self.get(_CCER) >> 4 * (channel - 1) + 2 & 1 and self._bdtr.value & _OUTPUTS_ON and self._cr1.value & _CEN
-        )
+        enabled = self.get(_CCER) >> 4 * (channel - 1) + enable & 1
+        on = enabled and self._bdtr.value & _OUTPUTS_ON and self._cr1.value & _CEN
         if not on or mode != _PWM_1:
             return 0.0
         return min(self.get(0x30 + 4 * channel) / (self.get(_ARR) + 1), 1.0)
 
-    def break_at(self, *, low: bool) -> None:
-        """Sets the level at its break input, which disables the outputs in hardware."""
+    def break_at(self, *, low: bool, lasts_s: float = inf) -> None:
+        """Sets the level at its break input; if it is no spike, it disables the outputs in hardware."""
+        cycles = _FILTER_CYCLES[self._bdtr.value >> _FILTER_AT & 15] if self._filters else 0
+        if lasts_s < cycles / self._bus_hz():
+            return
         if self._bdtr.value & _BREAK_ON and low != bool(self._bdtr.value & _BREAK_HIGH):
             self._bdtr.value &= ~_OUTPUTS_ON
             self.registers[_SR].value |= _BIF

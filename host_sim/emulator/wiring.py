@@ -7,7 +7,6 @@ from host_sim.emulator.ports import Port
 from host_sim.emulator.registers import Register
 
 _JTAG, _SWJ_SHIFT, _NO_JTAG = ("PA15", "PB3", "PB4"), 24, (2, 4)
-_ROLES_OUT = ("tx", "ch1n", "ch2n", "ch3n")
 
 
 class Wiring:
@@ -59,7 +58,8 @@ class Wiring:
             return function is not None and port.serves(number, function, out=False)
         if pin in _JTAG and self._mapr.value >> _SWJ_SHIFT & 7 not in _NO_JTAG:
             return False
-        out = use.split()[1] in _ROLES_OUT
+        peripheral, role = use.split()
+        out = role == "tx" or (peripheral == "TIM1" and role != "bkin")
         return port.serves(number, 0, out=out) and chip.pin_of(use, self._mapr.value) == pin
 
     def _write_mapr(self, value: int) -> None:

@@ -1,8 +1,14 @@
 """Shows a live run in the browser, and prints its address."""
 
 import asyncio
+import contextlib
+import html
+import os
 import sys
+import tempfile
 import webbrowser
+from collections.abc import Iterator
+from pathlib import Path
 from typing import TextIO
 
 from host_sim.base.system import has_screen
@@ -12,29 +18,49 @@ from host_sim.live.paced_run import PacedRun
 from host_sim.live.qr_code import lines_for
 from host_sim.live.server import LiveServer
 
+_REDIRECT = """<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>Octet</title>
+<meta name="referrer" content="no-referrer"><meta http-equiv="refresh" content="0; url={url}"></head></html>
+"""
 
-def watch_run(live: PacedRun, listener: Listener, out: TextIO) -> None:
+
+def watch_run(live: PacedRun, server: LiveServer, out: TextIO) -> None:
     """Plays a whole run while people watch; Ctrl-C ends it in an orderly way.
 
     Args:
         live: The run, before its first environment.
-        listener: The socket that the page is served on.
+        server: Serves its page.
         out: Stream for the page's address.
 
     Raises:
         RobotError: A robot has ended or does not answer.
     """
     live.begin()
-    asyncio.run(_serve(live, listener, out))
+    asyncio.run(_serve(live, server, out))
 
 
-async def _serve(live: PacedRun, listener: Listener, out: TextIO) -> None:
+async def _serve(live: PacedRun, server: LiveServer, out: TextIO) -> None:
     with on_ending_signals(asyncio.get_running_loop(), live.close):
-        async with LiveServer(live, listener).serving():
-            announce(listener, len(live.simulation.clients), out, waits=live.waits)
-            if _on_a_desktop():
-                webbrowser.open(listener.board_url if listener.is_open else listener.urls[0])
-            await live.play()
+        async with server.serving():
+            announce(server.listener, out, waits=live.waits)
+            with open_browser(server.listener.urls[0]) if _on_a_desktop() else contextlib.nullcontext():
+                await live.play()
+
+
+@contextlib.contextmanager
+def open_browser(url: str) -> Iterator[None]:
+    """Opens a browser at an address that others must not see: other users can read the list of processes.
+
+    The browser gets the name of a file that only this user can read, and that leads it on. It goes with the context.
+    """
+    descriptor, name = tempfile.mkstemp(prefix="octet-", suffix=".html")
+    try:
+        with os.fdopen(descriptor, "w", encoding="utf-8") as file:
+            file.write(_REDIRECT.format(url=html.escape(url)))
+        webbrowser.open(Path(name).as_uri())
+        yield
+    finally:
+        Path(name).unlink(missing_ok=True)
 
 
 def _on_a_desktop() -> bool:
@@ -42,12 +68,11 @@ def _on_a_desktop() -> bool:
     return has_screen() and sys.stdout.isatty()
 
 
-def announce(listener: Listener, robots: int, out: TextIO, *, waits: bool) -> None:
+def announce(listener: Listener, out: TextIO, *, waits: bool) -> None:
     """Prints the address at which a run can be watched.
 
     Args:
         listener: The socket that it is served on.
-        robots: Number of its robots.
         out: Stream to print to.
         waits: Whether the run waits for the first page.
     """
@@ -58,9 +83,7 @@ def announce(listener: Listener, robots: int, out: TextIO, *, waits: bool) -> No
     _say(out, f"watch     {first}")
     for url in others:
         _say(out, f"          {url}")
-    _say(out, f"board     {listener.board_url} (yours alone)")
-    shares = f"each page gets one of {robots}" if robots > 1 else "all pages share one"
-    _say(out, f"to type   {listener.short_urls[0]}: {shares}")
+    _say(out, f"to type   {listener.short_urls[0]}")
     for line in lines_for(first, out):
         _say(out, line)
     if waits:

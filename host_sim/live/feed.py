@@ -10,13 +10,12 @@ from typing import Any
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, Question
 from host_sim.live.page_talk import PageTalk
-from host_sim.live.visitor import Rights
 from host_sim.protocol.generated import ROW, Reason
+from host_sim.recording.phrases import news_of
+from host_sim.recording.state import environment_scene, measures, states
+from host_sim.recording.state_types import Lesson
 from host_sim.recording.summary import frame_counts
 from host_sim.recording.trajectory import AXES, RobotTrack
-from host_sim.view.news import news_of
-from host_sim.view.state import environment_scene, measures, states
-from host_sim.view.state_types import Lesson
 
 TRAIL_MAX = 3000
 """Maximum number of ticks in the trail of a page that joins late."""
@@ -59,13 +58,11 @@ class PageFeed:
     Attributes:
         live: The run that the page watches.
         memo: Parts shared with other pages.
-        rights: The page's rights.
         notes: Messages to show on the page, about commands that could not be carried out.
     """
 
     live: PacedRun
     memo: Memo = field(default_factory=Memo)
-    rights: Rights = field(default_factory=Rights)
     notes: deque[str] = field(default_factory=lambda: deque(maxlen=_NOTES_MAX))
     _answers: deque[dict[str, Any]] = field(default_factory=lambda: deque(maxlen=_ANSWERS_MAX))
     _talk: PageTalk = field(init=False)
@@ -87,12 +84,11 @@ class PageFeed:
         """The message that brings the page up to date as JSON, or None if it is up to date.
 
         Its fields: `states`, one per robot, and if they are new `environment` and `measures`, as in
-        view/state_types.py, with `news`, the last changes of the world and the bodies, as [tick, sentence];
+        recording/state_types.py, with `news`, the last changes of the world and the bodies, as [tick, sentence];
         `trails`, for each robot the ticks since the last message as [x, y, reason, ...], thinned out if many;
         `lessons`, those of all robots since the last message; `play`, the state of the controls; `health`; `pins`,
         for each robot that has some, what is on them; `notes`, if there are any; `answers`, as of `PageTalk`, to what
-        the page has asked since; `at`, wall-clock time in ms since 1970. The first message has `seat`: the page's own
-        robot as {node, name}, node 0 if it got none, or null where the robots are everyone's.
+        the page has asked since; `at`, wall-clock time in ms since 1970.
         """
         now = (self.live.simulation.tick, self.live.change)
         if now == self._sent and not self.notes:
@@ -114,7 +110,7 @@ class PageFeed:
         parts: dict[str, Any] = {"at": round(time.time() * 1000)}
         if first:
             limit = self.live.recorder.trajectory.boredom_limit
-            parts |= {"measures": measures(self.live.params, limit), "seat": self._seat()}
+            parts["measures"] = measures(self.live.params, limit)
         if self.live.layout != self._layout:
             parts |= self._arena()
         parts |= {"lessons": self._new_lessons()}
@@ -128,12 +124,6 @@ class PageFeed:
 
     def _shared(self, key: object, make: Callable[[], object]) -> str:
         return self.memo.part(self._sent, key, make)
-
-    def _seat(self) -> dict[str, Any] | None:
-        if self.rights.seats is None:
-            return None
-        seat = self.rights.seat
-        return {"node": seat.node, "name": seat.name} if seat else {"node": 0, "name": ""}
 
     def _arena(self) -> dict[str, Any]:
         simulation = self.live.simulation

@@ -11,7 +11,6 @@ from host_sim.base.errors import UsageError
 from host_sim.base.extra_library import library
 from host_sim.live.join_code import JoinCode
 from host_sim.live.qr_code import modules_of
-from host_sim.live.token_file import local_token
 
 ANYWHERE = ("0.0.0.0", "::")
 """The addresses of all networks."""
@@ -26,7 +25,7 @@ class Listener:
         host: Address that it listens on.
         port: Port that it listens on.
         is_open: Whether other machines can connect.
-        token: Secret that a page's address must contain: other users of this machine can connect, too.
+        token: Secret of this run that a page's address must contain: other users of this machine can connect, too.
         board_token: Secret that the board's address must contain, which only its owner is told.
         socket: The socket.
         urls: The page's address, by number; one for each network that this machine is in.
@@ -48,7 +47,7 @@ class Listener:
         """
         self.host = listen or "127.0.0.1"
         self.is_open = listen is not None
-        self.token = secrets.token_urlsafe(16) if listen else local_token()
+        self.token = secrets.token_urlsafe(16)
         self.board_token = secrets.token_urlsafe(16) if listen else self.token
         self.code = JoinCode() if listen else None
         try:

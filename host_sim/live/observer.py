@@ -2,29 +2,30 @@
 
 import shutil
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TextIO
 
 from host_sim.base.errors import OctetError
-from host_sim.base.screen import full_screen
 from host_sim.client.frame_log import FrameLog
 from host_sim.live.text_picture import View, draw_text
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import CELL_COUNT, MESSAGES, PARAMETERS, Senses
 from host_sim.recording.dead_reckoning import after
+from host_sim.recording.phrases import sentence
 from host_sim.recording.recording import TickReader
 from host_sim.recording.run_recorder import RunRecorder
+from host_sim.recording.state_types import EnvironmentScene, State
 from host_sim.transport.buses import open_bus, receive
-from host_sim.view.phrases import sentence
-from host_sim.view.state_types import EnvironmentScene, State
-from host_sim.world.geometry import Point, Pose
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import Point, Pose, SimParams
 
 if TYPE_CHECKING:
     import can
 
 _WAIT_S, _DRAW_S = 0.1, 0.1
+_HOME, _REST_OF_LINE, _REST_OF_SCREEN = "\x1b[H", "\x1b[K", "\x1b[J"
+_ENTER, _LEAVE = "\x1b[?1049h\x1b[?25l", "\x1b[?25h\x1b[?1049l"
 _TRAIL_MAX = 3000
 _PART_TICKS = 50_000
 """Ticks after which earlier ones may be forgotten: an observation has no environments to forget."""
@@ -159,3 +160,21 @@ def _line(state: State) -> str:
     memory = "".join(".LR"[side] for side in state["memory"])
     place = f"{state['x']:.0f}, {state['y']:.0f} mm"
     return f"{place:14}  {memory}  {sentence(state)}"
+
+
+@contextmanager
+def full_screen(out: TextIO) -> Iterator[Callable[[Sequence[str]], None]]:
+    """Yields a function that draws lines, cut to the screen's size; restores the terminal at the end."""
+
+    def draw(lines: Sequence[str]) -> None:
+        width, height = shutil.get_terminal_size()
+        shown = [f"{line[:width]}{_REST_OF_LINE}" for line in lines[: height - 1]]
+        out.write(f"{_HOME}{chr(10).join(shown)}\n{_REST_OF_SCREEN}")
+        out.flush()
+
+    out.write(_ENTER)
+    try:
+        yield draw
+    finally:
+        out.write(_LEAVE)
+        out.flush()

@@ -24,10 +24,10 @@ from host_sim.live.page_commands import (
 from host_sim.live.robot_orders import command_robot, discard_reports, index_of
 from host_sim.protocol.generated import Drive, Reason
 from host_sim.recording.run_recorder import RunRecorder
-from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.simulation import Simulation
+from host_sim.sim.world_record import EpisodeResult
 from host_sim.world.edits import Edit, EditError
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import SimParams
 
 COMMANDS_MAX = 256
 """Maximum number of commands that wait for the next tick; more are refused."""
@@ -69,6 +69,7 @@ class PacedRun:
         late: Number of ticks that began more than 0.1 s late.
         refused: Number of messages that were not valid commands, or were too many at once.
         closed: Whether somebody has ended it.
+        over_s: When `play` ended, on the monotonic clock; 0.0 until then.
     """
 
     simulation: Simulation
@@ -89,6 +90,7 @@ class PacedRun:
     late: int = 0
     refused: int = 0
     closed: bool = False
+    over_s: float = 0.0
     _commands: deque[tuple[PageCommand, Reject]] = field(default_factory=deque)
     _decided: Drive | None = None
     _next_s: float = 0.0
@@ -147,6 +149,7 @@ class PacedRun:
                 self._idle()
                 await asyncio.sleep(_IDLE_S)
         self._end_episode()
+        self.over_s = time.monotonic()
 
     def _enter(self, number: int) -> None:
         self.simulation.enter(number)

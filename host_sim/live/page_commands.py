@@ -85,13 +85,6 @@ class MoveRobot:
 
 
 @dataclass(frozen=True)
-class NameTag:
-    """Put a name tag on the page's own robot."""
-
-    text: str
-
-
-@dataclass(frozen=True)
 class Question:
     """Say something to a speaker of `SPEAKERS`, about a robot; no node means the first robot."""
 
@@ -105,7 +98,7 @@ PageCommand = Play | OneDecision | Speed | NextEnvironment | NewSeed | RobotComm
 """The commands that a run carries out."""
 
 
-def page_command_from(text: str) -> PageCommand | NameTag | Question:
+def page_command_from(text: str) -> PageCommand | Question:
     """The command in a message.
 
     Args:
@@ -138,13 +131,6 @@ def _speed(fields: Mapping[str, Any]) -> Speed:
     return Speed(float(factor))
 
 
-def _name_tag(fields: Mapping[str, Any]) -> NameTag:
-    text = fields.get("name")
-    if not isinstance(text, str):
-        raise ValueError("name must be a text")
-    return NameTag(text)
-
-
 def _question(fields: Mapping[str, Any]) -> Question:
     who, text = fields.get("who"), fields.get("text")
     if not isinstance(who, str) or who not in SPEAKERS or not isinstance(text, str):
@@ -161,7 +147,7 @@ def _node(fields: Mapping[str, Any]) -> int | None:
     return whole(fields, "node", 1, NODE_MAX) if "node" in fields else None
 
 
-_PARSERS: dict[str, Callable[[Mapping[str, Any]], PageCommand | NameTag | Question]] = {
+_PARSERS: dict[str, Callable[[Mapping[str, Any]], PageCommand | Question]] = {
     "play": lambda _: Play(True),
     "pause": lambda _: Play(False),
     "decision": lambda _: OneDecision(),
@@ -173,6 +159,5 @@ _PARSERS: dict[str, Callable[[Mapping[str, Any]], PageCommand | NameTag | Questi
     ),
     "erase": lambda fields: EraseMemory(_node(fields)),
     "freeze": lambda fields: Freeze(bool(whole(fields, "on", 0, 1)), _node(fields)),
-    "name": _name_tag,
     "ask": _question,
 }

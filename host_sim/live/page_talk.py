@@ -5,12 +5,12 @@ from typing import Any
 
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import Question
+from host_sim.recording.phrases import news_of
 from host_sim.recording.trajectory import at
 from host_sim.talk.conversation import NO_FACTS, Conversation, script_named, texts_of
 from host_sim.talk.eliza import Facts
 from host_sim.talk.facts import RobotFacts
 from host_sim.talk.log_index import LogIndex
-from host_sim.view.news import news_of
 
 _PLACES_MAX = 100
 

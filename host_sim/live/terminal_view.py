@@ -20,9 +20,9 @@ from host_sim.live.page_commands import (
     Speed,
 )
 from host_sim.live.text_picture import View, draw_text
+from host_sim.recording.phrases import news_of
+from host_sim.recording.state import environment_scene, states
 from host_sim.recording.summary import environment_line
-from host_sim.view.news import news_of
-from host_sim.view.state import environment_scene, states
 from host_sim.world.edits import Edit
 
 _EVERY_S = 0.1

@@ -6,10 +6,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from host_sim.protocol.generated import FEEL, PATTERNS, SIDES, Reason
-from host_sim.view.phrases import sentence, verdict
-from host_sim.view.state_types import EnvironmentScene, State
-from host_sim.world.geometry import Point, Pose
-from host_sim.world.params import SimParams
+from host_sim.recording.phrases import sentence, verdict
+from host_sim.recording.state_types import EnvironmentScene, State
+from host_sim.world.geometry import Point, Pose, SimParams
 
 COLUMNS_MIN, ROWS_MIN = 60, 20
 """Minimum size of the screen, characters."""

@@ -1,115 +1,35 @@
-"""One open page: its rights, the updates sent to it, and its commands."""
+"""One open page: the updates sent to it, and its commands."""
 
 import asyncio
 import contextlib
-from collections import deque
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
-from typing import Protocol
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 from aiohttp import WSCloseCode, WSMsgType, web
 
-from host_sim.base.errors import OctetError
+from host_sim.live.feed import PageFeed
 from host_sim.live.paced_run import PacedRun
-from host_sim.live.page_commands import NameTag, PageCommand, Play, Question, RobotCommand, page_command_from
-from host_sim.live.seats import Seat, Seats
+from host_sim.live.page_commands import Question, page_command_from
 
 _REFUSALS_MAX = 100
-_THE_BOARDS = "the board does that for all: here you can change your own robot"
-_ONLY_WATCHING = "every robot has a page of its own already: here you can watch"
-
-
-class NotYoursError(OctetError):
-    """The page may not give this command."""
-
-
-@dataclass(frozen=True)
-class Rights:
-    """The rights of a page.
-
-    Attributes:
-        seats: The assignment of robots to pages; None for a page that may do everything.
-        seat: The page's own robot; None if it has none.
-    """
-
-    seats: Seats | None = None
-    seat: Seat | None = None
-
-    @classmethod
-    @contextlib.contextmanager
-    def of(cls, seats: Seats | None, key: str) -> "Iterator[Rights]":
-        """The rights of a page while it is open.
-
-        Args:
-            seats: The assignment if each page has a robot of its own; None for a page that may do everything.
-            key: Key that identifies the page.
-        """
-        seat = seats.take(key) if seats else None
-        try:
-            yield cls(seats, seat)
-        finally:
-            if seats and seat:
-                seats.leave(seat)
-
-    def rename(self, text: str) -> None:
-        """Puts a name tag on the page's robot.
-
-        Raises:
-            NotYoursError: It has none.
-        """
-        if self.seats is None or self.seat is None:
-            raise NotYoursError("this page has no robot of its own to name")
-        self.seats.rename(self.seat, text)
-
-    def admit(self, command: PageCommand) -> PageCommand:
-        """A command that the page may give; one without a node is for its own robot.
-
-        Raises:
-            NotYoursError: The command is for all, or for another robot.
-        """
-        if self.seats is None:
-            return command
-        if self.seat is None:
-            raise NotYoursError(_ONLY_WATCHING)
-        if not isinstance(command, RobotCommand):
-            raise NotYoursError(_THE_BOARDS)
-        return _for_node(command, self.seat.node)
-
-
-def _for_node(command: RobotCommand, node: int) -> PageCommand:
-    if command.node not in (None, node):
-        raise NotYoursError(f"robot {command.node} is not yours: yours is robot {node}")
-    return replace(command, node=node)
-
-
-class Feed(Protocol):
-    """The messages to a page."""
-
-    notes: deque[str]
-
-    def next(self) -> str | None:
-        """The next message; None if there is nothing new."""
 
 
 @dataclass
 class Visitor:
-    """One page, or a board.
+    """One page.
 
     Attributes:
         socket: Its connection.
         feed: The messages to it.
-        rights: Its rights.
         pause_s: Returns the minimum time between two messages to it, s.
-        begins: Whether its Play command begins a waiting run.
-        ask: Receives the page's questions to a robot; None for a board, which does not talk.
+        heard_s: When it was opened, or last sent a message, on the monotonic clock.
     """
 
     socket: web.WebSocketResponse
-    feed: Feed
-    rights: Rights
+    feed: PageFeed
     pause_s: Callable[[], float]
-    begins: bool = False
-    ask: Callable[[Question], None] | None = None
+    heard_s: float = field(default_factory=time.monotonic)
 
     async def serve(self, live: PacedRun) -> None:
         """Serves it until it disconnects, or has sent too many invalid messages."""
@@ -132,6 +52,7 @@ class Visitor:
         refusals = 0
         while refusals < _REFUSALS_MAX:
             message = await self.socket.receive()
+            self.heard_s = time.monotonic()
             if message.type is WSMsgType.TEXT:
                 refusals += not self._accept(message.data, live)
             elif message.type is WSMsgType.BINARY:
@@ -146,9 +67,6 @@ class Visitor:
         """Carries out a message; False if it is not a command."""
         try:
             self._obey(text, live)
-        except NotYoursError as error:
-            live.change += 1
-            self.feed.notes.append(str(error))
         except ValueError as error:
             live.refused += 1
             live.change += 1
@@ -158,16 +76,8 @@ class Visitor:
 
     def _obey(self, text: str, live: PacedRun) -> None:
         command = page_command_from(text)
-        if isinstance(command, NameTag):
-            self.rights.rename(command.text)
-            live.change += 1
-            return
         if isinstance(command, Question):
-            if self.ask is None:
-                raise ValueError("a board does not talk")
-            self.ask(command)
+            self.feed.ask(command)
             live.change += 1
-            return
-        live.offer(self.rights.admit(command), self.feed.notes.append)
-        if self.begins and command == Play(on=True):
-            live.seen()
+        else:
+            live.offer(command, self.feed.notes.append)

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from host_sim.base.frame import Frame
 from host_sim.base.paths import ROOT
 from host_sim.protocol.generated import (
     LAYOUT_HASH,
@@ -18,6 +17,7 @@ from host_sim.protocol.generated import (
     Senses,
     Signal,
 )
+from host_sim.transport.link import Frame
 
 __all__ = [
     "COUNTERS",

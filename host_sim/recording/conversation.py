@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from host_sim.client.asked_commands import Told
+from host_sim.client.session import Told
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol, counter_of, node_of
 from host_sim.protocol.generated import Reason, Result
 from host_sim.recording.log_reader import LogReader, check_protocol
@@ -59,11 +59,15 @@ class _Check:
         elif decoded.name == "DRIVE":
             self._drive(frame, decoded)
         elif decoded.name == "HEALTH" and not self._is_held(decoded.signals["held"]):
-            self._complain("HEALTH holds something else than the commands that were answered")
+            self._complain("HEALTH holds something else than the commands and senses that were answered")
 
     def _is_held(self, held: int) -> bool:
         """Whether the robot holds the commands sent; true if unknown: without an owner, or during a command."""
-        return not self._told.owned or self._command is not None or self._told.agrees(held, ())
+        if not self._told.owned or self._command is not None:
+            return True
+        if self._told.heard and held == self._told.commands & 0xFFFF:
+            self._told.takes_senses = False  # a robot that senses for itself
+        return self._told.agrees(held, ())
 
     def _ask(self, frame: Frame, decoded: DecodedFrame) -> None:
         if self._command not in (None, frame):
@@ -85,6 +89,7 @@ class _Check:
         if self._lockstep and self._senses not in (None, frame):
             self._complain("senses were not answered in lockstep")
         self._senses = frame
+        self._told.ask(frame if self._lockstep else None)
 
     def _drive(self, frame: Frame, decoded: DecodedFrame) -> None:
         if self._senses is None or decoded.signals["reason"] in (Reason.STOP, Reason.SILENCE):
@@ -95,6 +100,8 @@ class _Check:
         is_answer = is_same_tick and counter_of(frame) == counter_of(self._senses)
         if self._lockstep and not is_answer:
             self._complain("a drive has another tick or counter than its senses")
+        if is_answer:
+            self._told.take_drive(frame)
         if is_answer or self._lockstep:
             self._senses, self.found.drives = None, self.found.drives + is_answer
 

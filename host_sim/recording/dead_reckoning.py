@@ -7,11 +7,10 @@ from itertools import pairwise
 from host_sim.protocol.generated import ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN, Senses
 from host_sim.recording.recording import Recording
 from host_sim.recording.run_recorder import RunRecorder
+from host_sim.recording.state_types import EnvironmentScene
 from host_sim.recording.trajectory import Trajectory
-from host_sim.view.state_types import EnvironmentScene
 from host_sim.world.body import rolled
-from host_sim.world.geometry import Pose
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import Pose, SimParams
 
 _MARGIN_MM = 500.0
 

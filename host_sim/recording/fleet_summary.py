@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from host_sim.protocol.generated import CELL_COUNT, PATTERNS, SIDES, Reason
-from host_sim.recording.summary import Summary
+from host_sim.recording.summary import Summary, source_of
 from host_sim.sim.fleet import FleetResult
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.memory_kinds import sides_of
@@ -22,6 +22,7 @@ COLUMNS = (
 def summarize_fleet(config: RunConfig, results: Sequence[FleetResult], tick_s: float, wall_s: float) -> Summary:
     """Summarizes a fleet's run.
 
+    - own: as in `summarize`.
     - seed, profile, worlds, robots: as configured; the seed is the first robot's, each other one has the next number.
     - environments: One entry per environment: number, robots_finished, robot_s (median robot time of the robots that
       finished, s; null if there are none), and learned (for each pattern, the number of robots that know nothing,
@@ -37,6 +38,7 @@ def summarize_fleet(config: RunConfig, results: Sequence[FleetResult], tick_s: f
     ]
     content: dict[str, Any] = {
         **{name: getattr(config, name) for name in ("seed", "profile", "worlds", "robots")},
+        **source_of(config),
         "environments": environments,
         "robot_ticks": ticks,
         "wall_s": round(wall_s, 3),

@@ -1,24 +1,37 @@
-"""Opens log files: text, Vector's ASC and BLF, each of them plain or compressed by gzip."""
+"""Opens log files: our readers for text and ASC, python-can's for other formats; plain or compressed."""
 
+import bz2
 import codecs
+import gc
 import gzip
+import importlib
 import io
+import logging
+import lzma
+import os
+import sqlite3
 import struct
+import sys
+import time
 import zlib
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, closing, contextmanager, suppress
 from functools import partial
 from itertools import dropwhile
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO, NoReturn, TextIO, cast
+from typing import TYPE_CHECKING, Any, BinaryIO, TextIO, cast
 
 from host_sim.base.errors import UsageError
-from host_sim.base.regular_file import open_bytes
+from host_sim.base.extra_library import library
+from host_sim.base.files import open_bytes
+from host_sim.base.progress_line import ProgressLine
 from host_sim.protocol.codec import Frame
+from host_sim.recording.asc_text import AscReader
 from host_sim.recording.log_text import (
     ERROR,
     EXTENDED,
     FD,
+    OTHER,
     REMOTE,
     LineReader,
     Recorded,
@@ -27,20 +40,44 @@ from host_sim.recording.log_text import (
 )
 
 if TYPE_CHECKING:
-    from logging import LogRecord
-
     from can import Message
 
 _SIZE_MAX = 64_000_000_000
+_SILENT_S = 1.0
+"""Time that a log may take to read before a line shows how far it is, s."""
 _LINE_MAX = 4096
 _BOM = codecs.BOM_UTF8.decode("cp1252")
-_GZIP, _BLF = b"\x1f\x8b", b"LOGG"
+_COMPRESSED: dict[bytes, Callable[[BinaryIO], Any]] = {
+    b"\x1f\x8b": gzip.open,
+    b"BZh": bz2.open,
+    b"\xfd7zXZ": lzma.open,
+}
+_DATABASE = b"SQLite format 3"
 _ASC = (b"date ", b"base ", b"// version")
-_DAMAGED = (gzip.BadGzipFile, EOFError, zlib.error)
+_PCAP = (b"\xd4\xc3\xb2\xa1", b"\xa1\xb2\xc3\xd4", b"\x4d\x3c\xb2\xa1", b"\x0a\x0d\x0d\x0a")
+_DAMAGED = (gzip.BadGzipFile, EOFError, zlib.error, lzma.LZMAError)
+_READS = (
+    "Octet reads logs of candump and of python-can (.log .asc .blf .trc .csv .mf4 .db), also as .gz .bz2 or .xz;"
+    " python-can's can_logconvert writes them"
+)
+
+Read = tuple[bytes | str, Recorded | str]
+"""The channel that a frame was on, and the frame; or the kind of one that the protocol does not use."""
 
 
-def frames_in(path: Path) -> Iterator[Recorded | str]:
-    """Yields the frames of a log file in order; for frames that the protocol does not use, only their kind.
+def mf4_module() -> Any:
+    """python-can's module for MF4 with asammdf, which takes seconds to load.
+
+    Raises:
+        UsageError: asammdf is not installed.
+    """
+    library("asammdf", "export")
+    module = importlib.import_module("can.io.mf4")
+    return module if module.asammdf is not None else importlib.reload(module)
+
+
+def frames_in(path: Path) -> Iterator[Read]:
+    """Yields the frames of a log file in order, each with its channel.
 
     Raises:
         UsageError: The file cannot be read, or is not a log.
@@ -62,22 +99,79 @@ def _open(path: Path) -> Iterator[BinaryIO]:
             file = stack.enter_context(open_bytes(path, _SIZE_MAX))
         except FileNotFoundError as error:
             raise UsageError(f"cannot read {path}: {error.strerror}") from None
-        compressed = file.read(len(_GZIP)) == _GZIP
+        start = file.read(8)
         file.seek(0)
-        yield cast("BinaryIO", stack.enter_context(gzip.GzipFile(fileobj=file))) if compressed else file
+        if _DATABASE.startswith(start):  # which opens its file by itself
+            yield file
+            return
+        line = stack.enter_context(ProgressLine(os.fstat(file.fileno()).st_size))
+        read = io.BufferedReader(_Watched(file, _progress_shown(line, path)))
+        opened = next((each for magic, each in _COMPRESSED.items() if start.startswith(magic)), None)
+        if opened:
+            unpacked = cast("BinaryIO", stack.enter_context(opened(read)))
+            read = io.BufferedReader(_Watched(unpacked, _limited(path)))
+        yield cast("BinaryIO", read)
 
 
-def _reader_for(path: Path, file: BinaryIO) -> Callable[[Path, BinaryIO], Iterator[Recorded | str]]:
+class _Watched(io.RawIOBase):
+    """A file that tells how much of it has been read, in bytes."""
+
+    def __init__(self, file: BinaryIO, watch: Callable[[int], None]) -> None:
+        self._file: Any = file
+        self._watch, self._at = watch, 0
+
+    def readable(self) -> bool:
+        return True
+
+    def seekable(self) -> bool:
+        return True
+
+    def readinto(self, buffer: Any) -> int:
+        data = self._file.read1(len(buffer))  # readinto loses what comes before the end of a file that is cut off
+        buffer[: len(data)] = data
+        self._at += len(data)
+        self._watch(self._at)
+        return len(data)
+
+    def seek(self, offset: int, whence: int = io.SEEK_SET) -> int:
+        self._at = self._file.seek(offset, whence)
+        return self._at
+
+
+def _progress_shown(line: ProgressLine, path: Path) -> Callable[[int], None]:
+    """Returns a function that shows how much of a log has been read, once that takes long."""
+    begins_s = time.monotonic() + _SILENT_S
+
+    def show(count: int) -> None:
+        if line.is_due() and time.monotonic() >= begins_s:
+            line.show(f"reading {path}", count)
+
+    return show
+
+
+def _limited(path: Path) -> Callable[[int], None]:
+    """Returns a function that refuses a log that is too large when it is unpacked."""
+
+    def check(count: int) -> None:
+        if count > _SIZE_MAX:
+            raise UsageError(f"cannot read {path}: it is larger than {_SIZE_MAX:,} bytes when it is unpacked")
+
+    return check
+
+
+def _reader_for(path: Path, file: BinaryIO) -> Callable[[Path, BinaryIO], Iterator[Read]]:
     first = file.readline(_LINE_MAX).removeprefix(codecs.BOM_UTF8)
     file.seek(0)
     if not first:
         raise UsageError(f"{path} is not a frame log: it is empty")
-    if first.startswith(_BLF):
-        return _blf
-    return _asc if first.lower().startswith(_ASC) else _text
+    if first.startswith(_PCAP):
+        raise UsageError(f"{path} is a capture of Wireshark or tcpdump, not a frame log: {_READS}")
+    formats = {b"LOGG": _blf, b"MDF ": _mf4, _DATABASE: _db, b";": _trc, b"timestamp,arbitration_id,": _csv}
+    formats |= dict.fromkeys(_ASC, _asc)
+    return next((read for start, read in formats.items() if first.lower().startswith(start.lower())), _text)
 
 
-def _text(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
+def _text(path: Path, file: BinaryIO) -> Iterator[Read]:
     reader = LineReader(deltas=_has_deltas(file))
     for number, line in enumerate(_lines(file), start=1):
         if len(line) < _LINE_MAX and not line.endswith(b"\n"):
@@ -109,64 +203,171 @@ def _has_deltas(file: BinaryIO) -> bool:
 
 
 def _not_a_frame(path: Path, number: int, line: bytes, why: str) -> UsageError:
+    known = f"; {_READS}" if number == 1 else ""
     if not line.isascii() or b"\0" in line:
-        return UsageError(f"{path} is not a frame log: it is not text, from line {number} on")
-    return UsageError(f"{path}, line {number}: {why}: {line[:60].decode('ascii')!r}")
+        return UsageError(f"{path} is not a frame log: it is not text, from line {number} on{known}")
+    return UsageError(f"{path}, line {number}: {why}: {line[:60].decode('ascii')!r}{known}")
 
 
-class _NumberedLines:
-    """A text file for `can.ASCReader` that counts the lines read."""
+class _Lines:
+    """A text file for readers of python-can.
+
+    Attributes:
+        number: Number of lines read.
+        content: Number of these that are not comments.
+        is_cut: Whether the last line read has no end.
+    """
 
     def __init__(self, file: BinaryIO) -> None:
         self._text = io.TextIOWrapper(file, encoding="cp1252", errors="replace")
-        self.number = 0
+        self.number = self.content = 0
+        self.is_cut = False
 
     def __iter__(self) -> Iterator[str]:
-        for line in iter(partial(self._text.readline, _LINE_MAX), ""):
-            self.number += 1
-            yield line if self.number > 1 else line.removeprefix(_BOM)
+        return self
+
+    def __next__(self) -> str:
+        line = self._text.readline(_LINE_MAX)
+        if not line:
+            raise StopIteration
+        self.number += 1
+        self.is_cut = not line.endswith("\n")
+        self.content += bool(line.strip()) and not line.startswith(";")
+        return line if self.number > 1 else line.removeprefix(_BOM)
 
     def close(self) -> None:
         """As in a file."""
         self._text.close()
 
 
-def _asc(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
-    from can import ASCReader  # noqa: PLC0415 - other logs are read sooner without python-can
+def _asc(path: Path, file: BinaryIO) -> Iterator[Read]:
+    reader = AscReader()
+    with closing(_Lines(file)) as lines:
+        for line in lines:
+            try:
+                read = reader.read(line)
+            except ValueError as error:
+                if lines.is_cut:
+                    return
+                raise UsageError(f"{path}, line {lines.number}: {error}: {line.strip()[:60]!r}") from None
+            if read is not None:
+                yield read
 
-    text = _NumberedLines(file)
+
+def _trc(path: Path, file: BinaryIO) -> Iterator[Read]:
+    from can import TRCReader  # noqa: PLC0415 - other logs are read sooner without python-can
+
+    with closing(_Lines(file)) as lines:
+        yield from _of_lines(path, lines, TRCReader(cast("TextIO", lines)))
+
+
+def _csv(path: Path, file: BinaryIO) -> Iterator[Read]:
+    from can import CSVReader  # noqa: PLC0415 - as above
+
+    with closing(_Lines(file)) as lines:
+        lines.content = -1  # the names of the columns
+        yield from _of_lines(path, lines, CSVReader(cast("TextIO", lines)))
+
+
+def _of_lines(path: Path, lines: _Lines, messages: "Iterable[Message]") -> Iterator[Read]:
+    """Yields the frames of a text format, then what python-can left out without a word."""
+    count = 0
     try:
-        for message in ASCReader(cast("TextIO", text)):
-            yield _from(message)
-    except (ValueError, IndexError, OverflowError) as error:
-        raise UsageError(f"{path}, line {text.number}: not a frame in ASC format: {error}") from None
+        with _warnings_refused("can.io.trc"):
+            for count, message in enumerate(messages, 1):  # noqa: B007 - used below
+                yield _channel(message), _from(message)
+    except (ValueError, IndexError, KeyError, OverflowError, NotImplementedError) as error:
+        if lines.is_cut:
+            return
+        raise UsageError(f"{path}, line {lines.number}: not a frame: {_reason(error)}") from None
+    for _ in range(lines.content - count):
+        yield "", OTHER
 
 
-def _refuse(warning: "LogRecord") -> NoReturn:
-    """Turns what python-can says of a damaged file into an error."""
-    raise ValueError(warning.getMessage())
+def _blf(path: Path, file: BinaryIO) -> Iterator[Read]:
+    from can.io.blf import BLFParseError, BLFReader  # noqa: PLC0415 - as above
 
-
-def _blf(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
-    from can.io.blf import LOG, BLFParseError, BLFReader  # noqa: PLC0415 - as above
-
-    LOG.addFilter(_refuse)
     try:
-        for message in BLFReader(file):
-            yield _from(message)
+        with _warnings_refused("can.io.blf"):
+            for message in BLFReader(file):
+                yield _channel(message, first=1), _from(message)
     except (BLFParseError, ValueError, struct.error) as error:
-        raise UsageError(f"{path} is a damaged BLF file, or one cut short: {error}") from None
+        why = str(error) or "no object begins where the last one ends"
+        raise UsageError(f"{path} is a damaged BLF file, or one cut short: {why}") from None
+
+
+def _mf4(path: Path, file: BinaryIO) -> Iterator[Read]:
+    reader = _mf4_reader(path, file)
+    try:
+        for message in reader:
+            yield _channel(message), _from(message)
+    except Exception as error:  # asammdf raises whatever it comes upon
+        raise UsageError(f"{path} is a damaged MF4 file, or one cut short: {_reason(error)}") from None
     finally:
-        LOG.removeFilter(_refuse)
+        reader.stop()
+
+
+def _mf4_reader(path: Path, file: BinaryIO) -> Any:
+    module, before = mf4_module(), sys.unraisablehook
+    sys.unraisablehook = lambda _: None  # what asammdf could not open complains once more when it is dropped
+    try:
+        return module.MF4Reader(io.BytesIO(file.read()))
+    except Exception as error:
+        why = _reason(error)
+    finally:
+        gc.collect()
+        sys.unraisablehook = before
+    raise UsageError(f"{path} is a damaged MF4 file, or one cut short: {why}")
+
+
+def _db(path: Path, file: BinaryIO) -> Iterator[Read]:
+    from can import SqliteReader  # noqa: PLC0415 - as above
+
+    if isinstance(file, io.BufferedReader) and isinstance(file.raw, _Watched):
+        raise UsageError(f"{path} is a compressed database: unpack it first")
+    try:
+        with SqliteReader(path) as reader:
+            for message in reader:
+                yield "", _from(message)
+    except (sqlite3.Error, ValueError) as error:
+        raise UsageError(f"{path} is no database of python-can's frames: {_reason(error)}") from None
+
+
+@contextmanager
+def _warnings_refused(name: str) -> Iterator[None]:
+    """Turns what a logger of python-can says of a damaged file into an error."""
+
+    def refuse(record: logging.LogRecord) -> bool:
+        if record.levelno < logging.WARNING:
+            return False
+        raise ValueError(record.getMessage())
+
+    logger = logging.getLogger(name)
+    logger.addFilter(refuse)
+    try:
+        yield
+    finally:
+        logger.removeFilter(refuse)
+
+
+def _reason(error: Exception) -> str:
+    return str(error) or type(error).__name__
+
+
+def _channel(message: "Message", first: int = 0) -> str:
+    """The channel as the file has it."""
+    return str(message.channel + first) if isinstance(message.channel, int) else str(message.channel or "")
 
 
 def _from(message: "Message") -> Recorded | str:
     if message.is_error_frame:
         return ERROR
-    if message.is_fd:
+    if message.is_fd or len(message.data) > 8:  # noqa: PLR2004 - .csv and .db do not say which are FD
         return FD
     if message.is_remote_frame:
         return REMOTE
     if message.is_extended_id:
         return EXTENDED
+    if len(message.data) != min(8, message.dlc):
+        raise ValueError(f"a frame of {message.dlc} bytes with {len(message.data)}")
     return Recorded(round(message.timestamp * 1_000_000), Frame(message.arbitration_id, bytes(message.data)))

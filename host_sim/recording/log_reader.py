@@ -5,23 +5,20 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from host_sim.base.errors import UsageError
-from host_sim.protocol.codec import NODE_MAX, Frame, Protocol, node_of
+from host_sim.protocol.codec import NODE_MAX, Protocol, node_of
 from host_sim.protocol.every_node import IDS
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.protocol.memory_report import MemoryReport
 from host_sim.recording.log_files import frames_in
-from host_sim.recording.log_text import Recorded
+from host_sim.recording.log_text import OTHER, Recorded
 
 __all__ = ["LogReader", "Recorded", "check_protocol", "first_memory", "frames_of", "nodes_in", "read_log"]
 
 FOREIGN = "foreign"
 """The kind of frames with 11-bit identifiers that no message of any node uses."""
 
-WIRE_1_LAYOUTS = frozenset((0xF6D7, 0x7827))
-"""Last bytes of a HEARTBEAT of wire 1: the layout's hash, or in version 1.0 that of octet.dbc."""
-
-_WIRE_1_HEARTBEATS = range(0x181, 0x181 + NODE_MAX)
-"""Identifiers of HEARTBEAT in wire 1; the current wire uses none of them."""
+ELSEWHERE = "other-channel"
+"""The kind of the robots' frames on other channels than the wanted one."""
 
 
 class LogReader:
@@ -29,50 +26,61 @@ class LogReader:
 
     Attributes:
         path: The log.
+        channel: The only interface or channel that is read; None if the robots' are the only one.
         skipped: Number of other frames by their kind, as of the last iteration.
     """
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
+    def __init__(self, path: Path, channel: str | None = None) -> None:
+        self.path, self.channel = path, channel
         self.skipped: Counter[str] = Counter()
 
     def __iter__(self) -> Iterator[Recorded]:
         """Yields each frame from or to a robot, in order.
 
         Raises:
-            UsageError: The file cannot be read, is not a log, is damaged, cut short or of wire 1; the message names
-                file and line, or the remedy.
+            UsageError: The file cannot be read, is not a log, is damaged or cut short; the message names file and
+                line.
         """
         skipped = self.skipped = Counter()
-        for read in frames_in(self.path):
+        channels: dict[int, bytes | str] = {}
+        wanted = None if self.channel is None else (self.channel, self.channel.encode())
+        for channel, read in frames_in(self.path):
             if isinstance(read, str):
                 skipped[read] += 1
-            elif read.frame.id in IDS:
-                yield read
-            elif _is_of_wire_1(read.frame):
-                raise UsageError(
-                    f"{self.path} was recorded with wire 1: convert it with tools/octet convert {self.path} NEW.log"
-                )
-            else:
+            elif read.frame.id not in IDS:
                 skipped[FOREIGN] += 1
+            elif wanted is not None and channel not in wanted:
+                skipped[ELSEWHERE] += 1
+            else:
+                if channels.setdefault(read.frame.id, channel) != channel:
+                    raise self._mixed(read.frame.id, channels[read.frame.id], channel)
+                yield read
+        if wanted is not None and not channels:
+            raise UsageError(f"{self.path} has no robot on {self.channel}: leave --channel out, or name another")
+
+    def _mixed(self, frame_id: int, *channels: bytes | str) -> UsageError:
+        one, other = (it.decode("ascii", "replace") if isinstance(it, bytes) else it for it in channels)
+        node = node_of(frame_id)
+        return UsageError(f"{self.path}: node {node} is on {one} and on {other}: choose one, such as --channel {one}")
 
     def note(self) -> str | None:
         """One line about the frames that were skipped; None if there were none."""
         if not self.skipped:
             return None
-        *others, last = [f"{count} {kind}" for kind, count in sorted(self.skipped.items())]
-        counts = f"{', '.join(others)} and {last}" if others else last
-        return f"{self.path}: skipped {counts} frame{'' if sum(self.skipped.values()) == 1 else 's'}"
+        counts = sorted((kind, count) for kind, count in self.skipped.items() if kind != OTHER)
+        *first, last = [f"{count} {kind}" for kind, count in counts] or [""]
+        parts = []
+        if counts:
+            frames = "frame" if sum(count for _, count in counts) == 1 else "frames"
+            parts.append(f"{', '.join(first)} and {last} {frames}" if first else f"{last} {frames}")
+        if events := self.skipped[OTHER]:
+            parts.append(f"{events} line{'' if events == 1 else 's'} without a frame")
+        return f"{self.path}: skipped {', and '.join(parts)}"
 
 
-def _is_of_wire_1(frame: Frame) -> bool:
-    """Whether a frame is a HEARTBEAT of wire 1."""
-    return frame.id in _WIRE_1_HEARTBEATS and int.from_bytes(frame.data[6:], "little") in WIRE_1_LAYOUTS
-
-
-def read_log(path: Path) -> LogReader:
+def read_log(path: Path, channel: str | None = None) -> LogReader:
     """Returns a reader of the log in a file; see `LogReader`."""
-    return LogReader(path)
+    return LogReader(path, channel)
 
 
 def nodes_in(log: Iterable[Recorded]) -> list[int]:

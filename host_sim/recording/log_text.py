@@ -30,17 +30,20 @@ class Recorded(NamedTuple):
 EXTENDED, REMOTE, FD, XL, ERROR = "extended", "remote", "FD", "XL", "error"
 """Kinds of frames that the robot's protocol does not use."""
 
+OTHER = "other"
+"""The kind of lines with a time that hold no frame: events of another bus, comments of another program."""
+
 _HEX2 = rb"[0-9A-Fa-f]{2}"
 _STAMP = rb"\((\d{1,12})\.(\d{6})(?:\d{3})?\)"
 _END = rb"(?: [RT])?\r?\n"
-_FRAME = re.compile(_STAMP + rb" +\S+ +([0-9A-Fa-f]{3})#((?:" + _HEX2 + rb"){0,8})(?:_[9A-Fa-f])?" + _END)
+_FRAME = re.compile(_STAMP + rb" +(\S+) +([0-9A-Fa-f]{3})#((?:" + _HEX2 + rb"){0,8})(?:_[9A-Fa-f])?" + _END)
 _OTHER = re.compile(
     _STAMP + rb" +\S+ +(?:([0-9A-Fa-f]{3}|[0-9A-Fa-f]{8})#"
     rb"(?:(R[0-9A-Fa-f]?)|(#[0-9A-Fa-f](?:" + _HEX2 + rb"){0,64})|(?:" + _HEX2 + rb"){0,8})(?:_[9A-Fa-f])?"
     rb"|([0-9A-Fa-f]{3,5}#" + _HEX2 + rb":" + _HEX2 + rb":[0-9A-Fa-f]{8}#(?:" + _HEX2 + rb")+))" + _END
 )
 _LONG = re.compile(
-    rb" *(?:\(([^)]*)\))? +\S+(?: +[RT]X +[B-] [E-])? +([0-9A-Fa-f]{3}|[0-9A-Fa-f]{8}) +"
+    rb" *(?:\(([^)]*)\))? +(\S+)(?: +[RT]X +[B-] [E-])? +([0-9A-Fa-f]{3}|[0-9A-Fa-f]{8}) +"
     rb"[\[{]([0-9A-Fa-f]{1,2})[\]}] *"
     rb"(?:(remote request)|((?:" + _HEX2 + rb"(?: (?=[0-9A-Fa-f]))?)*)(?: +'.*')?(?: +ERRORFRAME)?) *\r?\n"
 )
@@ -63,8 +66,10 @@ class LineReader:
         self.deltas = deltas
         self._time_us = 0
 
-    def read(self, line: bytes) -> Recorded | str | None:
-        """Reads a line with its line end. Returns a frame, or the kind of a frame that the protocol does not use.
+    def read(self, line: bytes) -> tuple[bytes, Recorded | str] | None:
+        """Reads a line with its line end.
+
+        Returns the interface and a frame, or the kind of a frame that the protocol does not use.
 
         None: the line has no frame; it is empty, or explains an error frame (`candump -e`).
 
@@ -73,22 +78,23 @@ class LineReader:
         """
         match = _FRAME.fullmatch(line)
         if match is not None:
-            seconds, micros, frame_id, data = match.groups()
-            return Recorded(int(seconds) * 1_000_000 + int(micros), Frame(int(frame_id, 16), unhexlify(data)))
+            seconds, micros, interface, frame_id, data = match.groups()
+            time_us = int(seconds) * 1_000_000 + int(micros)
+            return interface, Recorded(time_us, Frame(int(frame_id, 16), unhexlify(data)))
         return self._read_other(_COLOUR.sub(b"", line))
 
-    def _read_other(self, line: bytes) -> Recorded | str | None:
+    def _read_other(self, line: bytes) -> tuple[bytes, Recorded | str] | None:
         if line in _SILENT or (line.startswith(b"\t") and line.endswith(b"\n")):
             return None
         if match := _OTHER.fullmatch(line):
             *_, frame_id, remote, fd, xl = match.groups()
-            return XL if xl else _kind(frame_id, fd=fd is not None, remote=remote is not None)
+            return b"", XL if xl else _kind(frame_id, fd=fd is not None, remote=remote is not None)
         if match := _LONG.fullmatch(line):
-            return self._read_long(match)
+            return match[2], self._read_long(match)
         raise ValueError("not a frame, or cut short")
 
     def _read_long(self, match: re.Match[bytes]) -> Recorded | str:
-        stamp, frame_id, length, remote, data = match.groups()
+        stamp, _, frame_id, length, remote, data = match.groups()
         time_us = self._time_of(stamp)
         fd = len(length) > 1
         if remote or fd or len(frame_id) > 3:  # noqa: PLR2004 - the digits of an 11-bit identifier

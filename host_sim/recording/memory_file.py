@@ -5,13 +5,12 @@ import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import UsageError
-from host_sim.base.regular_file import read_bytes
+from host_sim.base.files import read_bytes, write_bytes
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.world.memory_kinds import Memory, kinds_of, sides_of
 
-_SIZE_MAX = 4096
+_SIZE_MAX = 1 << 20
 """Larger files are not read."""
 
 
@@ -97,13 +96,17 @@ class MemorySaver:
         self.save(memory, doubtful=doubtful)
 
     def _save_beside(self, memory: Memory) -> None:
-        """Saves a doubtful memory; the first time, the file is restored to its content before the run."""
+        """Saves a doubtful memory; the first time, the file is restored to its content before the run.
+
+        It is restored first, so that a run that is killed in between leaves no doubtful memory in it.
+        """
         if memory == self._set_aside:
             return
         beside = self._path.with_name(self._path.name + ".doubtful")
-        write_bytes(beside, bytes(memory))
         if self._set_aside is None:
             self._restore()
+        write_bytes(beside, bytes(memory))
+        if self._set_aside is None:
             self._report(f"the run is doubtful: its memory is in {beside}, and {self._path} is as it was before")
         self._set_aside = memory
 

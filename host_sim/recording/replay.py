@@ -2,14 +2,17 @@
 
 from dataclasses import dataclass
 from itertools import product
+from typing import TYPE_CHECKING, TypeAlias
 
-from host_sim.backends.in_process_link import InProcessLink
-from host_sim.backends.programmed_robot import ProgrammedLink
 from host_sim.base.errors import UsageError
 from host_sim.protocol.codec import MEMORY_IDS, DecodedFrame, Frame, Protocol, node_of
 from host_sim.protocol.generated import Fault, Opcode, Reason
 from host_sim.protocol.memory_report import MemoryReport
 from host_sim.recording.log_reader import LogReader, Recorded, check_protocol, first_memory
+from host_sim.sim.in_process_link import InProcessLink, OwnLink, ProgrammedLink
+
+if TYPE_CHECKING:
+    from host_sim.sim.own_brain import OwnBrain
 
 _TO_ROBOT = ("SENSES", "COMMAND")
 _AT_REST = (Reason.STOP, Reason.SILENCE)
@@ -53,16 +56,16 @@ class Replay:
     unanswered: int = 0
 
 
-def replay(log: LogReader, protocol: Protocol, program: bytes | None = None) -> Replay:
+def replay(log: LogReader, protocol: Protocol, program: bytes | None = None, own: "OwnBrain | None" = None) -> Replay:
     """Feeds the frames sent to one robot in a log to the firmware, and compares drives and memories.
 
-    The firmware has its own brain, or a program as its brain.
+    The firmware has its own brain, or a program or a behaviour of its user as its brain.
 
     Raises:
         UsageError: The log is of another protocol, has no heartbeat of this node, or holds a damaged frame.
     """
     check_protocol(log, protocol)
-    comparison = _Comparison(log, protocol, program)
+    comparison = Comparison(log, protocol, program, own)
     for line in log:
         if line.frame.id in MEMORY_IDS and line.frame.id != protocol.id_of("MEMORY"):
             comparison.feed(line.frame)  # another robot's memory
@@ -72,7 +75,11 @@ def replay(log: LogReader, protocol: Protocol, program: bytes | None = None) -> 
     return Replay(comparison.drives, difference, comparison.stopped, comparison.unanswered)
 
 
-class _Comparison:
+_Path: TypeAlias = "tuple[_Path, list[Frame | None]] | None"
+"""How a state was reached: from which one, and by which frames; None in these is silence."""
+
+
+class Comparison:
     """Follows one robot's part of a log with the firmware.
 
     Attributes:
@@ -81,14 +88,20 @@ class _Comparison:
         unanswered: Number of senses so far that were sent in real time and not answered.
     """
 
-    def __init__(self, log: LogReader, protocol: Protocol, program: bytes | None) -> None:
+    def __init__(
+        self, log: LogReader, protocol: Protocol, program: bytes | None, own: "OwnBrain | None" = None
+    ) -> None:
         self.drives = 0
         self.stopped = False
         self.unanswered = 0
         self._log, self._protocol = log, protocol
         node, memory = protocol.node, first_memory(log, protocol)
-        self._link = ProgrammedLink(program, node, memory=memory) if program else InProcessLink(node, memory)
-        self._states: list[bytes] = []  # possible states of the robot; empty: the link's state
+        self._link: InProcessLink
+        if own:
+            self._link = OwnLink(own, node, memory=memory)
+        else:
+            self._link = ProgrammedLink(program, node, memory=memory) if program else InProcessLink(node, memory)
+        self._states: dict[bytes, _Path] = {}  # possible states of the robot; empty: the link's state
         self._waiting: list[Frame] = []
         self._faults = 0
         self._pending: dict[int, Frame] = {}
@@ -134,8 +147,17 @@ class _Comparison:
         if not self._lockstep:
             self._waiting.append(frame)
             return
-        self._states = []
+        self._states = {}
         self._hand_over(frame)
+
+    def heard(self) -> list[Frame | None]:
+        """In real time: the frames since the last state that is certain, as the robot may have received them."""
+        ways: list[list[Frame | None]] = []
+        path = next(iter(self._states.values()), None)
+        while path is not None:
+            path, way = path
+            ways.append(way)
+        return [frame for way in reversed(ways) for frame in way] + list(self._waiting)
 
     def _hand_over(self, frame: Frame | None) -> None:
         if frame is None:
@@ -176,20 +198,20 @@ class _Comparison:
         senses = [i for i, number in enumerate(numbers[:end]) if number is not None]
         self.unanswered += len(senses[:-1])
         answers: list[Frame | None] = []
-        equal: dict[bytes, None] = {}
-        self._states = self._states or [self._link.state]
+        equal: dict[bytes, _Path] = {}
+        self._states = self._states or {self._link.state: None}
         for state, heard in product(self._states, self._ways(sent, senses)):
             self._link.go_back_to(state)
             for frame in heard:
                 self._hand_over(frame)
             answers.append(self._pending.pop(tick, None))
             if answers[-1] == drive:
-                equal[self._link.state] = None
+                equal.setdefault(self._link.state, (self._states[state], heard))
                 if len(equal) == _STATES_MAX:
                     break
         if not equal:
             return answers[0]
-        self._states, self._waiting, self._faults = list(equal), self._waiting[end:], 0
+        self._states, self._waiting, self._faults = equal, self._waiting[end:], 0
         return drive
 
     def _ways(self, sent: list[Frame], senses: list[int]) -> list[list[Frame | None]]:

@@ -10,16 +10,16 @@ from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.protocol.generated import Senses
 from host_sim.recording.dead_reckoning import reckon
 from host_sim.recording.log_reader import LogReader, nodes_in, read_log
+from host_sim.recording.phrases import news_of
 from host_sim.recording.recording import Recording, read_recording
 from host_sim.recording.run_recorder import RunRecorder, Tick
+from host_sim.recording.state import environment_scene
 from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import read_world, world_path
 from host_sim.sim.world_record import Begun, WorldRecord
-from host_sim.view.news import news_of
-from host_sim.view.state import environment_scene
 from host_sim.world.arena import Arena
 from host_sim.world.edits import Edit, EditError
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import SimParams
 
 _LIMIT_S = 600.0
 """Default time limit of a run for each environment."""
@@ -52,7 +52,7 @@ class Resimulation:
         return self.record.title if self.record else "a robot under way"
 
 
-def resimulate(log: Path, node: int = 1, *, ignore_world: bool = False) -> Resimulation:
+def resimulate(log: Path, node: int = 1, *, ignore_world: bool = False, channel: str | None = None) -> Resimulation:
     """Reconstructs a run from its log, and from the world file beside it if there is one.
 
     Without a world file, the environments are those of the seed that the robot was started with, one after the other,
@@ -62,13 +62,14 @@ def resimulate(log: Path, node: int = 1, *, ignore_world: bool = False) -> Resim
     Args:
         log: A log of a run, or of `candump -L`.
         node: The robot's node number on the bus; the first robot's if there are several.
+        channel: The interface or channel in the log, if several have robots.
         ignore_world: Whether to ignore world file and seed; only this robot is reconstructed then.
 
     Raises:
         UsageError: A file cannot be read.
         OctetError: The log is of another protocol, or was recorded in another world.
     """
-    lines = read_log(log)
+    lines = read_log(log, channel)
     recording = read_recording(lines, Protocol(node))
     record = None if ignore_world else _world_record(log, lines, recording, node)
     if record is None:

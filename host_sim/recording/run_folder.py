@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from host_sim.base.errors import UsageError
-from host_sim.base.file_lock import lock
+from host_sim.base.files import lock
 from host_sim.base.system import open_to_lock
 
 

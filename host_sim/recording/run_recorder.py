@@ -6,14 +6,13 @@ from struct import Struct
 from typing import Any, NamedTuple, TypeVar
 
 from host_sim.protocol.generated import ROW, Drive, Reason, Senses
+from host_sim.recording.history import LearningHistory
+from host_sim.recording.state import environment_scene
+from host_sim.recording.state_types import EnvironmentScene
 from host_sim.recording.trajectory import NEW_CELLS, Changes, RobotTrack, Trajectory, since
 from host_sim.sim.native_loop import RobotBlock
 from host_sim.sim.simulation import Simulation
-from host_sim.view.history import LearningHistory
-from host_sim.view.state import environment_scene
-from host_sim.view.state_types import EnvironmentScene
-from host_sim.world.geometry import Pose
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import Pose, SimParams
 
 T = TypeVar("T")
 Memory = Sequence[int]

@@ -6,14 +6,13 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from host_sim.base.atomic_file import write_bytes
-from host_sim.base.counted import counted
+from host_sim.base.errors import counted
+from host_sim.base.files import write_bytes
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.generated import FEEL, PATTERNS, SIDES, Reason
-from host_sim.sim.episode_result import EpisodeResult, RobotResult
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from host_sim.sim.world_record import WorldRecord
+from host_sim.sim.world_record import EpisodeResult, RobotResult, WorldRecord
 from host_sim.world.changes import Change
 from host_sim.world.memory_kinds import sides_of
 
@@ -59,6 +58,7 @@ def summarize(
     """Summarizes a run that has ended.
 
     - seed, profile, world, bus: as configured; the bus of an emulated robot is qemu, or its board.
+    - own: Of a behaviour in a C file of its user: name, and sha256 of its source, in hexadecimal.
     - environments: One entry per environment: finished, food_eaten, ticks, robot_s, and robots, with each robot's
       node, food_eaten, trials, remembered_turns, boredom_turns, collisions, stuck_sensors (the number of them at the
       end) and memory (the eight cells at the end of the environment).
@@ -79,6 +79,7 @@ def summarize(
     content: dict[str, Any] = {
         "seed": config.seed,
         "profile": config.profile,
+        **source_of(config),
         "world": config.world,
         "bus": clients[0].connection.bus,
         "environments": [_environment(episode) for episode in episodes],
@@ -92,6 +93,12 @@ def summarize(
     count, finished = max(len(episodes), config.environments), sum(episode.finished for episode in episodes)
     ending = "ALL DONE" if finished == count else f"done      {finished} of {count} environments finished"
     return Summary(content, text_of(content), ending)
+
+
+def source_of(config: RunConfig) -> dict[str, dict[str, str]]:
+    """The entry `own` of a summary; nothing for a built-in behaviour."""
+    own = config.own and config.own.source
+    return {"own": {"name": own.name, "sha256": own.sha256}} if own else {}
 
 
 def text_of(content: dict[str, Any]) -> str:
@@ -147,7 +154,7 @@ def _robot(client: RobotClient) -> dict[str, Any]:
         "faults": client.faults,
         "saturated": [name for name, count in client.faults.items() if count == _FAULTS_MAX],
         "round_trip_ms": None if mean_s is None else round(mean_s * 1000, 3),
-        "real_time": client.punctuality.summary(),
+        "real_time": client.deadlines.summary(),
         "line": {"outages": client.connection.line.outages, "unsent": client.connection.line.unsent},
     }
 

@@ -9,12 +9,11 @@ from operator import itemgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from host_sim.protocol.generated import CELL_COUNT, ROW, Reason
-from host_sim.view.history import Cell
-from host_sim.view.news import News
-from host_sim.view.state import state
-from host_sim.view.state_types import EnvironmentScene, Learned, Lesson, State, Trial
-from host_sim.world.geometry import Pose
-from host_sim.world.params import SimParams
+from host_sim.recording.history import Cell
+from host_sim.recording.phrases import News
+from host_sim.recording.state import state
+from host_sim.recording.state_types import EnvironmentScene, Learned, Lesson, State, Trial
+from host_sim.world.geometry import Pose, SimParams
 
 if TYPE_CHECKING:
     import numpy as np

@@ -5,29 +5,28 @@ to reconstruct the whole run.
 """
 
 import json
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from host_sim.base.atomic_file import write_bytes
 from host_sim.base.compressed_file import COMPRESSED
 from host_sim.base.errors import UsageError
-from host_sim.base.regular_file import read_bytes
+from host_sim.base.files import read_bytes, write_bytes
 from host_sim.protocol.codec import NODE_MAX
-from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
+from host_sim.sim.world_record import Begun, Edited, Refused, Source, WorldRecord
 from host_sim.world.body_kinds import IDEAL, KIT, BodyKind, body_kind, kind_from
 from host_sim.world.edits import edit_from, edit_to, whole
-from host_sim.world.layouts import World
-from host_sim.world.world_names import RANDOM, WORLD_NAMES
-from host_sim.world.worlds import world_of
-from host_sim.world.written_layout import WrittenLayout
-from host_sim.world.written_world import content_of, world_from
+from host_sim.world.layouts import World, WrittenLayout
+from host_sim.world.names import RANDOM, WORLD_NAMES
+from host_sim.world.worlds import content_of, world_from, world_of
 
 _FORMAT = 1
 _SIZE_MAX = 16_000_000
 _TEXT_MAX = 1000
 _AS_BYTES = "surrogateescape"
+_C_NAME = re.compile(r"[^/\0]+\.c")
 _FRONT_EXTRA_MAX_MM = 100.0
 _SEED_MAX, _TICK_MAX, _NUMBER_MAX = 2**32 - 1, 2**53, 1_000_000
 
@@ -38,6 +37,11 @@ def write_world(record: WorldRecord, path: Path) -> None:
     Raises:
         OctetError: The file cannot be written.
     """
+    write_bytes(path, world_text(record).encode())
+
+
+def world_text(record: WorldRecord) -> str:
+    """The text of a world file."""
     content = {
         "format": _FORMAT,
         "seed": record.seed,
@@ -48,11 +52,12 @@ def write_world(record: WorldRecord, path: Path) -> None:
         **_world_content(record.world),
         **({"body": dict(record.kind.traits)} if record.kind else {}),
         **({} if record.program is None else {"program": record.program.decode(errors=_AS_BYTES)}),
+        **({"own": _own_content(record.own)} if record.own else {}),
         "environments": [begun._asdict() for begun in record.begun],
         "edits": [{"tick": tick, **edit_to(edit)} for tick, edit in record.edits],
         **({"refused": [refused._asdict() for refused in record.refused]} if record.refused else {}),
     }
-    write_bytes(path, (json.dumps(content) + "\n").encode())
+    return json.dumps(content) + "\n"
 
 
 def world_path(log: Path) -> Path:
@@ -95,6 +100,7 @@ def _record(content: dict[str, Any]) -> WorldRecord:
         _world(content),
         _kind(content.get("body", IDEAL)),
         _program(content.get("program")),
+        _own(content["own"]) if "own" in content else None,
     )
 
 
@@ -102,6 +108,20 @@ def _program(text: Any) -> bytes | None:
     if text is not None and not isinstance(text, str):
         raise ValueError("program must be a text")
     return None if text is None else text.encode(errors=_AS_BYTES)
+
+
+def _own_content(own: Source) -> dict[str, str]:
+    return {"name": own.name, "sha256": own.sha256, "source": own.text.decode(errors=_AS_BYTES)}
+
+
+def _own(content: Any) -> Source:
+    name, source = (content.get(key) if isinstance(content, dict) else None for key in ("name", "source"))
+    if not isinstance(source, str) or not isinstance(name, str) or not _C_NAME.fullmatch(name):
+        raise ValueError("own must have the name of a C file, without folders, and its source as texts")
+    own = Source(name, source.encode(errors=_AS_BYTES))
+    if content.get("sha256") != own.sha256:
+        raise ValueError("the source of own does not have its sha256")
+    return own
 
 
 def _kind(body: Any) -> BodyKind | None:

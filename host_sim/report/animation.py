@@ -7,6 +7,8 @@ from PIL import Image, ImageFont
 
 from host_sim.base.errors import UsageError
 from host_sim.protocol.generated import CELL_COUNT, SIDES, Reason
+from host_sim.recording.phrases import lesson_sentence, sentence
+from host_sim.recording.state_types import Lesson, State
 from host_sim.recording.trajectory import RobotTrack, Trajectory, at
 from host_sim.report.drawing import (
     CONE_DARK,
@@ -23,11 +25,8 @@ from host_sim.report.drawing import (
     write_image,
 )
 from host_sim.report.palette import BEAM, IN_USE, LEARNED, in_palette
-from host_sim.view.phrases import lesson_sentence, sentence
-from host_sim.view.state_types import Lesson, State
-from host_sim.world.cones import CONE_BEARINGS_DEG
-from host_sim.world.geometry import Pose, ahead_of
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import Pose, SimParams, ahead_of
+from host_sim.world.plain_space import CONE_BEARINGS_DEG
 
 FRAMES_MAX = 600
 """Maximum number of frames of a clip."""

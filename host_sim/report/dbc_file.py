@@ -1,4 +1,4 @@
-"""DBC and KCD files for any nodes, derived from octet.dbc.
+"""DBC files for any nodes, derived from octet.dbc.
 
 Each node has its own messages: `N3_SENSES` for node 3, with signals such as `N3_SENSES_feel`, so that the signals of
 several messages and robots stay distinct in tools that list them by name alone. Start values and the parameters of
@@ -49,11 +49,6 @@ _E2E = {
 def dbc_text(nodes: Iterable[int]) -> str:
     """The text of a DBC file for nodes."""
     return database(nodes).as_dbc_string(sort_signals=sort_signals_by_start_bit)
-
-
-def kcd_text(nodes: Iterable[int]) -> str:
-    """The text of a KCD file for nodes. KCD cannot hold send types, start values or end-to-end protection."""
-    return database(nodes).as_kcd_string(sort_signals=sort_signals_by_start_bit)
 
 
 def database(nodes: Iterable[int]) -> Database:

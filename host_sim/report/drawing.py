@@ -9,13 +9,12 @@ from typing import Any, NamedTuple
 
 from PIL import Image, ImageDraw, ImageFont
 
-from host_sim.base.atomic_file import write_bytes
+from host_sim.base.files import write_bytes
 from host_sim.protocol.generated import FEEL, Reason, Side
-from host_sim.view.state_types import EnvironmentScene
-from host_sim.world.cones import CONE_BEARINGS_DEG, cone_outline
-from host_sim.world.geometry import Point, Pose, ahead_of
+from host_sim.recording.state_types import EnvironmentScene
+from host_sim.world.geometry import Point, Pose, SimParams, ahead_of
 from host_sim.world.layouts import Layout
-from host_sim.world.params import SimParams
+from host_sim.world.plain_space import CONE_BEARINGS_DEG, cone_outline
 
 PAPER, INK, FLOOR, OBSTACLE = "#ffffff", "#20262e", "#f6f5f1", "#4b535d"
 CONE_LIT, CONE_DARK = "#e69f00", "#e1e4e8"

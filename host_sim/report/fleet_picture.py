@@ -23,8 +23,8 @@ from host_sim.report.drawing import (
 )
 from host_sim.report.sheet import GAP_PX, LINE_PX, TEXT_PX, WIDTH_PX, abreast, stacked, titled
 from host_sim.sim.fleet import FleetResult
+from host_sim.world.geometry import SimParams
 from host_sim.world.layouts import Layout
-from host_sim.world.params import SimParams
 
 _MOST_ENVIRONMENTS, _MOST_NAMES = 5, 100
 _CURVE_PX, _SQUARE_MAX_PX, _BAR_PX = 360, 40, 26

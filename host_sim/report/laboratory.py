@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from host_sim.base.regular_file import read_bytes
+from host_sim.base.files import read_bytes
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import PAGE_ROBOTS_MAX
 from host_sim.recording.log_reader import LogReader
@@ -27,12 +27,12 @@ _WORLD_MAX = 16_000_000
 
 
 def laboratory(
-    log: Path, trajectory: Trajectory, record: WorldRecord | None, commands: Iterable[tuple[int, Frame]]
+    world: str, trajectory: Trajectory, record: WorldRecord | None, commands: Iterable[tuple[int, Frame]]
 ) -> dict[str, Any]:
     """The data with which the page of a run answers "What if?", or the reason why it cannot.
 
     Args:
-        log: The run's log, beside its world file.
+        world: The text of the run's world file; empty if there is none.
         trajectory: The run.
         record: Its world; None if unknown.
         commands: Each command in the order of their ticks, with the number of ticks before it.
@@ -43,8 +43,8 @@ def laboratory(
     nodes = [track.node for track in trajectory.tracks]
     if record is None:
         return {"why": "What if? needs the world of the run, which is not known here."}
-    if record.program is not None:
-        return {"why": "What if? runs the firmware's own brain, and the brain of this run was a program."}
+    if other := record.own or ("a program" if record.program is not None else ""):
+        return {"why": f"What if? runs the firmware's own brain, and the brain of this run was {other}."}
     if record.world.crates is not None:
         return {"why": "What if? cannot repeat this run: pymunk moved its crates."}
     if nodes != list(range(1, len(nodes) + 1)) or len(nodes) > PAGE_ROBOTS_MAX:
@@ -53,7 +53,7 @@ def laboratory(
         return {"why": "What if? is for shorter runs: this page has only the last part of a longer one."}
     robot_of = {Protocol(robot + 1).id_of("COMMAND"): robot for robot in range(len(nodes))}
     told = [(tick, robot_of[frame.id], frame.data.hex()) for tick, frame in commands if frame.id in robot_of]
-    return {"page": packed(octet_page()), "run": {"commands": told, "ticks": trajectory.ticks, "world": _world(log)}}
+    return {"page": packed(octet_page()), "run": {"commands": told, "ticks": trajectory.ticks, "world": world}}
 
 
 def commands_in(log: LogReader) -> Iterator[tuple[int, Frame]]:
@@ -64,6 +64,7 @@ def commands_in(log: LogReader) -> Iterator[tuple[int, Frame]]:
         yield tick, line.frame
 
 
-def _world(log: Path) -> str:
+def world_beside(log: Path) -> str:
+    """The text of a log's world file; empty if there is none."""
     path = world_path(log)
     return read_bytes(path, _WORLD_MAX).decode() if path.exists() else ""

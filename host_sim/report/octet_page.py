@@ -4,14 +4,14 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import OctetError
+from host_sim.base.files import write_bytes
 from host_sim.base.paths import PACKAGE, PAGE_WASM
 from host_sim.protocol.generated import PARAMETERS
+from host_sim.recording.state import measures
 from host_sim.report.page_bundle import bundle, packed, page_of, with_data
 from host_sim.report.speakers import with_speakers
-from host_sim.view.state import measures
-from host_sim.world.world_names import STILL_WORLDS
+from host_sim.world.names import STILL_WORLDS
 from host_sim.world.worlds import world_of
 
 _TEMPLATE, _WORKER = "octet.html", "sim/page_worker.js"

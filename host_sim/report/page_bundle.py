@@ -2,9 +2,10 @@
 
 In the page:
 - `<link rel="stylesheet" href="X">` becomes the style sheet;
-- `<script type="module" src="X"></script>` becomes that module, after all modules that it imports, directly or not,
-  each in its own function. An import must be one line, `import { a, b } from "./y.js";`, an export the word before a
-  declaration. A module in a folder of `web/` is known by its path from there, `folder/y.js`.
+- `<script type="module" src="X"></script>` becomes a script that unpacks and runs that module, after all modules that
+  it imports, directly or not, each in its own function. An import must be one line, `import { a, b } from "./y.js";`,
+  an export the word before a declaration. A module in a folder of `web/` is known by its path from there,
+  `folder/y.js`.
 
 Comments on lines of their own, inline types, indentation and empty lines are removed: a third of a page.
 """
@@ -18,11 +19,19 @@ from functools import cache
 from pathlib import Path
 
 from host_sim.base.paths import WEB
-from host_sim.view.languages import as_script, with_languages
-from host_sim.view.templates import template
+from host_sim.talk.languages import as_script, template, with_languages
 
 _STYLE = re.compile(r'<link rel="stylesheet" href="([\w./-]+)">')
+_SPACE, _CLOSED = re.compile(r"\s*([{};,])\s*|(?<=\w)(:)\s+"), r"\1\2"
 _SCRIPT = re.compile(r'<script type="module" src="([\w./-]+)"></script>')
+_UNPACK = """<script type="module">
+const packed = Uint8Array.from(atob("{data}"), (sign) => sign.charCodeAt(0));
+const script = document.createElement("script");
+script.type = "module";
+const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+script.textContent = await new Response(unpacked).text();
+document.head.append(script);
+</script>"""
 _IMPORT = re.compile(r'^import (\{[^}]*\}) from "(\.\.?/[\w./-]+)";$', re.MULTILINE)
 _COMMENT = re.compile(r"^[ \t]*(?:/\*[^*]*\*+(?:[^/*][^*]*\*+)*/|//[^\n]*)\n", re.MULTILINE)
 _NOT_READ = re.compile(r"^\s+|/\*\* @type [^*]*\*/ ?", re.MULTILINE)
@@ -31,8 +40,11 @@ _EXPORT = re.compile(r"^export ((?:async )?(?:function\*?|const|let|class) (\w+)
 
 def page_of(name: str) -> str:
     """A template with its words, its style sheet and its modules inserted."""
-    text = _STYLE.sub(lambda match: f"<style>\n{_read(match[1])}</style>", with_languages(_plain(template(name))))
-    return _SCRIPT.sub(lambda match: f'<script type="module">\n{bundle(match[1])}</script>', text)
+    text = _STYLE.sub(
+        lambda match: f"<style>\n{_SPACE.sub(_CLOSED, _read(match[1]))}</style>",
+        with_languages(_plain(template(name))),
+    )
+    return _SCRIPT.sub(lambda match: _UNPACK.replace("{data}", packed(bundle(match[1]))), text)
 
 
 def with_data(text: str, element_id: str, data: object) -> str:

@@ -28,8 +28,7 @@ from host_sim.report.drawing import (
 )
 from host_sim.report.palette import in_palette
 from host_sim.report.sheet import GAP_PX, LINE_PX, TEXT_PX, WIDTH_PX, abreast, stacked, titled
-from host_sim.world.geometry import Point, Pose
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import Point, Pose, SimParams
 
 _MOST_ENVIRONMENTS, _COLUMNS = 9, 3
 _LEGEND_COLUMNS = 6

@@ -3,8 +3,8 @@
 The page is `web/replay.html` as `page_bundle` puts it together; its element `run` has the run, its element
 `laboratory` the data of laboratory.py, and `speakers` the scripts to talk with: see speakers.py.
 
-The run is one object. Measures, EnvironmentScene, State, Trial and Lesson are as in view/state_types.py. The value in
-a pair holds from the pair's tick until that of the next pair; the first pair is that of tick `first_tick`.
+The run is one object. Measures, EnvironmentScene, State, Trial and Lesson are as in recording/state_types.py. The
+value in a pair holds from the pair's tick until that of the next pair; the first pair is that of tick `first_tick`.
 
     version      3
     title        the page's title, such as "seed 7, 3 environments"
@@ -47,12 +47,12 @@ from operator import sub
 from pathlib import Path
 from typing import Any, TypeVar
 
-from host_sim.base.atomic_file import write_bytes
+from host_sim.base.files import write_bytes
 from host_sim.protocol.generated import COLUMNS, ROW
+from host_sim.recording.state import measures
 from host_sim.recording.trajectory import RobotTrack, Trajectory
 from host_sim.report.page_bundle import page_of, with_data
 from host_sim.report.speakers import with_speakers
-from host_sim.view.state import measures
 
 T = TypeVar("T", bound=tuple[Any, ...])
 

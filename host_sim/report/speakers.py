@@ -5,7 +5,7 @@ from typing import Any
 
 from host_sim.report.page_bundle import packed, with_data
 from host_sim.talk.conversation import SPEAKERS, script_named, texts_of
-from host_sim.view.languages import as_script
+from host_sim.talk.languages import as_script
 
 
 def speakers() -> dict[str, Any]:

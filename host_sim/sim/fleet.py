@@ -1,24 +1,34 @@
 """A fleet: up to thousands of robots without a bus, each in a world of its own or all in one."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from itertools import chain
+from typing import NamedTuple
 
 from host_sim.base.errors import UsageError
-from host_sim.protocol.words import NODE_MAX
-from host_sim.sim.fleet_film import SAMPLE_TICKS, FleetFilm
+from host_sim.protocol.words import BODY_FAULTS, NODE_MAX
+from host_sim.sim.make import rehearse
 from host_sim.sim.native_fleet import Contacts, NativeFleet, on_all_processors
 from host_sim.sim.run_config import RunConfig
-from host_sim.world.body_kinds import body_kind
-from host_sim.world.geometry import Pose
-from host_sim.world.hall import hall_of
-from host_sim.world.layouts import Layout, NoRoomError
-from host_sim.world.params import SimParams
-from host_sim.world.worlds import world_of
+from host_sim.world.geometry import Pose, SimParams
+from host_sim.world.layouts import Layout, NoRoomError, hall_of
 
 _SEED_SPAN = 2**32
 _BLOCK_TICKS = 1000
 _SHARING_MAX = 10_000  # memory for contacts between robots grows with the square
+
+
+class Frozen(NamedTuple):
+    """A robot that learns no more.
+
+    Attributes:
+        seed: Its seed.
+        memory: Its eight cells, of the kind of its profile.
+    """
+
+    seed: int
+    memory: Sequence[int]
 
 
 @dataclass(frozen=True)
@@ -40,6 +50,8 @@ class FleetResult:
         contacts: Its contacts: times that it was blocked.
         memory: Its eight cells at the end.
         pose: Its pose at the end.
+        met: The patterns at which it was blocked, in the order in which it first was: no other cell of its memory has
+            made a difference.
     """
 
     robot: int
@@ -55,6 +67,7 @@ class FleetResult:
     contacts: Contacts
     memory: tuple[int, ...]
     pose: Pose
+    met: tuple[int, ...] = field(default=(), repr=False)
 
     @property
     def finished(self) -> bool:
@@ -65,8 +78,8 @@ class FleetResult:
 def run_fleet(
     config: RunConfig,
     progress: Callable[[int], object] = lambda _: None,
-    film: FleetFilm | None = None,
     company: int = NODE_MAX,
+    frozen: Sequence[Frozen] = (),
 ) -> Iterator[FleetResult]:
     """Runs a fleet.
 
@@ -76,35 +89,44 @@ def run_fleet(
     Args:
         config: The run, without any options for buses and boards.
         progress: Called now and then with the number of ticks that all robots have run so far.
-        film: Receives a sample at the start, and one every `SAMPLE_TICKS` until it is full.
         company: Number of robots that hear each other if their parameter `share` is on, up to `NODE_MAX`.
+        frozen: The robots, each in a world of its own, instead of those of the run; by default robots that learn.
 
     Yields:
         The result of each robot in each environment, once it has ended.
 
     Raises:
-        UsageError: The robots do not fit into their world, or refuse their configuration.
+        UsageError: The robots do not fit into their world or refuse their configuration, or something would change.
+        BrainError: The user's behaviour has made a mistake.
         OctetError: Something that must be built is missing.
     """
-    return _Run(config, film, company).results(progress)
+    if frozen:
+        config = replace(config, robots=len(frozen), worlds="own")
+    rehearse(config)
+    return _Run(config, company, frozen).results(progress)
 
 
 class _Run:
     """The run of a fleet."""
 
-    def __init__(self, config: RunConfig, film: FleetFilm | None, company: int) -> None:
-        self._config, self._world = config, world_of(config.world)
-        self._film = film
+    def __init__(self, config: RunConfig, company: int, frozen: Sequence[Frozen]) -> None:
+        self._config, self._world, self._frozen = config, config.chosen_world, frozen
+        self._drawn = lru_cache(1)(self._world.generate)  # consecutive robots may have the same seed
         params = self._world.params
         self._own = config.worlds == "own"
         self._shared = [] if self._own else _shared_worlds(config)
         if self._shared:
             params = self._shared[0][1]
+        faults = _faults_of(config)
         told, worlds = config.told, config.robots if self._own else 1
         company = company if told.get("share") else 1
-        self._fleet = NativeFleet(config.robots, worlds, params, body_kind(config.body), company)
+        self._fleet = NativeFleet(config.robots, worlds, params, config.chosen_body, company, own=config.own)
         for index in range(config.robots):
-            self._fleet.start(index, self._seed(index), config.profile, told)
+            self._fleet.start(index, self._seed(index), config.profile_name, told)
+            for fault in faults:
+                self._fleet.damage(index, fault, self._seed(index))
+        for index, robot in enumerate(frozen):
+            self._fleet.teach(index, robot.memory)
         self._entered = [0] * self._fleet.worlds
 
     def results(self, progress: Callable[[int], object]) -> Iterator[FleetResult]:
@@ -123,17 +145,10 @@ class _Run:
             active = [world for world in active if world not in last]
 
     def _run_block(self, worlds: list[int]) -> None:
-        film, fleet = self._film, self._fleet
-        if film is None or film.is_full(fleet.robots):
-            fleet.run(fleet.ticks_max or _BLOCK_TICKS, worlds)
-            return
-        if not film.poses:
-            film.add(fleet)
-        fleet.run(SAMPLE_TICKS, worlds)
-        film.add(fleet)
+        self._fleet.run(self._fleet.ticks_max or _BLOCK_TICKS, worlds)
 
     def _seed(self, index: int) -> int:
-        return (self._config.seed + index) % _SEED_SPAN
+        return self._frozen[index].seed if self._frozen else (self._config.seed + index) % _SEED_SPAN
 
     def _robots_of(self, world: int) -> Iterable[int]:
         return (world,) if self._own else range(self._fleet.robots)
@@ -144,13 +159,11 @@ class _Run:
         for world, layout in zip(worlds, layouts, strict=True):
             self._fleet.enter(world, layout, round(self._config.limit_s / self._world.params.tick_s))
             self._entered[world] += 1
-            if self._film:
-                self._film.enter(world, layout, self._fleet.robots)
 
     def _layouts(self, worlds: Sequence[int]) -> list[Layout]:
         if self._shared:
             return [self._shared[self._entered[world]][0] for world in worlds]
-        return [self._world.generate(self._seed(world), self._entered[world] + 1) for world in worlds]
+        return [self._drawn(self._seed(world), self._entered[world] + 1) for world in worlds]
 
     def _leave(self, world: int) -> Iterator[FleetResult]:
         """Ends an environment."""
@@ -166,13 +179,19 @@ class _Run:
             )
 
 
+def _faults_of(config: RunConfig) -> list[str]:
+    if any(it.name not in BODY_FAULTS or it.after_s or (it.number or 1) > 1 or it.robot for it in config.scheduled):
+        raise UsageError("nothing changes in a fleet: its bodies have their faults from the start, such as mirror@0s")
+    return [it.what for it in config.scheduled]
+
+
 def shared_world(config: RunConfig, number: int) -> tuple[Layout, SimParams]:
     """An environment of robots that share one, and its dimensions.
 
     Raises:
         NoRoomError: There is no room for all the robots.
     """
-    world = world_of(config.world)
+    world = config.chosen_world
     if config.worlds == "hall":
         return hall_of(world, config.seed, number, config.robots)
     return world.generate(config.seed, number, config.robots), world.params

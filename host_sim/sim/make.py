@@ -3,34 +3,24 @@
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
-from pathlib import Path
-from random import Random
 
-from host_sim.backends.bus_lines import BusLines
-from host_sim.backends.connect import connect
 from host_sim.base.errors import RefusedError, UsageError
 from host_sim.client.commands import start
-from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog, NoLog
-from host_sim.client.handshake import handshake
 from host_sim.client.pacing import Lockstep, Pace, RealTime
-from host_sim.client.punctuality import Limits
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
-from host_sim.protocol.codec import NODE_MAX, Protocol
+from host_sim.protocol.codec import NODE_MAX
+from host_sim.sim.connect import Connector
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from host_sim.transport.clock import VirtualClock, WallClock
-from host_sim.world.body_kinds import PINS, body_kind
 from host_sim.world.changes import Change
-from host_sim.world.layouts import NoRoomError, World
-from host_sim.world.worlds import world_of
+from host_sim.world.layouts import NoRoomError
 
 Memory = Sequence[int]
 
-_EXTERNAL_S = 15.0
 _SEED_SPAN = 2**32
-_OWNER_MAX = 255
+_REHEARSAL_S = 60.0
 
 
 @contextmanager
@@ -70,17 +60,15 @@ def make(
         RobotError: A robot does not answer.
     """
     config = config or RunConfig()
-    _check(config, world_of(config.world))
+    _check(config)
     with ExitStack() as stack:
         if log is None:
             log = NoLog()
             stack.callback(log.close)
         clients = []
-        lines = BusLines(
-            config.bus, config.nodes, config.bitrate, config.reconnect_s, config.robot_command, config.program
-        )
+        connector = Connector(stack, config.access)
         for node in config.nodes:
-            client = connected(stack, config, node, lines, log)
+            client = connector.client(node, log)
             ready(client)
             clients.append(client)
         yield assemble(clients, config, memories)
@@ -93,20 +81,17 @@ def assemble(clients: Sequence[RobotClient], config: RunConfig, memories: Sequen
         UsageError: There is no such world, or a robot refuses its configuration.
         RobotError: A robot does not answer.
     """
-    world = world_of(config.world)
+    world = config.chosen_world
     start_robots(clients, config, memories)
     pace: Pace = RealTime(clients, world.params.tick_s) if config.real_time else Lockstep(clients)
-    changes = [Change.parse(change) for change in config.changes]
     simulation = Simulation(
         *(world, clients, pace, config.seed, config.environments, config.limit_s),
-        changes=changes,
+        changes=config.scheduled,
         physics=config.chosen_physics,
-        kind=body_kind(config.body),
+        kind=config.chosen_body,
     )
-    if config.program:
-        from host_sim.backends.programmed_robot import read_program  # noqa: PLC0415 - a run without one begins sooner
-
-        simulation.record.program = read_program(Path(config.program))
+    simulation.record.program = config.program_text
+    simulation.record.own = config.own.source if config.own else None
     return simulation
 
 
@@ -118,7 +103,7 @@ def start_robots(clients: Sequence[RobotClient], config: RunConfig, memories: Se
         RobotError: A robot does not answer.
     """
     for index, client in enumerate(clients):
-        profile = client.protocol.choices("COMMAND", "profile")[config.profile]
+        profile = client.protocol.choices("COMMAND", "profile")[config.profile_name]
         memory = memories[index] if index < len(memories) else None
         try:
             start(client, Session((config.seed + index) % _SEED_SPAN, profile, config.told), memory)
@@ -126,17 +111,31 @@ def start_robots(clients: Sequence[RobotClient], config: RunConfig, memories: Se
             raise UsageError(f"{refused}; give values within the robot's range") from refused
 
 
-def _check(config: RunConfig, world: World) -> None:
+def rehearse(config: RunConfig) -> None:
+    """Runs a user's behaviour for a minute in a process that checks it: where it runs fast, some mistakes do harm.
+
+    Raises:
+        BrainError: It has made a mistake.
+    """
+    if config.own is None:
+        return
+    alone = replace(config, robots=1, worlds="one", environments=1, changes=(), bus="none", robot="spawn", fast=False)
+    with make(replace(alone, limit_s=min(config.limit_s, _REHEARSAL_S))) as simulation:
+        for _ in simulation.run():
+            simulation.clients[0].connection.status()
+
+
+def _check(config: RunConfig) -> None:
     if config.nodes.stop - 1 > NODE_MAX:
         last = config.nodes.stop - 1
         raise UsageError(f"{config.robots} robots from node {config.node} need node {last}; the last is {NODE_MAX}")
-    for change in (Change.parse(text) for text in config.changes):
+    for change in config.scheduled:
         _check_change(change, config)
     if config.robots == 1:
         return
     try:
         for number in range(1, config.environments + 1):
-            world.generate(config.seed, number, config.robots)
+            config.chosen_world.generate(config.seed, number, config.robots)
     except NoRoomError as error:
         raise UsageError(f"{config.robots} robots are too many for seed {config.seed}: {error}") from None
 
@@ -148,38 +147,3 @@ def _check_change(change: Change, config: RunConfig) -> None:
     ):
         if (number or 1) > last:
             raise UsageError(f"{change.what} is scheduled for {what} {number}, but the run has {last}")
-
-
-def connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, log: FrameLog) -> RobotClient:
-    """Connects to a robot of a run. It is stopped and identified, but not started; the stack ends it.
-
-    Raises:
-        UsageError: The configuration is invalid.
-        RobotError: The robot does not answer.
-    """
-    connection = connect(stack, config.bus, config.robot, node, config.board, lines, pins=config.body == PINS)
-    if config.faults:
-        connection = _with_faults(connection, config, node)
-    external = config.robot == "external"
-    # Drawn from the seed: simulators on one bus rarely share an ID, and a repeated run has the same log.
-    owner = config.owner or (Random(config.seed).randint(1, _OWNER_MAX) if external else 1)
-    client = RobotClient(connection, Protocol(node), log, lockstep=not config.real_time, owner=owner)
-    client.punctuality.limits = Limits(config.unanswered_max, config.gap_max_s, config.late_max)
-    handshake(client, _EXTERNAL_S if external else connection.deadline_s, shared=external)
-    return client
-
-
-def _with_faults(connection: Connection, config: RunConfig, node: int) -> Connection:
-    """Adds the requested faults to a connection.
-
-    For a robot in this process, delays are simulated on a virtual clock and cost no wall time.
-    """
-    # Most runs have no faults and start without loading these modules.
-    from host_sim.faults.faulty_link import FaultyLink  # noqa: PLC0415 - see above
-    from host_sim.faults.rule import Rule  # noqa: PLC0415 - see above
-    from host_sim.faults.schedule import Schedule  # noqa: PLC0415 - see above
-    from host_sim.protocol.forgery import forgers  # noqa: PLC0415 - see above
-
-    clock = VirtualClock() if connection.answers_at_once else WallClock()
-    schedule = Schedule([Rule.parse(rule) for rule in config.faults], config.fault_seed, forgers(Protocol(node)))
-    return replace(connection, link=FaultyLink(connection.link, schedule, clock), now=clock.now)

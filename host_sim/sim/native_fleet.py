@@ -4,38 +4,30 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
-from typing import Any, NamedTuple, TypeVar
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.base.errors import UsageError
+from host_sim.base.errors import BrainError, UsageError
 from host_sim.base.paths import BUILD, PACKAGE
-from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, PARAMETERS, PROFILES, Opcode
-from host_sim.world.body_kinds import BodyKind, draw_body
-from host_sim.world.geometry import Pose
+from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, OWN_PROFILE, PARAMETERS, PROFILES, Opcode
+from host_sim.world.body_kinds import BodyKind, add_fault, draw_body
+from host_sim.world.geometry import Pose, SimParams
 from host_sim.world.layouts import Layout
-from host_sim.world.native_library import load_native
-from host_sim.world.params import SimParams
 from host_sim.world.plain_space import cones_in_c, grid_in_c
-from host_sim.world.world_library import world_library
+from host_sim.world.world_library import WORLD_HEADERS, load_native, world_library
+
+if TYPE_CHECKING:
+    from host_sim.sim.own_brain import OwnBrain
 
 LIBRARY = BUILD / "host" / "host_sim" / "sim" / "native" / "liboctet_fleet.so"
-_WORLD = PACKAGE / "world" / "native"
-_NAMES = (
-    "vector",
-    "space/space",
-    "body_faults",
-    "world",
-    "space/capsule",
-    "cones",
-    "space/plain_grid",
-    "space/plain_space",
-)
-HEADERS = (*(_WORLD / f"{name}.h" for name in _NAMES), PACKAGE / "sim" / "native" / "fleet.h")
+HEADERS = (*WORLD_HEADERS, PACKAGE / "sim" / "native" / "fleet.h")
 
 _Done = TypeVar("_Done")
 _GRID_FROM = 8
+_WHOLE_HALF = 0xF  # of WRITE: all four cells of a half
 _SLICE, _SLICES = 20, 16  # work items that a thread takes at a time: few enough for all threads to be busy to the end
 
 
@@ -64,8 +56,15 @@ class NativeFleet:
         ticks_max: Maximum number of ticks per call of `run`; None for any.
     """
 
-    def __init__(
-        self, robots: int, worlds: int, params: SimParams, kind: BodyKind | None = None, company: int = 1
+    def __init__(  # noqa: PLR0913 - the robots, and all that is around them
+        self,
+        robots: int,
+        worlds: int,
+        params: SimParams,
+        kind: BodyKind | None = None,
+        company: int = 1,
+        *,
+        own: "OwnBrain | None" = None,
     ) -> None:
         """Allocates the robots and worlds.
 
@@ -75,6 +74,7 @@ class NativeFleet:
             params: The dimensions of the worlds.
             kind: Properties of the bodies; None: ideal.
             company: Number of consecutive robots that hear each other.
+            own: The user's behaviour of the robots; None for the firmware's.
 
         Raises:
             NoNativeError: The library cannot be used.
@@ -82,7 +82,8 @@ class NativeFleet:
         self.robots, self.worlds = robots, worlds
         self._params = params
         world_library()  # before the threads need it: each would load its own
-        self._ffi, self._library = loaded()
+        self._own = own
+        self._ffi, self._library = loaded(own.fleet if own else LIBRARY)
         ffi = self._ffi
         self._each = robots // worlds  # robots per world
         # cffi frees memory once no name refers to it.
@@ -121,10 +122,22 @@ class NativeFleet:
             kit.ranges = self._ranges + index // self._each
             self._bodies[index].kit = self._ffi.cast("struct kit *", _address(kit))
         self._library.fleet_wake(self._robots + index)
-        if self._command(robot, Opcode.START, PROFILES[profile], seed) & ANSWER_WANTS_RANGES:
+        if self._command(robot, Opcode.START, PROFILES.get(profile, OWN_PROFILE), seed) & ANSWER_WANTS_RANGES:
             raise UsageError(f"profile {profile} needs distances, which a fleet lacks: choose another one")
         for name, value in settings.items():
             self._command(robot, Opcode.SET, PARAMETERS[name].number, value)
+
+    def teach(self, index: int, memory: Sequence[int]) -> None:
+        """Gives a robot that has started its eight cells; it learns no more."""
+        robot, half = self._robots[index], CELL_COUNT // 2
+        for upper, cells in enumerate((memory[:half], memory[half:])):
+            self._command(robot, Opcode.WRITE, upper << half | _WHOLE_HALF, int.from_bytes(bytes(cells), "little"))
+        self._command(robot, Opcode.FREEZE, 1, 0)
+
+    def damage(self, index: int, what: str, seed: int) -> None:
+        """Adds a fault to the body of a robot, such as "mirror"."""
+        faults = _address(self._ffi.addressof(self._bodies[index], "faults"))
+        add_fault(world_library()[0].cast("struct body_faults *", faults), what, seed)
 
     def enter(self, world: int, layout: Layout, ticks_max: int) -> None:
         """Puts the robots of a world into another environment; their odometers keep their values.
@@ -140,7 +153,7 @@ class NativeFleet:
             body, robot = self._bodies[index], self._robots[index]
             body.x_mm, body.y_mm, body.heading_rad = pose
             body.seen, body.collisions, body.depth_mm = -1, 0, 0.0
-            robot.ticks, robot.ticks_max, robot.food_eaten = 0, ticks_max, 0
+            robot.ticks, robot.ticks_max, robot.food_eaten, robot.met = 0, ticks_max, 0, 0
             robot.begun = [0] * self._library.FLEET_REASONS
             robot.denied = robot.contacts = robot.blocked_ticks = robot.blocked_longest = robot.blocked_now = 0
         self._library.world_begin(self._worlds + world)
@@ -157,7 +170,16 @@ class NativeFleet:
 
         Returns:
             The number of robots whose environment has not ended.
+
+        Raises:
+            BrainError: The user's behaviour has made a mistake.
         """
+        left = self._run(ticks, worlds)
+        if self._own and (failure := self._ffi.string(self._library.own_failure())):
+            raise BrainError(self._own.named(bytes(failure).decode(errors="replace")))
+        return left
+
+    def _run(self, ticks: int, worlds: Sequence[int] | None) -> int:
         if second := self.ticks_max:
             self._library.fleet_memories(self._robots, self.robots, self._company)
             if self.worlds < self.robots:  # to the end of their current second
@@ -196,6 +218,7 @@ class NativeFleet:
             "known_ticks": int(robot.known_ticks) or None,
             "contacts": Contacts(robot.contacts, robot.blocked_ticks, robot.blocked_longest, bool(robot.blocked_now)),
             "memory": tuple(self._memories(index, 1)),
+            "met": tuple(pattern for at in range(0, 32, 4) if (pattern := robot.met >> at & 15)),
             "pose": Pose(body.x_mm, body.y_mm, body.heading_rad),
         }
 
@@ -221,12 +244,6 @@ class NativeFleet:
         at = self._ffi.offsetof("struct fleet_robot", name)
         robots = np.frombuffer(self._ffi.buffer(self._robots), np.uint8).reshape(self.robots, -1)
         return np.asarray(robots[:, at : at + 4].copy().view(np.uint32)[:, 0])
-
-    def positions(self) -> NDArray[np.int64]:
-        """Positions of all robots: shape (robots, 3), x and y in mm and heading in mrad."""
-        bodies = np.frombuffer(self._ffi.buffer(self._bodies), np.uint8).reshape(self.robots, -1)
-        poses = bodies[:, : 3 * 8].copy().view(np.float64) * (1.0, 1.0, 1000.0)
-        return np.asarray(np.rint(poses), np.int64)
 
     def _bind(self) -> None:
         ffi, size = self._ffi, self._library.fleet_core_size()
@@ -284,10 +301,10 @@ def _address(pointer: Any) -> int:
 
 
 @cache
-def loaded() -> tuple[Any, Any]:
-    """The library.
+def loaded(library: Path = LIBRARY) -> tuple[Any, Any]:
+    """The library, or one that is linked with a user's behaviour.
 
     Raises:
         NoNativeError: The library cannot be used.
     """
-    return load_native(LIBRARY, "fleet_", HEADERS)
+    return load_native(library, "fleet_", HEADERS)

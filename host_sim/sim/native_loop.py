@@ -4,17 +4,16 @@ from collections.abc import Sequence
 from functools import cache
 from typing import Any, NamedTuple
 
-from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.paths import BUILD, PACKAGE, ROOT
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.pacing import BegunTick
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.generated import ROW, Drive, Senses
-from host_sim.sim.loop_robots import LoopRobot, Native, RobotBehindLink, RobotInProcess
+from host_sim.sim.block_catch_up import LoopRobot, Native, RobotBehindLink, RobotInProcess
+from host_sim.sim.in_process_link import InProcessLink
 from host_sim.transport.link import SocketLink
 from host_sim.world.arena import Arena
-from host_sim.world.native_library import load_native
-from host_sim.world.world_library import WORLD_HEADERS
+from host_sim.world.world_library import WORLD_HEADERS, load_native
 
 LIBRARY = BUILD / "host" / "host_sim" / "sim" / "native" / "liboctet_loop.so"
 _NATIVE = PACKAGE / "sim" / "native"
@@ -179,8 +178,8 @@ class NativeLoop:
     def _bind(self, robot: Any, client: RobotClient) -> LoopRobot:
         """Lets the C code reach a robot, and provides its buffers."""
         ffi, library, link = self._ffi, self._library, client.connection.link
-        robot.senses_id, robot.drive_id, robot.heartbeat_id = map(
-            client.protocol.id_of, ("SENSES", "DRIVE", "HEARTBEAT")
+        robot.senses_id, robot.drive_id, robot.heartbeat_id, robot.health_id = map(
+            client.protocol.id_of, ("SENSES", "DRIVE", "HEARTBEAT", "HEALTH")
         )
         buffers = (
             ffi.new("int16_t[]", BLOCK_TICKS * len(ROW)),
@@ -206,6 +205,8 @@ class NativeLoop:
         """Takes over changes made by commands and people."""
         robot = self._robots[index]
         robot.senses_counter, self._memories[index] = client.inbox.sent_counter, client.memory
+        told = client.inbox.told
+        robot.commands, robot.heard[0], robot.heard_count, robot.driven = told.commands, told.heard, 1, told.drive
 
 
 @cache

@@ -1,21 +1,27 @@
 """The options of a run as a table: the source of command line, help text, checks and `RunConfig`."""
 
 import shlex
-from dataclasses import dataclass, field, fields
-from functools import cache
-from typing import Any
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from random import Random
+from typing import TYPE_CHECKING, Any
 
-from host_sim.backends.images import BOARDS
-from host_sim.base.errors import UsageError
-from host_sim.faults.rule import FAULT_NAMES
-from host_sim.protocol.words import NODE_MAX, PARAMETERS, PROFILES
-from host_sim.transport.bit_rates import BIT_RATE, BIT_RATES
-from host_sim.world.body_kinds import PINS, body_kind
-from host_sim.world.physics_names import FAST, PHYSICS, PYMUNK
-from host_sim.world.world_names import CRATES, RANDOM, WORLD_NAMES
+from host_sim.base.errors import UsageError, meant
+from host_sim.client.deadlines import Limits
+from host_sim.protocol.words import NODE_MAX, OWN, PARAMETERS, PROFILES
+from host_sim.sim.access import BOARDS, PICO, ROBOTS, Access
+from host_sim.sim.option import flag_of, option, options_of
+from host_sim.transport.link import BIT_RATE, BIT_RATES
+from host_sim.transport.rule import FAULT_NAMES, Rule
+from host_sim.world.body_kinds import PINS, BodyKind, body_kind
+from host_sim.world.changes import Change
+from host_sim.world.layouts import World
+from host_sim.world.names import CRATES, FAST, PHYSICS, PYMUNK, RANDOM, WORLD_NAMES
+from host_sim.world.worlds import world_of
 
-ROBOTS = ("spawn", "external", "qemu", "emulated", "observe")
-"""The ways to get a robot."""
+if TYPE_CHECKING:
+    from host_sim.sim.own_brain import OwnBrain
 
 FLEET_MAX = 100_000
 """Maximum number of robots of a fleet."""
@@ -23,62 +29,17 @@ FLEET_MAX = 100_000
 WORLDS = ("one", "own", "hall")
 """Whether the robots of a run share one world, each has its own, or all share a hall of as many as they need."""
 
+C_FILE = ".c"
+"""The ending of a file with a user's behaviour."""
+
 _SEEDS = (0, 2**32 - 1)
+_OWNER_MAX = 255
 
 
-@dataclass(frozen=True)
-class Option:
-    """A row of the table: the properties of an option besides its name, type and default.
-
-    Attributes:
-        text: Description for people.
-        limits: Its minimum and maximum; None if it is not a number, or has choices.
-        choices: The permitted values; empty if any.
-        metavar: The placeholder of its value in the help text.
-        unset: Description of the default, if its value does not say enough.
-        flag: Its name on the command line, if it differs from the field's.
-        const: The value if the flag is given without one; None if a value is required.
-        commands: The commands that have it.
-        fleet: Whether a fleet has it.
-    """
-
-    text: str
-    limits: tuple[float, float] | None = None
-    choices: tuple[Any, ...] = ()
-    metavar: str | None = None
-    unset: str = ""
-    flag: str = ""
-    const: str | None = None
-    commands: tuple[str, ...] = ("run", "watch")
-    fleet: bool = True
-
-    def allows(self, value: Any) -> bool:
-        """Whether a value is one of the choices and within the limits."""
-        if self.limits is not None:
-            return bool(self.limits[0] <= value <= self.limits[1])
-        return not self.choices or value in self.choices
-
-    @property
-    def range(self) -> str:
-        """The permitted values, for people; empty if any."""
-        return "{:.10g}..{:.10g}".format(*self.limits) if self.limits else ", ".join(map(str, self.choices))
-
-
-def option(default: Any, text: str, **row: Any) -> Any:
-    """A field of a dataclass that is an option; the further arguments are those of `Option`."""
-    given: dict[str, Any] = {"default_factory": dict} if default == {} else {"default": default}
-    return field(metadata={"option": Option(text, **row)}, **given)
-
-
-@cache
-def options_of(config: Any) -> dict[str, tuple[Any, Option]]:
-    """The options of a configuration: for each name, its field and its row."""
-    return {it.name: (it, it.metadata["option"]) for it in fields(config) if "option" in it.metadata}
-
-
-def flag_of(name: str, row: Option) -> str:
-    """The name of an option on the command line."""
-    return row.flag or f"--{name.replace('_', '-')}"
+def profile_error(word: str) -> str:
+    """What is wrong with the name of a behaviour, built in or in a C file; empty if nothing is."""
+    allowed = word in PROFILES or word.endswith(C_FILE)
+    return "" if allowed else f"there is no {word!r}; {meant(word, PROFILES)}, or name a {C_FILE} file"
 
 
 @dataclass(frozen=True)
@@ -98,7 +59,7 @@ class RunConfig:
     )
     body: str = option(
         "ideal",
-        "the robots' bodies: ideal; kit, with motors and sensors as they come off the bench and settings that suit "
+        "the robots' bodies: ideal; kit, with motors and sensors of normal tolerances and settings that suit "
         "them; pins, a kit that an emulated board drives by itself through its pins; or your own file, such as "
         "my_body.toml",
         metavar="BODY",
@@ -116,7 +77,16 @@ class RunConfig:
         unset=f"one for up to {NODE_MAX} robots, else own",
         commands=("run",),
     )
-    profile: str = option("article", "the robot's behaviour", choices=PROFILES)
+    profile: str = option(
+        "article",
+        "the robot's behaviour, or a C file of your own, which tools/octet new begins",
+        choices=PROFILES,
+        ending=C_FILE,
+        metavar="PROFILE",
+    )
+    fast: bool = option(
+        False, "a behaviour of your own runs in this process, without the checks of its memory", fleet=False
+    )
     program: str = option(
         "",
         "the robot's brain is this program, in the language of the article's listing, such as "
@@ -126,7 +96,7 @@ class RunConfig:
         fleet=False,
     )
     settings: dict[str, int] = option(
-        {}, "set a parameter; may be repeated", flag="--set", metavar="NAME=VALUE", unset="the values below"
+        {}, "set a parameter; may be repeated", flag="--set", metavar="NAME=VALUE", unset="what --help-all lists"
     )
     bus: str = option(
         "none",
@@ -154,7 +124,7 @@ class RunConfig:
         unset="the firmware",
         fleet=False,
     )
-    board: str = option("", "board for --robot emulated", choices=BOARDS, unset=BOARDS[0])
+    board: str = option("", "board for --robot emulated", choices=(*BOARDS, PICO), unset=BOARDS[0])
     node: int = option(
         1,
         "the robot's node number on the bus; further robots get the next ones",
@@ -165,7 +135,7 @@ class RunConfig:
     owner: int = option(
         0,
         "owner ID of this simulator; a robot on a shared bus obeys only its owner",
-        limits=(1, 255),
+        limits=(1, _OWNER_MAX),
         metavar="N",
         unset="1 for robots started here, drawn from the seed for external ones",
     )
@@ -220,6 +190,14 @@ class RunConfig:
         False, "run at wall-clock speed instead of as fast as possible", commands=("run",), fleet=False
     )
 
+    gdb: bool = option(
+        False,
+        "start the robot in gdb; the world waits as long as it stands at a breakpoint. With --robot qemu, attach "
+        "gdb-multiarch to the image",
+        commands=("run",),
+        fleet=False,
+    )
+
     def __post_init__(self) -> None:
         table: Any = type(self)
         for name, (it, row) in options_of(table).items():
@@ -230,11 +208,28 @@ class RunConfig:
             raise UsageError("--robot observe watches one robot: use tools/octet watch --bus BUS --robot observe")
         if self.world == CRATES and (self.is_fleet or self.physics == FAST):
             raise UsageError(f"only pymunk can push what --world {CRATES} has: no --physics {FAST}, and no fleet")
+        if self.profile.endswith(C_FILE):
+            self._check_own()
+        elif self.fast:
+            raise UsageError(
+                "--fast is for a behaviour of your own: name it with --profile mine.c, or leave --fast out"
+            )
         if self.body == PINS and self.robot != "emulated":
             raise UsageError(
-                "--body pins is a robot on the pins of an emulated board: use --robot emulated --board blue_pill or "
-                "nucleo_g431rb"
+                "--body pins is a robot on the pins of an emulated board: use --robot emulated --board blue_pill, "
+                "nucleo_g431rb or pico"
             )
+
+    def _check_own(self) -> None:
+        """Refuses what a behaviour in a C file cannot be combined with."""
+        for name in ("robot_command", "program"):
+            if getattr(self, name):
+                flag = flag_of(name, options_of(RunConfig)[name][1])
+                raise UsageError(f"--profile {self.profile} is built into the firmware: leave {flag} out")
+        if self.fast and self.bus not in ("auto", "none"):
+            raise UsageError(f"--fast runs the robot in this process: leave --bus {self.bus} out")
+        if self.fast and self.robot != "spawn":
+            raise UsageError(f"--fast runs the robot in this process: leave --robot {self.robot} out")
 
     def command(self) -> str:
         """The command line of this run."""
@@ -256,6 +251,75 @@ class RunConfig:
         """Whether the robots have no bus: they do not share one world, or outnumber the nodes of a bus."""
         return self.worlds != "one" or self.robots > NODE_MAX
 
+    def read_files(self) -> None:
+        """Reads the files that the options name, so that errors in them are found before anything is started.
+
+        Raises:
+            UsageError: There is no such world, body, program or behaviour.
+        """
+        for name in ("chosen_world", "chosen_body", "own"):
+            getattr(self, name)
+        from host_sim.sim.in_process_link import check_program  # noqa: PLC0415 - help needs no generated code
+
+        check_program(self.program)
+
+    @cached_property
+    def access(self) -> Access:
+        """How the robots are reached; raises UsageError if such robots cannot be on that bus."""
+        # Drawn from the seed: simulators on one bus rarely share an ID, and a repeated run has the same log.
+        drawn = Random(self.seed).randint(1, _OWNER_MAX) if self.robot == "external" else 1
+        return Access(
+            *(self.bus, self.robot, self.nodes, self.board, self.body == PINS, self.robot_command, self.program),
+            *(self.bitrate, self.reconnect_s, self.owner or drawn, not self.real_time),
+            *(Limits(self.unanswered_max, self.gap_max_s, self.late_max), tuple(map(Rule.parse, self.faults))),
+            fault_seed=self.fault_seed,
+            gdb=self.gdb,
+            own=self.own,
+            fast=self.fast,
+        )
+
+    @cached_property
+    def own(self) -> "OwnBrain | None":
+        """The behaviour in a C file that `profile` names, compiled, None for a built-in one; raises UsageError."""
+        if not self.profile.endswith(C_FILE):
+            return None
+        from host_sim.sim.own_brain import own_brain  # noqa: PLC0415 - few runs need a compiler
+
+        return own_brain(Path(self.profile))
+
+    def with_seed(self, seed: int) -> "RunConfig":
+        """The same run with another seed, and with the same behaviour even if its file has changed since."""
+        other = replace(self, seed=seed)
+        vars(other)["own"] = self.own
+        return other
+
+    @property
+    def profile_name(self) -> str:
+        """The profile by its name on the bus."""
+        return OWN if self.profile.endswith(C_FILE) else self.profile
+
+    @cached_property
+    def chosen_world(self) -> World:
+        """The world that `world` names; raises UsageError if there is none."""
+        return world_of(self.world)
+
+    @cached_property
+    def chosen_body(self) -> BodyKind | None:
+        """Properties of the bodies that `body` names, None for ideal ones; raises UsageError if there are none."""
+        return body_kind(self.body)
+
+    @cached_property
+    def scheduled(self) -> tuple[Change, ...]:
+        """The scheduled changes; raises UsageError if there is no such change."""
+        return tuple(map(Change.parse, self.changes))
+
+    @cached_property
+    def program_text(self) -> bytes | None:
+        """The robots' program, None for the firmware's own; raises UsageError if it cannot be read."""
+        from host_sim.sim.in_process_link import read_program  # noqa: PLC0415 - see above
+
+        return read_program(Path(self.program)) if self.program else None
+
     @property
     def chosen_physics(self) -> str:
         """The physics to use, one of `PHYSICS`."""
@@ -264,8 +328,7 @@ class RunConfig:
     @property
     def told(self) -> dict[str, int]:
         """The parameters to set: those that suit the bodies, overridden by `settings`."""
-        kind = body_kind(self.body)
-        return {**(kind.settings if kind else {}), **self.settings}
+        return {**(self.chosen_body.settings if self.chosen_body else {}), **self.settings}
 
     @property
     def boredom_limit(self) -> int:

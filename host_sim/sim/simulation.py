@@ -2,6 +2,7 @@
 
 import gc
 import math
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -11,22 +12,65 @@ from host_sim.client.pacing import BegunTick, Lockstep, Pace
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.supervision import settle
 from host_sim.protocol.generated import NOTHING_SENSED, PARAMETERS, REST, Drive, Senses
-from host_sim.sim.change_schedule import ChangeSchedule
-from host_sim.sim.episode_result import EpisodeResult, RobotResult
 from host_sim.sim.native_loop import BLOCK_TICKS, NativeLoop, suits
-from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
+from host_sim.sim.world_record import Begun, Edited, EpisodeResult, Refused, RobotResult, WorldRecord
 from host_sim.world.arena import Arena
 from host_sim.world.body import Body
 from host_sim.world.body_kinds import BodyKind
 from host_sim.world.change_effects import edits_of
 from host_sim.world.changes import Change
 from host_sim.world.edits import Edit, EditError
+from host_sim.world.geometry import SimParams
 from host_sim.world.layouts import World
-from host_sim.world.params import SimParams
-from host_sim.world.physics_names import FAST, PYMUNK
+from host_sim.world.names import FAST, PYMUNK
 
 if TYPE_CHECKING:
     from host_sim.world.crates import Crates
+
+
+class ChangeSchedule:
+    """Changes, each due before the senses of a tick.
+
+    Attributes:
+        next_tick: Tick of the next change; far away if no more are due.
+    """
+
+    def __init__(self, changes: Sequence[Change], tick_s: float) -> None:
+        """Takes the changes; none are due before `enter`.
+
+        Args:
+            changes: The changes. Those due in the same tick keep their order.
+            tick_s: Length of a tick, s.
+        """
+        self._changes, self._tick_s = changes, tick_s
+        self._coming: list[tuple[int, Change]] = []
+        self.next_tick = sys.maxsize
+
+    def enter(self, number: int, tick: int) -> None:
+        """Begins an environment; the first one restarts the run. Changes still due in the previous one are dropped.
+
+        Args:
+            number: Number of the environment.
+            tick: Its first tick.
+        """
+        kept = [] if number == 1 else [coming for coming in self._coming if coming[1].number is None]
+        begun = (None, 1) if number == 1 else (number,)
+        new = [change for change in self._changes if change.number in begun]
+        kept += [(tick + round(change.after_s / self._tick_s), change) for change in new]
+        self._coming = sorted(kept, key=lambda coming: (coming[0], self._changes.index(coming[1])))
+        self._look_ahead()
+
+    def due(self, tick: int) -> list[Change]:
+        """Returns the changes that are due by a tick, each only once."""
+        count = sum(at <= tick for at, _ in self._coming)
+        due = [change for _, change in self._coming[:count]]
+        del self._coming[:count]
+        self._look_ahead()
+        return due
+
+    def _look_ahead(self) -> None:
+        self.next_tick = self._coming[0][0] if self._coming else sys.maxsize
+
 
 SPACES_MAX = 32
 """Number of pymunk spaces that may wait to be freed. A space and its handlers form a cycle that holds 260 kB in C, of
@@ -93,7 +137,7 @@ class Simulation:
     _crates: "Crates | None" = None
     _measuring: list[int] = field(default_factory=list)
     _settled: bool = False
-    _hasty: set[int] = field(default_factory=set)
+    _too_fast: set[int] = field(default_factory=set)
     _schedule: ChangeSchedule = field(init=False)
 
     def __post_init__(self) -> None:
@@ -174,7 +218,7 @@ class Simulation:
             RobotError: A robot has ended or does not answer.
         """
         if self.tick >= self._schedule.next_tick:
-            self._surprise()
+            self._make_due_changes()
         if self.loop is not None:
             self._step_in_c(self.loop, ticks_max)
             return
@@ -224,18 +268,18 @@ class Simulation:
                 self.episode.robots[i].food_eaten += 1
             body.move(drive.left_mm_s, drive.right_mm_s)
             if abs(drive.left_mm_s) > WHEEL_MM_S_MAX or abs(drive.right_mm_s) > WHEEL_MM_S_MAX:
-                self._note_haste(i)
+                self._note_overspeed(i)
             if drive.action != before[i].action:
                 begun = self.episode.robots[i].begun
                 begun[drive.reason] = begun.get(drive.reason, 0) + 1
         self.tick += 1
         self.episode.ticks += 1
 
-    def _note_haste(self, index: int) -> None:
+    def _note_overspeed(self, index: int) -> None:
         """Notes once that a robot commanded more than the maximum speed."""
-        if index in self._hasty:
+        if index in self._too_fast:
             return
-        self._hasty.add(index)
+        self._too_fast.add(index)
         told = f"{self.drives[index].left_mm_s} and {self.drives[index].right_mm_s} mm/s"
         self.clients[index].distrust(f"the robot told its wheels {told}; it may do {WHEEL_MM_S_MAX} at most")
 
@@ -271,11 +315,11 @@ class Simulation:
             with suppress(EditError):  # a thing that a person has put into a wall, or made very short, stays there
                 self.edit(edit)
 
-    def _surprise(self) -> None:
+    def _make_due_changes(self) -> None:
         for change in self._schedule.due(self.tick):
-            self._happen(change)
+            self._make_change(change)
 
-    def _happen(self, change: Change) -> None:
+    def _make_change(self, change: Change) -> None:
         """Applies a change; if it is impossible, records the reason and continues."""
         try:
             for edit in edits_of(change, self.arena, self.params, self.seed):

@@ -1,13 +1,69 @@
-"""The environments of a run and the changes made by people, by tick."""
+"""The record of a run: the environments, the changes made by people, by tick, and the results."""
 
+import hashlib
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from host_sim.protocol.generated import CELL_COUNT
 from host_sim.world.body_kinds import BodyKind
 from host_sim.world.edits import Edit
 from host_sim.world.layouts import World
-from host_sim.world.world_names import RANDOM
+from host_sim.world.names import RANDOM
 from host_sim.world.worlds import world_of
+
+_SHOWN = 12
+
+
+@dataclass
+class RobotResult:
+    """The result of one robot in one environment.
+
+    Attributes:
+        node: Its node number on the bus.
+        begun: Number of actions begun, by reason.
+        food_eaten: Number of pieces of food that it ate.
+        collisions: Number of collisions: times that its body began to touch something.
+        stuck_sensors: Number of proximity sensors that are stuck at the end.
+        memory: The eight cells at the end.
+    """
+
+    node: int
+    begun: dict[int, int] = field(default_factory=dict)
+    food_eaten: int = 0
+    collisions: int = 0
+    stuck_sensors: int = 0
+    memory: tuple[int, ...] = (0,) * CELL_COUNT
+
+
+@dataclass
+class EpisodeResult:
+    """The result of one environment.
+
+    Attributes:
+        tick_s: Length of a tick, s.
+        robots: The result of each robot.
+        ticks: Number of ticks.
+        eaten: For each piece of food, whether it was eaten.
+    """
+
+    tick_s: float
+    robots: list[RobotResult]
+    ticks: int = 0
+    eaten: list[bool] = field(default_factory=list)
+
+    @property
+    def finished(self) -> bool:
+        """Whether all the food was eaten."""
+        return bool(self.eaten) and all(self.eaten)
+
+    @property
+    def robot_s(self) -> float:
+        """Robot time spent here, s."""
+        return round(self.ticks * self.tick_s, 3)
+
+    def begun(self, reason: int) -> int:
+        """The number of actions that all robots began for a reason."""
+        return sum(robot.begun.get(reason, 0) for robot in self.robots)
 
 
 class Begun(NamedTuple):
@@ -33,6 +89,21 @@ class Edited(NamedTuple):
     edit: Edit
 
 
+class Source(NamedTuple):
+    """A behaviour in C of its user: the name of its file, without folders, and its text."""
+
+    name: str
+    text: bytes
+
+    @property
+    def sha256(self) -> str:
+        """SHA-256 of the text, in hexadecimal."""
+        return hashlib.sha256(self.text).hexdigest()
+
+    def __str__(self) -> str:
+        return f"{self.name} (SHA-256 {self.sha256[:_SHOWN]})"
+
+
 @dataclass
 class WorldRecord:
     """The contents of `run.world.json`.
@@ -48,6 +119,7 @@ class WorldRecord:
         world: The world from which the environments were drawn.
         kind: Properties of the robots' bodies; None: ideal.
         program: The program that is each robot's brain; None for the firmware's own.
+        own: The user's behaviour of the robots; None for the firmware's own.
         happened: Scheduled changes that were made, in order; they are also among the edits.
     """
 
@@ -61,12 +133,14 @@ class WorldRecord:
     world: World = field(default_factory=lambda: world_of(RANDOM))
     kind: BodyKind | None = None
     program: bytes | None = None
+    own: Source | None = None
     happened: list[str] = field(default_factory=list, compare=False)
 
     @property
     def title(self) -> str:
         """The run's title."""
-        return f"seed {self.seed}" + ("" if self.world.name == RANDOM else f", {self.world.name}")
+        parts = [f"seed {self.seed}", *[self.world.name] * (self.world.name != RANDOM)]
+        return ", ".join([*parts, *[str(self.own)] * (self.own is not None)])
 
     @property
     def changes(self) -> int:

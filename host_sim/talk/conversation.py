@@ -1,11 +1,12 @@
 """A conversation with a robot about a run, with ELIZA, or by any script; answers are marked with their source."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.base.regular_file import read_text
+from host_sim.base.files import read_text
 from host_sim.recording.memory_file import load_memory
 from host_sim.recording.trajectory import Trajectory
 from host_sim.talk.eliza import Eliza, Facts, Known
@@ -173,7 +174,9 @@ def script_named(name: str) -> Script:
 def texts_of(script: str) -> Texts:
     """The texts in the language of a built-in script; English texts for any other."""
     path = _path_of(script).with_suffix(".toml")
-    return read_texts(path if path.parent == SCRIPTS and path.exists() else SCRIPTS / "robot.toml")
+    if path.parent == SCRIPTS and path.exists():
+        return read_texts(path)
+    return replace(read_texts(SCRIPTS / "robot.toml"), joined=None)
 
 
 def _path_of(name: str) -> Path:

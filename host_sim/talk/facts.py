@@ -7,12 +7,12 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from host_sim.protocol.generated import AVOIDING, Reason, Side
+from host_sim.recording.phrases import decimal, lesson_sentence, sentence, verdict
+from host_sim.recording.state_types import Lesson
 from host_sim.recording.trajectory import Trajectory, at
 from host_sim.talk.eliza import Known
 from host_sim.talk.log_index import LogIndex
 from host_sim.talk.texts import POINT, Texts
-from host_sim.view.phrases import decimal, lesson_sentence, sentence, verdict
-from host_sim.view.state_types import Lesson
 
 _SECONDS = re.compile(rf"[0-9]{{1,9}}(?:{POINT}[0-9]{{1,3}})?")
 _MOVES = tuple(reason for reason in Reason if reason != Reason.STOP)

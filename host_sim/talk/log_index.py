@@ -41,7 +41,7 @@ def index_log(path: Path, node: int) -> LogIndex:
     protocol, index = Protocol(node), LogIndex()
     wanted = {protocol.id_of(name): name for name in ("SENSES", "COMMAND", "HEALTH")}
     senses: Frame | None = None
-    for line, it in enumerate(frames_in(path), 1):
+    for line, (_, it) in enumerate(frames_in(path), 1):
         if not isinstance(it, Recorded) or it.frame.id not in wanted:
             continue
         if wanted[it.frame.id] == "SENSES":

@@ -212,7 +212,7 @@ class _Reader:
             return Tagged(tuple(self._listed(node)))
         if node.starts_with("*"):
             return AnyOf(tuple(self._listed(node)))
-        return self._fail(node, "a list in a decomposition begins with * or /")
+        return AnyOf(())  # as in 1966, where a list without a sign stands for no word at all
 
     def _reassembly(self, node: Node, parts: int) -> Reassembly:
         if isinstance(node, Word):

@@ -6,7 +6,7 @@ from typing import Any
 from host_sim.base.errors import UsageError
 
 _COMMENT = re.compile(r";[^\n]*")
-_TOKEN = re.compile(r"[\n()=]|[^\s()=\ufeff]+")
+_TOKEN = re.compile(r"[\n()=]|[0-9]+|[^\s()=\ufeff]+")
 
 
 class Word(str):

@@ -8,8 +8,8 @@ from typing import Any
 
 from host_sim.base.toml_file import parse_toml
 from host_sim.protocol.generated import Side
-from host_sim.view.languages import languages
-from host_sim.view.phrases import ENGLISH, Words
+from host_sim.recording.phrases import ENGLISH, Words
+from host_sim.talk.languages import languages
 
 POINT = "\u00b7"
 """Stands for the decimal point in a question, since ELIZA takes a full stop for the end of a sentence."""
@@ -26,13 +26,14 @@ class Texts:
         words: Words used in the robot's sentences.
         facts: A text with placeholders in braces for each fact, and for each case without anything to report.
         spoken: Phrases in questions for turns, and for the front sensors; longer phrases first.
-        joined: Words before which a comma does not split a sentence.
+        joined: Words before which a comma does not split a sentence; None for a script that is not the robot's, which
+            hears each sentence as it is.
     """
 
     words: Words
     facts: Mapping[str, str]
     spoken: Mapping[str, Sequence[str]]
-    joined: Sequence[str]
+    joined: Sequence[str] | None
 
     def say(self, name: str, /, **values: object) -> str:
         """A text with its placeholders filled in."""
@@ -63,7 +64,9 @@ class Texts:
 
     def heard(self, sentence: str) -> str:
         """Prepares a question for the script: replaces decimal points, and drops commas that do not split it."""
-        joined = rf",(?=\s+(?:{'|'.join(self.joined)})\s)" if self.joined else "(?!)"
+        if self.joined is None:
+            return sentence
+        joined = rf",(?=\s+(?:{'|'.join(self.joined)})\s)"
         return re.sub(joined, " ", _DECIMAL.sub(POINT, sentence), flags=re.IGNORECASE)
 
 

@@ -15,7 +15,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from host_sim.base.errors import LinkDownError, UsageError
-from host_sim.transport.line_stats import LineStats
+from host_sim.transport.link import LineStats
 from host_sim.transport.socket_pair import SocketPairLink
 
 _END_S = 2.0

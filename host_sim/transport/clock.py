@@ -3,8 +3,7 @@
 import time
 from typing import Protocol
 
-from host_sim.base.frame import Frame
-from host_sim.transport.link import Link
+from host_sim.transport.link import Frame, Link
 
 
 class Clock(Protocol):

@@ -1,9 +1,89 @@
-"""The interface of links that carry frames to a robot and back."""
+"""Links: what carries frames to a robot and back, and counts what happens below the frames."""
 
 from collections.abc import Callable
-from typing import Protocol, runtime_checkable
+from dataclasses import dataclass
+from typing import NamedTuple, Protocol, runtime_checkable
 
-from host_sim.base.frame import Frame
+
+class Frame(NamedTuple):
+    """One CAN frame with an 11-bit identifier, or with 29 bits and the flag `EXTENDED`, and 0..8 bytes of data."""
+
+    id: int
+    data: bytes
+
+
+BIT_RATES = (125_000, 250_000, 500_000, 1_000_000)
+"""The usual ones, bits a second."""
+
+BIT_RATE = 500_000
+"""The one that is meant where none is named."""
+
+
+_COPIES_MAX = 32
+
+
+@dataclass
+class LineStats:
+    """Counters of a line: a bus, a serial line, a socket.
+
+    Attributes:
+        outages: Number of times that the line was gone.
+        unsent: Number of frames that could not be sent; a frame that matters is sent again.
+        garbled: Number of lines of text that were not frames: noise.
+        copies: Number of copies of each frame that a serial line sends at once: more than one while it is noisy.
+        reason: Reason for the last outage.
+        heard: Number of bytes of text that came; None for a line that does not carry text.
+        frames: Number of frames in that text.
+        errors: Number of BELLs in it, by which an slcan adapter refuses a command or a frame.
+        strange: The last line of text that was no frame.
+    """
+
+    outages: int = 0
+    unsent: int = 0
+    garbled: int = 0
+    copies: int = 1
+    _garbled_before: int = 0
+    reason: str = ""
+    heard: int | None = None
+    frames: int = 0
+    errors: int = 0
+    strange: str = ""
+
+    @property
+    def noisy(self) -> bool:
+        """Whether frames get lost by noise: then each is sent several times."""
+        return self.copies > 1
+
+    def insist(self) -> None:
+        """Doubles the copies: noise, unlike congestion, does not grow with what is sent."""
+        self.copies = min(2 * self.copies, _COPIES_MAX)
+
+    def ease(self) -> None:
+        """Halves the copies if the line has been clean since the last call."""
+        if self.garbled == self._garbled_before:
+            self.copies = max(self.copies // 2, 1)
+        self._garbled_before = self.garbled
+
+    def account(self) -> str:
+        """Details for an error message, as a continuation of a sentence; empty if there are none."""
+        parts = []
+        if self.outages:
+            parts.append(f"the line was gone {self.outages} times, last: {self.reason}")
+        if self.unsent:
+            parts.append(f"{self.unsent} frames could not be sent")
+        if self.heard is not None and not self.frames:
+            parts.append(
+                "only acknowledgements came from the adapter" if self.heard else "nothing came over the line"
+            )
+        if self.errors:
+            parts.append(f"the adapter refused a command or a frame {self.errors} times (BELL)")
+        if self.garbled and self.strange:
+            parts.append(f"{self.garbled} lines were no frames, the last one {self.strange}")
+        return "".join(f"; {part}" for part in parts)
+
+
+OWN_MAX = 32
+"""Number of sent frames that are remembered, to recognize them if an adapter returns them."""
 
 
 class Link(Protocol):

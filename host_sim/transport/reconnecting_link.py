@@ -5,9 +5,7 @@ from collections.abc import Callable
 from contextlib import suppress
 
 from host_sim.base.errors import LinkDownError, OctetError, RobotError
-from host_sim.base.frame import Frame
-from host_sim.transport.line_stats import LineStats
-from host_sim.transport.link import FrameSocket, Link, SocketLink
+from host_sim.transport.link import Frame, FrameSocket, LineStats, Link, SocketLink
 
 _PAUSE_S = 0.1
 

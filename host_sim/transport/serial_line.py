@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import serial  # type: ignore[import-untyped]  # pyserial has no types
 
 from host_sim.base.errors import LinkDownError, UsageError
-from host_sim.transport.line_stats import LineStats
+from host_sim.transport.link import LineStats
 from host_sim.transport.slcan_link import SlcanLink
 
 _BAUD = 115_200
@@ -33,11 +33,9 @@ def open_serial_line(channel: str, bitrate: int, ids: Sequence[int], stats: Line
         port = serial.Serial(device, int(baud or _BAUD), timeout=0)
     except (serial.SerialException, OSError, ValueError, OverflowError) as error:
         raise UsageError(f"cannot open the bus slcan:{channel}: {str(error).splitlines()[0]}") from error
-    link = SlcanLink(port, stats, ids)
+    # An end of line first, for what may be left of an older one; then close, no time stamps, speed, open.
     try:
-        # An end of line first, for what may be left of an older one; then close, speed, open.
-        link.write(b"\rC\rS%d\rO\r" % _BIT_RATES.index(bitrate))
+        return SlcanLink(port, stats, ids, b"\rC\rZ0\rS%d\rO\r" % _BIT_RATES.index(bitrate))
     except LinkDownError:
-        link.close()
+        port.close()
         raise
-    return link

@@ -5,8 +5,7 @@ from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from host_sim.base.frame import Frame
-from host_sim.transport.link import Link
+from host_sim.transport.link import Frame, Link
 
 _WAITING_MAX = 4096
 _OVERTIME_MAX = 256

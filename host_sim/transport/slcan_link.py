@@ -4,21 +4,24 @@ import os
 import re
 import select
 import time
+from collections import deque
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Protocol
 
 from host_sim.base.errors import LinkDownError
-from host_sim.base.frame import Frame
-from host_sim.transport.line_stats import LineStats
+from host_sim.transport.link import OWN_MAX, Frame, LineStats
 
-_LINE = re.compile(rb"t([0-9A-Fa-f]{3})([0-8])((?:[0-9A-Fa-f]{2}){0,8})")
-_ENDS = re.compile(rb"[\r\a]")
+_LINE = re.compile(rb"t([0-9A-Fa-f]{3})([0-8])((?:[0-9A-Fa-f]{2}){0,12})")
+_ENDS = re.compile(rb"[\r\n\a]")
 _OTHER_FRAMES = (b"T", b"r", b"R")
 _ACKNOWLEDGED = (b"", b"z", b"Z")
 _CHUNK = 4096
 _LINE_MAX = 64
-_SEND_S = 0.1
+_STAMPS = (0, 4, 8)
+"""Digits of a time stamp, which some adapters append to each frame."""
+
+_SEND_S, _REOPEN_S = 0.1, 1.0
 _NO_FRAME = Frame(-1, b"")
 
 
@@ -40,25 +43,34 @@ def encode(frame: Frame) -> bytes:
 def decode(line: bytes) -> Frame | None:
     """The frame in a line without its end; None if it is none with an 11-bit identifier and data."""
     match = _LINE.fullmatch(line)
-    if match is None or len(match[3]) != 2 * int(match[2]):
+    if match is None or len(match[3]) - 2 * int(match[2]) not in _STAMPS:
         return None
-    return Frame(int(match[1], 16), bytes.fromhex(match[3].decode("ascii")))
+    return Frame(int(match[1], 16), bytes.fromhex(match[3][: 2 * int(match[2])].decode("ascii")))
 
 
 class SlcanLink:
     """A link over a stream, which `close` closes. Noise on the line costs the frames that it hits, and no more.
 
+    Frames that an adapter returns to their sender are skipped.
+
     Attributes:
         explain: Called when the line is gone, before the error is raised; it may raise one that says more.
     """
 
-    def __init__(self, end: Stream, stats: LineStats | None = None, ids: Sequence[int] = ()) -> None:
+    def __init__(
+        self, end: Stream, stats: LineStats | None = None, ids: Sequence[int] = (), opening: bytes = b""
+    ) -> None:
         """Takes over the stream.
 
         Args:
             end: The stream.
             stats: Counts the line's outages and errors.
             ids: The identifiers to listen for, none for all; frames with others are skipped.
+            opening: Commands that open the adapter. They are sent now, and each second until the first frame comes:
+                an adapter may restart when its port is opened.
+
+        Raises:
+            LinkDownError: The line is gone.
         """
         self.explain: Callable[[], object] = lambda: None
         self._end = end
@@ -68,9 +80,14 @@ class SlcanLink:
         os.set_blocking(self._fd, False)
         self._lines: list[bytes] = []
         self._rest = b""
+        self._own: deque[Frame] = deque(maxlen=OWN_MAX)
+        self._opening, self._open_at_s = opening, 0.0
+        self._stats.heard = self._stats.heard or 0
+        self._open()
 
     def send(self, frame: Frame) -> None:
         """As in `Link`."""
+        self._own.append(frame)
         self.write(encode(frame) * self._stats.copies)
 
     def write(self, text: bytes) -> None:
@@ -92,15 +109,25 @@ class SlcanLink:
             return frame
         give_up = time.monotonic() + timeout_s
         left_s = timeout_s
-        while frame is None and left_s >= 0 and self._await(select.POLLIN, left_s):
-            self._refill()
-            frame = self._next()
+        while frame is None and left_s >= 0:
+            self._open()
+            if self._await(select.POLLIN, min(left_s, _REOPEN_S)):
+                self._refill()
+                frame = self._next()
+            elif left_s <= _REOPEN_S:
+                break
             left_s = give_up - time.monotonic()
         return frame
 
     def close(self) -> None:
         """As in `Link`."""
         self._end.close()
+
+    def _open(self) -> None:
+        """Sends the opening commands when they are due."""
+        if self._opening and time.monotonic() >= self._open_at_s:
+            self._open_at_s = time.monotonic() + _REOPEN_S
+            self.write(self._opening)
 
     def _next(self) -> Frame | None:
         """The next received frame; None if there is none for us."""
@@ -110,8 +137,14 @@ class SlcanLink:
                 continue
             frame = decode(line)
             if frame is None:
-                self._stats.garbled += not line.startswith(_OTHER_FRAMES)
+                if not line.startswith(_OTHER_FRAMES):
+                    self._stats.garbled += 1
+                    self._stats.strange = ascii(line.decode("latin-1"))
                 return _NO_FRAME
+            if frame in self._own:
+                continue
+            self._stats.frames += 1
+            self._opening = b""
             if not self._ids or frame.id in self._ids:
                 return frame
         return None
@@ -132,6 +165,8 @@ class SlcanLink:
         if not chunk:
             self.explain()
             raise LinkDownError("cannot hear the robot: its end of the line is closed")
+        self._stats.heard = len(chunk) + (self._stats.heard or 0)
+        self._stats.errors += chunk.count(b"\a")
         *lines, rest = _ENDS.split(self._rest + chunk)
         self._lines = lines[::-1]
         self._rest = rest[-_LINE_MAX:]

@@ -9,8 +9,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from host_sim.base.errors import LinkDownError
-from host_sim.base.frame import Frame
-from host_sim.transport.line_stats import LineStats
+from host_sim.transport.link import Frame, LineStats
 
 EXTENDED, REMOTE, ERROR = 0x80000000, 0x40000000, 0x20000000
 """Flags of an identifier, as Linux has them."""
@@ -123,6 +122,7 @@ class SocketPairLink(SocketPair):
     Attributes:
         explain: Called when the far end is closed, before the error is raised; it may raise one that says more.
         closing: As in `FrameSocket`.
+        takes_extended: Whether `receive` returns frames with 29-bit identifiers, flagged `EXTENDED`, as frames.
     """
 
     def __init__(self, end: socket.socket, stats: LineStats | None = None) -> None:
@@ -135,6 +135,7 @@ class SocketPairLink(SocketPair):
         super().__init__(end)
         self.explain: Callable[[], object] = lambda: None
         self.closing: Callable[[], object] = lambda: None
+        self.takes_extended = False
         self._stats = stats or LineStats()
         self._back: Frame | None = None
 
@@ -159,7 +160,8 @@ class SocketPairLink(SocketPair):
             raise LinkDownError("cannot hear the robot: the far end is closed") from error
         if heard is None:
             return None
-        return _NO_FRAME if heard.can_id & FLAGS else Frame(heard.can_id, heard.data[: heard.length])
+        refused = FLAGS & ~EXTENDED if self.takes_extended else FLAGS
+        return _NO_FRAME if heard.can_id & refused else Frame(heard.can_id, heard.data[: heard.length])
 
     def frame_socket(self) -> "SocketPairLink | None":
         """As in `SocketLink`."""

@@ -63,7 +63,6 @@
  * @property {News[]} [news]
  * @property {string[]} [notes]
  * @property {Answer[]} [answers]
- * @property {Seat | null} [seat]
  */
 
 /**
@@ -72,11 +71,6 @@
  *
  * What a page asked, and the answer: see PageTalk in host_sim/live/page_talk.py.
  * @typedef {{who: string, sentence: string, said: Said, places: WirePlace[]}} Answer
- */
-
-/**
- * A page's own robot: node 0 if it got none.
- * @typedef {{node: number, name: string}} Seat
  */
 
 /**
@@ -131,14 +125,16 @@
  *   | {do: "write", node: number, cell: number, side: number}
  *   | {do: "erase", node: number}
  *   | {do: "freeze", node: number, on: number}
- *   | {do: "name", name: string}
  *   | {do: "ask", who: string, text: string, node: number}
  *   | {do: "add_bar", a: WirePlace, b: WirePlace}
  *   | {do: "move_bar", id: number, a: WirePlace, b: WirePlace}
  *   | {do: "remove_bar", id: number}
  *   | {do: "move_food", id: number, at: WirePlace}
+ *   | {do: "plant", at: WirePlace, radius: number}
  *   | {do: "move_plant", id: number, at: WirePlace}
+ *   | {do: "grow_plant", id: number, radius: number}
  *   | {do: "remove_plant", id: number}
+ *   | {do: "body", what: string, robot: number, seed: number}
  *   | {do: "lift", node: number}
  *   | {do: "put", node: number, at: WirePlace, heading: number}} Command
  */

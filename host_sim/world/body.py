@@ -5,11 +5,10 @@ from struct import Struct
 from typing import Any
 
 from host_sim.protocol.generated import Senses
-from host_sim.world.body_faults import add_fault
+from host_sim.world.body_kinds import add_fault
 from host_sim.world.geometry import Point, Pose
-from host_sim.world.native_library import members
 from host_sim.world.native_world import NativeWorld
-from host_sim.world.world_library import world_library
+from host_sim.world.world_library import members, world_library
 
 _POSE, _ODOMETER = ("x_mm", "y_mm", "heading_rad"), ("left_mm", "right_mm")
 

@@ -1,15 +1,48 @@
-"""The kinds of body that a robot may have: an ideal one, the kit's, or one that a person describes in a file."""
+"""The kinds of body that a robot may have: ideal, the kit's, or as a person's file describes it; and their faults."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from host_sim.base.errors import UsageError
-from host_sim.base.near_word import meant, near_word
-from host_sim.protocol.words import KIT_SETTINGS
-from host_sim.world.params import SimParams
+from host_sim.base.errors import UsageError, meant, near_word
+from host_sim.protocol.words import BODY_FAULTS, KIT_SETTINGS
+from host_sim.world.geometry import SimParams
 from host_sim.world.world_library import world_library
+
+
+def check_fault(what: str) -> None:
+    """Refuses text that does not name a fault.
+
+    The plain python3 that checks a command line cannot call C, so it checks only the names.
+
+    Raises:
+        ValueError: There is no such fault; the message says what is expected.
+    """
+    name = what.partition(":")[0]
+    if name not in BODY_FAULTS:
+        raise ValueError(meant(name, BODY_FAULTS))
+    if find_spec("_cffi_backend"):
+        add_fault(world_library()[0].new("struct body_faults *"), what)
+
+
+def add_fault(faults: Any, what: str, seed: int = 0, robot: int = 0) -> None:
+    """Adds or repairs a fault of a body.
+
+    Args:
+        faults: Its `struct body_faults *`.
+        what: The fault, such as "stuck-on:front"; docs/worlds.md has all.
+        seed: Determines, with the robot, the ticks of noise.
+        robot: Number of the robot, from 0.
+
+    Raises:
+        ValueError: There is no such fault.
+    """
+    ffi, library = world_library()
+    if why := library.body_faults_add(faults, what.encode(), seed, robot):
+        raise ValueError(ffi.string(why).decode())
+
 
 IDEAL, KIT, PINS = "ideal", "kit", "pins"
 _VALUES = 2  # a value, and its tolerance

@@ -8,8 +8,7 @@ from host_sim.protocol.generated import PLANT_GROWTH_MM, PLANT_RADIUS_MM
 from host_sim.world.arena import Arena
 from host_sim.world.changes import GROW, PLANT, Change
 from host_sim.world.edits import Edit, EditError
-from host_sim.world.geometry import Plant, Point
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import Plant, Point, SimParams
 from host_sim.world.reach import Reach, clearance_mm
 
 _TRIES = 200

@@ -4,11 +4,10 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from host_sim.base.errors import UsageError
-from host_sim.base.near_word import meant
-from host_sim.base.regular_file import read_words
+from host_sim.base.errors import UsageError, meant
+from host_sim.base.files import read_words
 from host_sim.protocol.words import BODY_FAULTS
-from host_sim.world.body_faults import check_fault
+from host_sim.world.body_kinds import check_fault
 
 PLANT, GROW = "plant", "grow"
 CHANGE_NAMES = (PLANT, GROW, *BODY_FAULTS)

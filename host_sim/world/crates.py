@@ -13,9 +13,8 @@ from host_sim.protocol.generated import Drive
 from host_sim.world.arena import Arena
 from host_sim.world.body import Body
 from host_sim.world.edits import Edit
-from host_sim.world.geometry import Bar, Plant, Point
+from host_sim.world.geometry import Bar, Plant, Point, SimParams
 from host_sim.world.layouts import CrateKind
-from host_sim.world.params import SimParams
 
 _CRATES, _ROBOTS, _FIXED = 1, 2, 4  # categories
 _GRAVITY_MM_S2 = 9810.0

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from host_sim.protocol.generated import EDITS
-from host_sim.world.body_faults import check_fault
+from host_sim.world.body_kinds import check_fault
 from host_sim.world.geometry import Point
 from host_sim.world.world_library import world_library
 

@@ -1,6 +1,6 @@
 """The kinds of memory, and conversion between them.
 
-Calls the firmware's own `memory_kind.h`. The bytes show their kind; an empty memory is of every kind.
+Calls the firmware's own `memory.h`. The bytes show their kind; an empty memory is of every kind.
 """
 
 from collections.abc import Iterable

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from typing import Any, Protocol
 
 from host_sim.world.body_kinds import BodyKind
+from host_sim.world.geometry import SimParams
 from host_sim.world.layouts import Layout
-from host_sim.world.params import SimParams
-from host_sim.world.physics_names import FAST
+from host_sim.world.names import FAST
 from host_sim.world.plain_space import PlainSpace
 from host_sim.world.world_library import world_library
 

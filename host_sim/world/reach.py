@@ -2,10 +2,8 @@
 
 from collections.abc import Iterable
 
-from host_sim.world.geometry import Bar, Plant, Point
-from host_sim.world.layouts import Layout
-from host_sim.world.native_drawing import Obstacles, ReachRoom
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import Bar, Plant, Point, SimParams
+from host_sim.world.layouts import Layout, Obstacles, ReachRoom
 from host_sim.world.world_library import world_library
 
 _TANGENTS_MAX = 6000  # the random worlds have 200 to 1500

@@ -14,10 +14,9 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.base.atomic_file import replacing, write_bytes
 from host_sim.base.compressed_file import CompressedFile
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.base.regular_file import read_bytes, read_words
+from host_sim.base.files import read_bytes, read_words, replacing, write_bytes
 from host_sim.base.result_files import Case, write_results
 from host_sim.base.toml_file import parse_toml
 

@@ -22,8 +22,8 @@ OF_POSIX = re.compile(
     r"import (fcntl|resource)|os\.(O_DIRECTORY|O_NOFOLLOW|O_NONBLOCK|geteuid|fchmod|fchown)"
     r"|signal\.(SIGHUP|SIGALRM|setitimer|pthread_sigmask)"
 )
-OUTSIDE = ("host_sim/lab/campaign/", "host_sim/faults/cable.py")
-"""They hurt robots that are processes, and so run where there are such."""
+OUTSIDE = ("host_sim/lab/campaign/", "host_sim/lab/grade/", "host_sim/transport/cable.py")
+"""They hurt or limit robots that are processes, and so run where there are such."""
 
 WITHOUT = """
 import asyncio, builtins, os, signal, socket, sys
@@ -48,7 +48,7 @@ runpy.run_module("host_sim", run_name="__main__")
 
 
 def sources() -> dict[str, str]:
-    folders = (ROOT / name for name in ("host_sim", "octet", "firmware", "hal"))
+    folders = (ROOT / name for name in ("host_sim", "octet_robot", "firmware", "hal"))
     paths = (path for folder in folders for path in folder.rglob("*") if path.suffix in {".py", ".c", ".h"})
     names = {path.relative_to(ROOT).as_posix(): path for path in paths}
     return {name: path.read_text() for name, path in names.items() if name != ROOM}

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from host_sim.base.progress_line import ProgressLine
 from host_sim.cli.outputs import _linked
-from host_sim.cli.progress_line import ProgressLine
 from tests.runs.support import octet, octet_process
 
 RUN = ("run", "--environments", "1", "--limit-s", "2", "--bus", "fd", "--out")
@@ -30,14 +30,12 @@ def test_a_run_needs_no_standard_stream(tmp_path, streams):
     assert octet_with("", "replay", str(tmp_path / "run.log")).returncode == 0
 
 
-@pytest.mark.parametrize("arguments", [("load",), ("--help",)])
+@pytest.mark.parametrize("arguments", [("dbc", "--node", "1"), ("--help",)])
 def test_a_command_that_prints_needs_no_standard_output(arguments):
     assert octet_with(">&-", *arguments).stderr == ""
 
 
-@pytest.mark.parametrize(
-    "arguments", [("load",), ("dbc", "--node", "1"), ("--version",), ("--help",), ("run", "--help")]
-)
+@pytest.mark.parametrize("arguments", [("dbc", "--node", "1"), ("--version",), ("--help",), ("run", "--help")])
 @pytest.mark.parametrize("unbuffered", ["1", ""])
 def test_a_full_output_is_an_error_in_one_line(arguments, unbuffered):
     done = octet_with(">/dev/full", *arguments, PYTHONUNBUFFERED=unbuffered)
@@ -56,7 +54,14 @@ def test_a_run_whose_output_is_full_leaves_its_files(tmp_path):
 
 @pytest.mark.parametrize("unbuffered", ["1", ""])
 def test_a_reader_who_closes_the_pipe_is_no_error_worth_a_word(unbuffered):
-    assert octet_with("| head -1", "load", PYTHONUNBUFFERED=unbuffered).stderr == ""
+    assert octet_with("| head -1", "dbc", "--nodes", "1", PYTHONUNBUFFERED=unbuffered).stderr == ""
+
+
+def test_a_run_whose_reader_has_read_enough_is_done(tmp_path):
+    done = octet_with("| head -1; exit ${PIPESTATUS[0]}", *RUN, str(tmp_path), PYTHONUNBUFFERED="")
+
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "replay.html").exists()
 
 
 CONTROL = re.compile(r"\x1b\[[?0-9;]*[A-Za-z]|\r")

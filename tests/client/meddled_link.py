@@ -4,14 +4,13 @@ import time
 from collections import deque
 from collections.abc import Callable
 
-from host_sim.backends.in_process_link import InProcessLink
-from host_sim.client.commands import start
-from host_sim.client.handshake import handshake
+from host_sim.client.commands import handshake, start
 from host_sim.client.pacing import Lockstep, RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.protocol.codec import Frame, counter_of
 from host_sim.protocol.generated import Opcode
+from host_sim.sim.in_process_link import InProcessLink
 from tests.client.support import PROTOCOL, connected, drive_for, rolled, senses
 
 LEARNED = 300

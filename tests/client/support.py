@@ -3,23 +3,21 @@
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
-from host_sim.backends.in_process_link import InProcessLink
-from host_sim.client.commands import start, stop
+from host_sim.client.commands import handshake, start, stop
 from host_sim.client.connection import DEADLINE_S, Connection
 from host_sim.client.frame_log import FrameLog
-from host_sim.client.handshake import handshake
 from host_sim.client.pacing import Lockstep
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.client.supervision import settle
-from host_sim.faults.faulty_link import FaultyLink
-from host_sim.faults.rule import Rule
-from host_sim.faults.schedule import Schedule
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.forgery import forgers
 from host_sim.protocol.generated import NOTHING_SENSED, Drive, Senses
+from host_sim.sim.in_process_link import InProcessLink
 from host_sim.transport.clock import VirtualClock
+from host_sim.transport.faulty_link import FaultyLink, Schedule
 from host_sim.transport.link import Link
+from host_sim.transport.rule import Rule
 
 PROTOCOL = Protocol()
 PATTERNS = (0, 0, 0, 4, 4, 2, 0, 6, 4, 0, 8, 14, 0, 0, 2)

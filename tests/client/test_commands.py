@@ -3,10 +3,9 @@
 import pytest
 
 from host_sim.base.errors import RefusedError, RobotError
-from host_sim.client.commands import erase_memory, freeze, start, stop, write_cells
-from host_sim.client.handshake import handshake
+from host_sim.client.commands import erase_memory, freeze, handshake, start, stop, write_cells
 from host_sim.client.robot_client import INCIDENTS_MAX
-from host_sim.client.session import Session
+from host_sim.client.session import Session, Told
 from host_sim.protocol.codec import Frame, counter_of
 from host_sim.protocol.generated import Opcode, Result
 from host_sim.sim.make import make
@@ -148,3 +147,13 @@ def test_a_memory_that_a_person_changes_after_an_environment_is_not_one_lost_on_
         stop(client)
 
     assert client.incidents == []
+
+
+@pytest.mark.parametrize(("lockstep", "takes_senses"), [(True, True), (False, True), (True, False)])
+def test_only_senses_asked_in_lockstep_of_a_robot_that_takes_them_are_held(lockstep, takes_senses):
+    told, asked = Told(takes_senses=takes_senses), Frame(0x101, bytes(range(8)))
+
+    told.ask(asked if lockstep else None)
+    told.take_drive(Frame(0x201, bytes(8)))
+
+    assert (told.heard != 0) == (lockstep and takes_senses)

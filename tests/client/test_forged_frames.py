@@ -12,6 +12,8 @@ from tests.client.meddled_link import OBEYED, Listener, begun, run_for
 from tests.client.support import PROTOCOL, senses
 
 AT, SECOND = 120, 50
+REPORT = 6
+"""Ticks over which the parts of a report are spread."""
 
 
 def on_the_bus(link: Listener, frame: Frame) -> None:
@@ -80,6 +82,105 @@ def test_a_memory_that_was_altered_on_the_way_is_not_believed_at_the_end():
     stop(client)
 
     assert "does not hold what it was told here" in str(client.incidents)
+
+
+def of_tick(tick: int) -> Callable[[Frame], bool]:
+    return lambda frame: frame.id == PROTOCOL.id_of("SENSES") and PROTOCOL.decode(frame).signals["tick"] == tick
+
+
+@pytest.mark.parametrize("at", [0, AT])
+def test_senses_that_were_altered_on_the_way_are_noticed_within_a_second(at):
+    link, is_theirs = Listener(), of_tick(at)
+    link.swap = lambda frame: forged(link, at, at + 1) if is_theirs(frame) else frame
+    client = begun(link, lockstep=True)
+
+    run_for(client, link, range(at + SECOND + REPORT))
+
+    assert "does not hold what it was told here" in str(client.incidents)
+
+
+@pytest.mark.parametrize("at", [0, AT])
+def test_a_drive_that_was_altered_on_the_way_is_noticed_within_a_second(at):
+    link = Listener()
+    client = begun(link, lockstep=True)
+
+    def altered(frame: Frame) -> list[Frame]:
+        link.obey(frame)
+        decoded = PROTOCOL.decode(frame)
+        if decoded is None or decoded.name != "DRIVE" or decoded.signals["tick"] != at:
+            return [frame]
+        return [PROTOCOL.encode("DRIVE", {**decoded.signals, "left": decoded.signals["left"] - 1})]
+
+    link.change = altered
+    run_for(client, link, range(at + SECOND + REPORT))
+
+    assert "does not hold what it was told here" in str(client.incidents)
+
+
+def test_senses_that_were_altered_just_before_the_end_are_noticed_at_the_end():
+    link, is_theirs = Listener(), of_tick(AT - 1)
+    link.swap = lambda frame: forged(link, AT - 1, AT) if is_theirs(frame) else frame
+    client = begun(link, lockstep=True)
+    run_for(client, link, range(AT))
+    before = list(client.incidents)
+
+    stop(client)
+
+    assert before == []
+    assert "does not hold what it was told here" in str(client.incidents)
+
+
+@pytest.mark.parametrize(
+    ("lost", "altered"), [("HEALTH", True), ("DRIVE", True), ("HEALTH", False), ("DRIVE", False)]
+)
+def test_what_was_obeyed_before_the_end_is_compared_though_the_first_report_is_lost(lost, altered):
+    link, is_theirs, ending = Listener(), of_tick(AT - 1), list[Frame]()
+    link.swap = lambda frame: forged(link, AT - 1, AT) if altered and is_theirs(frame) else frame
+    client = begun(link, lockstep=True)
+    run_for(client, link, range(AT))
+
+    def lose_one(frame: Frame) -> list[Frame]:
+        is_lost = frame.id == PROTOCOL.id_of(lost) and not ending
+        ending.extend([frame] * is_lost)
+        return [] if is_lost else [frame]
+
+    link.change = lose_one
+    stop(client)
+
+    assert ending
+    assert ("does not hold what it was told here" in str(client.incidents)) == altered
+
+
+def test_a_health_that_comes_late_is_no_reason_to_doubt():
+    link = Listener()
+    client = begun(link, lockstep=True)
+    held_up: list[Frame] = []
+
+    def hold_up(frame: Frame) -> list[Frame]:
+        is_health = frame.id == PROTOCOL.id_of("HEALTH")
+        held_up.extend([frame] * is_health)
+        return [] if is_health else link.obey(frame)
+
+    link.change = hold_up
+    run_for(client, link, range(AT))
+    link.change = link.obey
+    link.waiting.extend(held_up)
+    run_for(client, link, range(AT, AT + SECOND))
+    stop(client)
+
+    assert len(held_up) > 1
+    assert client.incidents == []
+
+
+def test_senses_that_the_robot_got_without_our_hearing_its_answer_are_no_reason_to_doubt():
+    link = Listener()
+    client = begun(link, lockstep=True)
+    run_for(client, link, range(AT))
+
+    client.send_senses(senses(AT, link.odometer))  # and the run is ended before the answer is taken
+    stop(client)
+
+    assert client.incidents == []
 
 
 @pytest.mark.parametrize("lockstep", [True, False], ids=["lockstep", "real time"])

@@ -4,8 +4,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from host_sim.client.commands import start
-from host_sim.client.handshake import handshake
+from host_sim.client.commands import handshake, start
 from host_sim.client.pacing import RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session

@@ -5,16 +5,15 @@ from random import Random
 
 import pytest
 
-from host_sim.backends.in_process_link import InProcessLink
-from host_sim.client.commands import start
+from host_sim.client.commands import handshake, start
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
-from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.client.supervision import settle
 from host_sim.protocol.codec import Frame
-from host_sim.transport.line_stats import LineStats
+from host_sim.sim.in_process_link import InProcessLink
+from host_sim.transport.link import LineStats
 from tests.client.support import PROTOCOL, Diary, drive_for
 
 CHANCE = 0.95**22

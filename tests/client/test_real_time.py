@@ -5,15 +5,14 @@ from collections import deque
 
 import pytest
 
-from host_sim.backends.in_process_link import InProcessLink
-from host_sim.client.commands import start, stop
+from host_sim.client.commands import handshake, start, stop
 from host_sim.client.connection import Connection
-from host_sim.client.handshake import handshake
+from host_sim.client.deadlines import Limits
 from host_sim.client.pacing import RealTime
-from host_sim.client.punctuality import Limits
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.protocol.codec import Frame, Protocol
+from host_sim.sim.in_process_link import InProcessLink
 from tests.client.support import Diary, senses
 
 TICK_S = 0.02
@@ -64,7 +63,7 @@ def clients(host) -> list[RobotClient]:
     for node in range(1, 1 + ROBOTS):
         connection = Connection(SocketOnHost(host, node), now=host.now)
         client = RobotClient(connection, Protocol(node), Diary(), lockstep=False)
-        client.punctuality.limits = Limits(behind_percent=5.0)
+        client.deadlines.limits = Limits(behind_percent=5.0)
         handshake(client, 1.0)
         start(client, Session(1))
         found.append(client)
@@ -86,8 +85,8 @@ def test_as_many_robots_as_a_bus_has_take_no_longer_than_one(clients, host, deaf
         client.connection.link.deaf = True
 
     assert run(clients, host) == pytest.approx(TICKS * TICK_S, abs=2 * TICK_S)
-    assert {client.punctuality.late for client in clients} == {0}
-    assert [client.punctuality.unanswered for client in clients] == [TICKS] * deaf + [0] * (ROBOTS - deaf)
+    assert {client.deadlines.late for client in clients} == {0}
+    assert [client.deadlines.unanswered for client in clients] == [TICKS] * deaf + [0] * (ROBOTS - deaf)
 
 
 def test_a_host_that_is_late_now_and_then_catches_up(clients, host):
@@ -97,7 +96,7 @@ def test_a_host_that_is_late_now_and_then_catches_up(clients, host):
         pace.exchange([senses(tick)])
 
     assert host.now_s - began_s == pytest.approx(TICKS * TICK_S, abs=2 * TICK_S)
-    assert clients[0].punctuality.speed == 1.0
+    assert clients[0].deadlines.speed == 1.0
 
 
 @pytest.mark.parametrize(("of_a_tick", "speed"), [(1.04, 0.96), (1.1, 0.91), (1.66, 0.6), (3.0, 0.33)])
@@ -106,10 +105,10 @@ def test_a_host_that_needs_longer_than_a_tick_says_how_slow_its_clock_was(client
     took_s = run([client], host, of_a_tick * TICK_S)
     stop(client)
 
-    told = client.punctuality.summary()
+    told = client.deadlines.summary()
     assert told is not None
     assert told["speed"] == pytest.approx(TICKS * TICK_S / took_s, abs=0.02) == pytest.approx(speed, abs=0.02)
-    said = f"this host was too slow for real time: {client.punctuality.speed:.3f} x; the limit is 0.95 x"
+    said = f"this host was too slow for real time: {client.deadlines.speed:.3f} x; the limit is 0.95 x"
     assert any(said in str(incident) for incident in client.incidents) == (speed < 0.95)
 
 
@@ -121,5 +120,5 @@ def test_time_in_which_the_world_stands_still_on_purpose_is_not_late(clients, ho
             pace.rest()
         pace.exchange([senses(tick)] * ROBOTS)
 
-    assert clients[0].punctuality.speed == 1.0
-    assert clients[0].punctuality.late == 0
+    assert clients[0].deadlines.speed == 1.0
+    assert clients[0].deadlines.late == 0

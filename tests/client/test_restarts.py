@@ -2,9 +2,8 @@
 
 import pytest
 
-from host_sim.base.errors import FirmwareError, RobotError, SessionLostError
-from host_sim.client.commands import freeze, start, stop
-from host_sim.client.handshake import handshake
+from host_sim.base.errors import FirmwareError, RefusedError, RobotError, SessionLostError
+from host_sim.client.commands import freeze, handshake, start, stop
 from host_sim.client.pacing import Lockstep, RealTime
 from host_sim.client.session import Session
 from host_sim.client.supervision import settle
@@ -139,6 +138,43 @@ def test_a_robot_that_comes_back_with_another_firmware_ends_the_run():
 
     with pytest.raises(FirmwareError, match=f"another firmware at tick {LEARNED}: commit"):
         drive_for(client, 1, LEARNED)
+
+    assert "another firmware" in str(client.incidents)
+
+
+def altered_memory(frame: Frame) -> list[Frame]:
+    """A cell of each memory's first half is another one when it arrives."""
+    decoded = PROTOCOL.decode(frame)
+    if decoded is None or decoded.name != "MEMORY" or decoded.signals["half"]:
+        return [frame]
+    return [PROTOCOL.encode("MEMORY", {**decoded.signals, "cell_3": 2 - decoded.signals["cell_3"] // 2})]
+
+
+def test_a_robot_that_cannot_be_started_again_makes_the_result_doubtful():
+    link = MeddledLink()
+    client = learned(link)
+    link.change = altered_memory
+    link.reboot()
+
+    with pytest.raises(RobotError, match="does not hold the memory that was just written"):
+        drive_for(client, 20, LEARNED)
+
+    assert "does not hold the memory that was just written" in str(client.incidents)
+
+
+def test_a_robot_that_stopped_and_cannot_be_started_again_makes_the_result_doubtful(monkeypatch):
+    client = learned(MeddledLink(), 10)
+    client.frames.lost += 1000  # which explains why its wheels do not follow
+    pace = Lockstep([client])
+
+    def refuse(*_: object) -> None:
+        raise RefusedError("it refuses")
+
+    monkeypatch.setattr("host_sim.client.supervision.start", refuse)
+    with pytest.raises(RefusedError):
+        [pace.exchange([senses(tick)]) for tick in range(10, 600)]
+
+    assert "it refuses" in str(client.incidents)
 
 
 def test_in_real_time_a_robot_that_restarts_is_noticed_and_goes_on():

@@ -3,8 +3,7 @@
 import pytest
 
 from host_sim.base.errors import RivalError, SessionLostError, TwinError
-from host_sim.client.commands import stop
-from host_sim.client.handshake import handshake
+from host_sim.client.commands import handshake, stop
 from host_sim.client.supervision import settle
 from host_sim.protocol.codec import Frame, counter_of, crc8
 from host_sim.protocol.generated import Opcode, Reason, Result

@@ -5,17 +5,16 @@ from collections.abc import Callable
 
 import pytest
 
-from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.errors import RefusedError, RobotError
-from host_sim.client.commands import start
+from host_sim.client.commands import handshake, start
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
-from host_sim.client.handshake import handshake
 from host_sim.client.pacing import HOLD_TICKS, Lockstep, Pace, RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.protocol.codec import Frame, Protocol, crc8
 from host_sim.protocol.generated import NOTHING_SENSED, Drive, Reason, Senses
+from host_sim.sim.in_process_link import InProcessLink
 
 PROTOCOL = Protocol()
 Tamper = Callable[[Frame], list[Frame]]

@@ -5,15 +5,14 @@ from collections.abc import Iterator
 
 import pytest
 
-from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.errors import RobotError
-from host_sim.client.commands import start, stop
+from host_sim.client.commands import handshake, start, stop
 from host_sim.client.connection import Connection
-from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.client.supervision import settle
 from host_sim.protocol.codec import Frame
+from host_sim.sim.in_process_link import InProcessLink
 from tests.client.support import PROTOCOL, Diary, drive_for
 
 FRAME_S = 0.065

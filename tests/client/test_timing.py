@@ -2,17 +2,17 @@
 
 import pytest
 
-from host_sim.client.punctuality import Limits, Punctuality
+from host_sim.client.connection import RoundTrip
+from host_sim.client.deadlines import Deadlines, Limits
 from host_sim.client.robot_reports import Arrival, Freshness
-from host_sim.client.waiting import RoundTrip
 from host_sim.protocol.codec import Frame
 from tests.client.support import PROTOCOL, connected, run
 
 TICK_S = 0.02
 
 
-def counted(late: int, unanswered: int, ticks: int = 100) -> Punctuality:
-    counts = Punctuality(Limits(unanswered_percent=10.0, gap_s=1.0, behind_percent=5.0))
+def counted(late: int, unanswered: int, ticks: int = 100) -> Deadlines:
+    counts = Deadlines(Limits(unanswered_percent=10.0, gap_s=1.0, behind_percent=5.0))
     for tick in range(ticks):
         counts.begin(0.021 if tick < late else 0.02, TICK_S)
     for _ in range(unanswered):
@@ -36,14 +36,14 @@ def test_of_a_few_ticks_nothing_is_said():
 
 
 def test_a_gap_is_said_once():
-    counts = Punctuality(Limits(gap_s=0.1))
+    counts = Deadlines(Limits(gap_s=0.1))
 
     assert [counts.miss(round(waited * TICK_S, 6), TICK_S) for waited in range(1, 9)].count(True) == 1
     assert counts.gap_s == 0.16
 
 
 def test_without_tolerance_the_first_tick_without_an_answer_is_too_many():
-    counts = Punctuality(Limits(gap_s=0.0))
+    counts = Deadlines(Limits(gap_s=0.0))
 
     assert [counts.miss(round(waited * TICK_S, 6), TICK_S) for waited in (1, 2)] == [True, False]
 
@@ -61,7 +61,7 @@ def test_the_summary_has_the_worst():
         "late_percent": 1.96,
         "latest_ms": 30.0,
     }
-    assert Punctuality().summary() is None
+    assert Deadlines().summary() is None
 
 
 def message(counter: int, content: int = 0) -> Frame:

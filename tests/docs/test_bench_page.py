@@ -51,7 +51,7 @@ def test_the_commands_of_the_page_do_what_it_says():
     done = [run_pytest(ROOT, *line.split()[1:]) for line in tests]
 
     assert (venv, pip.split()[-1]) == ("python3 -m venv build/bench", "./tools/pytest_canbench")
-    assert [it.returncode for it in done] == [0, 1]
+    assert [it.returncode for it in done] == [0, 0, 1]
     assert (ROOT / pip.split()[-1] / "pyproject.toml").exists()
 
 

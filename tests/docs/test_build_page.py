@@ -5,6 +5,7 @@ import operator
 import re
 import runpy
 import sys
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -14,6 +15,7 @@ from host_sim.base.errors import UsageError
 from host_sim.emulator.board_pins import read_pins
 from tools.drawings import draw_plate, draw_wiring, dxf_of, write_drawings
 from tools.flashing.images import ROOT
+from tools.schematic import MECHANICAL, read_robot
 
 
 def test_the_pictures_and_the_table_in_the_documents_are_those_of_the_board(tmp_path: Path) -> None:
@@ -25,6 +27,55 @@ def test_the_pictures_and_the_table_in_the_documents_are_those_of_the_board(tmp_
     for path in drawn:
         if path.suffix == ".svg":
             assert path.read_text() == (ROOT / "docs/images" / path.name).read_text()
+
+
+def test_the_parts_the_wires_and_the_pictures_of_the_pico_s_robot_are_those_of_its_wiring(tmp_path: Path) -> None:
+    robot, text = read_robot(read_pins("pico")), (ROOT / "docs/build.md").read_text()
+
+    drawn = write_drawings(robot.pins, tmp_path)
+
+    assert robot.shopping() in text
+    assert robot.wiring() in text
+    assert robot.pins.table().split("\n", 2)[2] in (ROOT / "docs/hardware.md").read_text()
+    for path in drawn:
+        if path.suffix == ".svg":
+            assert path.read_text() == (ROOT / "docs/images" / path.name).read_text()
+
+
+def test_the_parts_list_has_as_many_of_each_kind_as_the_wires_need() -> None:
+    robot = read_robot(read_pins("pico"))
+    needed = {part for ends in robot.wires.values() for part, _, _ in (end.partition(".") for end in ends)}
+    numbers = [int(n) for n in re.findall(r"^\| (\d+) \|", robot.shopping(), re.MULTILINE)]
+
+    mechanical = [part for part, kind in robot.parts.items() if kind in MECHANICAL]
+    assert sum(numbers) == len(needed) + len(mechanical) == len(robot.parts)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "why"),
+    [
+        ('"diode.cathode pico.VSYS"', '"diode.cathode"', "the wire VSYS ends nowhere"),
+        ('button = "button"\n', "", "the wire GND goes to button, which is not among the parts"),
+        ("gate.1", "gate.2", "gate.2 has two wires, infrared and gate"),
+        ('bulk = "capacitor 470 uF"', 'bulk = "capacitor 470 uF"\nspare = "diode"', "spare has no wire"),
+        ('beacon = "board.BEACON receiver.OUT"', "", "BEACON, GP13 of the pico, has no wire"),
+    ],
+    ids=["one end", "no part", "short circuit", "loose part", "open pin"],
+)
+def test_a_mistake_in_the_wiring_is_named(tmp_path: Path, old: str, new: str, why: str) -> None:
+    text = (ROOT / "hal/rp2040/boards/pico.toml").read_text()
+    assert old in text
+    path = tmp_path / "robot.toml"
+    path.write_text(text.replace(old, new, 1))
+
+    with pytest.raises(UsageError, match=re.escape(why)):
+        read_robot(read_pins("pico"), path)
+
+
+def test_a_board_without_a_parts_list_has_its_wiring_drawn_alone(tmp_path: Path) -> None:
+    drawn = write_drawings(replace(read_pins("pico"), board="mine"), tmp_path)
+
+    assert [path.name for path in drawn if path.name.startswith("mine")] == ["mine-wiring.svg"]
 
 
 def test_the_wiring_shows_where_each_signal_ends_but_those_that_stay_on_the_board() -> None:

@@ -44,6 +44,20 @@ def test_an_anchor_that_does_not_exist_is_noticed():
     assert "a-conversasion" not in anchors(ROOT / "docs/protocol.md")
 
 
+def reached(page: Path, steps: int) -> set[Path]:
+    """The pages that a reader of a page reaches in some steps."""
+    links = {(page.parent / link).resolve() for link in re.findall(r"\]\((?!https?:)([^)#]+\.md)", page.read_text())}
+    return links.union(*(reached(link, steps - 1) for link in links)) if steps > 1 else links
+
+
+def test_there_are_few_pages_and_each_is_reached_from_the_readme_in_two_steps():
+    pages = {*ROOT.glob("docs/*.md")}
+
+    assert len(pages) <= 22
+    assert pages - reached(ROOT / "README.md", 2) == set()
+    assert ROOT / "docs/protocol.md" not in reached(ROOT / "THIRD-PARTY.md", 2)
+
+
 def test_every_line_of_c_in_the_article_stands_in_the_file_named():
     rows = re.findall(r"^\| .*? \| `([^`]+)` \| `([\w/.]+)`", (ROOT / "docs/article.md").read_text(), re.MULTILINE)
 
@@ -54,7 +68,7 @@ def test_every_line_of_c_in_the_article_stands_in_the_file_named():
 
 
 def test_the_page_about_the_wire_is_that_of_the_dbc():
-    assert (ROOT / "docs/protocol.md").read_text() == page(), "make it anew: tools/octet protocol > docs/protocol.md"
+    assert (ROOT / "docs/protocol.md").read_text() == page(), "make it anew: it says how"
 
 
 def test_no_document_is_for_one_machine_only():
@@ -63,21 +77,21 @@ def test_no_document_is_for_one_machine_only():
     assert [path.name for path in PAGES if any(place in path.read_text() for place in places)] == []
 
 
-PAGE = (ROOT / "docs/security.md").read_text()
+SESSIONS = (ROOT / "docs/sessions.md").read_text()
 NAMED = re.compile(r"`(tests/[\w/]+\.(?:py|c))::(test_\w+)`")
 
 
-def test_each_threat_names_a_test_that_exists():
-    rows = [
-        line for line in PAGE.splitlines() if line.startswith("| ") and not line.startswith(("| threat", "| ---"))
-    ]
+@pytest.mark.parametrize(("head", "at_least"), [("| what happens |", 15), ("| threat |", 20)])
+def test_each_fault_and_each_threat_of_a_session_names_a_test_that_exists(head, at_least):
+    (table,) = [block for block in SESSIONS.split("\n\n") if block.startswith(head)]
+    rows = table.splitlines()[2:]
 
-    assert len(rows) > 15
+    assert len(rows) > at_least
     for row in rows:
         ((path, name),) = NAMED.findall(row)
         defined = rf"^(def {name}\(|TEST\({name.removeprefix('test_')}\))"
         assert re.search(defined, (ROOT / path).read_text(), re.MULTILINE), row
 
 
-def test_the_readme_leads_to_the_page():
-    assert "docs/security.md" in (ROOT / "README.md").read_text()
+def test_the_readme_leads_to_what_is_not_protected():
+    assert "docs/sessions.md#what-is-not-protected" in (ROOT / "README.md").read_text()

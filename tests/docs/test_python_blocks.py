@@ -17,6 +17,10 @@ CASES = [
 ]
 
 
+COMMAND = r"^```sh\n\.venv/bin/python -m (examples\.\S+)\n```\n\nIt prints:\n\n"
+PROGRAM = re.compile(COMMAND + r"```text\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+
+
 def run(code: str, folder: Path) -> subprocess.CompletedProcess[str]:
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     return subprocess.run(
@@ -34,6 +38,13 @@ def test_a_block_runs_and_prints_what_the_page_says(code, prints, tmp_path):
 
     assert (done.returncode, done.stderr) == (0, "")
     assert prints is None or done.stdout == prints
+
+
+@pytest.mark.parametrize(("module", "prints"), PROGRAM.findall((ROOT / "docs/python.md").read_text()))
+def test_an_example_prints_what_the_page_says(module, prints, tmp_path):
+    done = run(f"import runpy; runpy.run_module({module!r}, run_name='__main__')", tmp_path)
+
+    assert (done.returncode, done.stdout) == (0, prints)
 
 
 def test_a_block_that_fails_is_noticed(tmp_path):

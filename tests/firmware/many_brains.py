@@ -33,7 +33,7 @@ def generator_state(choices: tuple[int, ...], wanted: tuple[int, ...]) -> tuple[
 
 
 KINDS = {"uint8_t": "u1", "_Bool": "?", "int16_t": "i2", "uint16_t": "u2", "enum reason": "u4"}
-KINDS |= {"struct memory": "8u1", "struct random": "2u4"}
+KINDS |= {"struct memory": "8u1", "struct random": "2u4", "uint8_t[8]": "8u1"}
 
 
 def layout(struct: str) -> np.dtype:

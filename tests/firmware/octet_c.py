@@ -13,7 +13,6 @@ _HEADERS = [
     "firmware/pattern.h",
     "firmware/config.h",
     "firmware/memory/memory.h",
-    "firmware/memory/memory_kind.h",
     "firmware/random.h",
     "firmware/brain.h",
     "firmware/caution.h",

@@ -1,4 +1,6 @@
 #include "firmware/brain.h"
+
+#include "firmware/behaviours/behaviour.h"
 #include "tests/test.h"
 
 enum { FRONT = FEEL_FRONT, PATTERN_FRONT = 2 };
@@ -42,6 +44,13 @@ TEST(an_unknown_profile_changes_nothing)
         TEST_ASSERT_FALSE(brain_start(&brain, (uint8_t)profile, 7));
         TEST_ASSERT_EQUAL_MEMORY(&before, &brain, sizeof brain);
     }
+}
+
+TEST(a_robot_without_a_behaviour_of_its_user_would_stand_still)
+{
+    brain.profile = PROFILE_OWN;
+    TEST_ASSERT_EQUAL(REASON_STOP, next(FRONT).reason);
+    TEST_ASSERT_FALSE(own_begin(&brain));
 }
 
 TEST(it_decides_as_the_profile_does)

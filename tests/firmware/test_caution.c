@@ -194,3 +194,132 @@ TEST(a_start_forgets_what_was_ahead)
     command(OPCODE_START, PROFILE_ARTICLE, 1);
     TEST_ASSERT_FALSE(robot.caution.ahead);
 }
+
+/* The next action of a robot that caution alone commands, or of one that looks around. */
+static struct action next(struct caution *caution, uint8_t feel_there, bool bump)
+{
+    struct senses senses = {.feel = feel_there, .bump = bump};
+
+    return caution_next(caution, &robot.brain, &robot.config, &senses);
+}
+
+TEST(it_backs_off_once_for_each_touch_and_rests_a_tick_afterwards)
+{
+    static const struct senses touching = {.bump = true};
+    struct caution caution = {.doing = 0};
+    struct action action;
+
+    caution.turned_deg = 7;
+    TEST_ASSERT_FALSE(caution_stops(&caution, &touching, false));
+    TEST_ASSERT_TRUE(caution_stops(&caution, &touching, true));
+    action = next(&caution, CLEAR, true);
+    TEST_ASSERT_EQUAL(REASON_AVOID, action.reason);
+    TEST_ASSERT_EQUAL_INT(-BACK_MM, action.forward_mm);
+    TEST_ASSERT_EQUAL_INT(0, action.turn_deg);
+    TEST_ASSERT_EQUAL_UINT(1, action.rest_ticks);
+    TEST_ASSERT_TRUE(caution.ahead);
+    TEST_ASSERT_EQUAL_INT8(0, caution.turned_deg);
+    TEST_ASSERT_FALSE(caution.pressed);
+    TEST_ASSERT_NOT_EQUAL(REASON_AVOID, next(&caution, CLEAR, true).reason);
+    TEST_ASSERT_TRUE(caution.pressed);
+    TEST_ASSERT_FALSE(caution_stops(&caution, &touching, true));
+    TEST_ASSERT_TRUE(caution.pressed);
+    (void)caution_stops(&caution, &(struct senses){.bump = false}, true);
+    TEST_ASSERT_FALSE(caution.pressed);
+}
+
+TEST(a_look_aside_is_24_degrees_to_the_left_and_back)
+{
+    struct caution caution = {.blind_mm = 60};
+    struct action action = next(&caution, CLEAR, false);
+
+    TEST_ASSERT_EQUAL(REASON_AVOID, action.reason);
+    TEST_ASSERT_EQUAL_INT(-24, action.turn_deg);
+    TEST_ASSERT_EQUAL_UINT(1, action.rest_ticks);
+    TEST_ASSERT_EQUAL_UINT8(0, caution.blind_mm);
+    action = next(&caution, CLEAR, true);
+    TEST_ASSERT_EQUAL_INT(24, action.turn_deg);
+    TEST_ASSERT_FALSE(caution.pressed);
+    TEST_ASSERT_NOT_EQUAL(REASON_AVOID, next(&caution, CLEAR, false).reason);
+    caution.blind_mm = 61;
+    TEST_ASSERT_EQUAL_INT(-24, next(&caution, CLEAR, false).turn_deg);
+    caution = (struct caution){.blind_mm = 59};
+    TEST_ASSERT_NOT_EQUAL(REASON_AVOID, next(&caution, CLEAR, false).reason);
+}
+
+/* What is beside it is what the sensor on the side of its turn shows; in a step nothing is. */
+TEST(what_is_beside_a_turn_is_what_the_sensor_on_its_side_shows)
+{
+    static const uint8_t all = 31;
+    struct caution caution = {.blind_mm = 60};
+
+    (void)next(&caution, 16 | 1, false);   /* neither is a front sensor: left is looked at */
+    TEST_ASSERT_EQUAL_UINT8(0, caution.beside);
+    for (unsigned i = 0; i < MANY; i++) {
+        uint8_t there = i % 2 ? all : FRONT_LEFT;
+        struct action action = next(&caution, there, false);
+        uint8_t side = action.turn_deg < 0 ? FRONT_LEFT : FRONT_RIGHT;
+
+        TEST_ASSERT_EQUAL_UINT8(action.turn_deg == 0 ? 0 : there & side, caution.beside);
+    }
+}
+
+TEST(what_was_ahead_counts_until_just_40_degrees)
+{
+    static const int8_t turns[] = {39, -39, 16, -16, 15, -15};
+
+    for (unsigned i = 0; i < sizeof turns; i++) {
+        struct caution caution = {.doing = 3, .ahead = true, .turned_deg = turns[i]};   /* it turns back by 24 */
+
+        (void)next(&caution, CLEAR, false);
+        TEST_ASSERT_EQUAL(turns[i] + 24 < 40, caution.ahead);
+        TEST_ASSERT_EQUAL_INT8(caution.ahead ? turns[i] + 24 : 0, caution.turned_deg);
+    }
+}
+
+TEST(what_a_blind_robot_finds_is_ahead_from_there_on)
+{
+    struct caution caution = {.beside = FRONT_RIGHT, .turned_deg = 5, .blind_mm = 30};
+
+    caution_see(&caution, CLEAR, true);
+    TEST_ASSERT_TRUE(caution.ahead);
+    TEST_ASSERT_EQUAL_INT8(0, caution.turned_deg);
+    TEST_ASSERT_EQUAL_UINT8(30, caution.blind_mm);
+    caution_see(&caution, CLEAR, false);
+    TEST_ASSERT_EQUAL_UINT8(0, caution.blind_mm);
+}
+
+TEST(nothing_is_beside_a_step_back_and_it_is_no_way_driven_blind)
+{
+    struct caution caution = {.doing = 1, .beside = FRONT_LEFT, .blind_mm = 30};   /* it touches something */
+
+    TEST_ASSERT_EQUAL_INT(-BACK_MM, next(&caution, FRONT_LEFT | FRONT_RIGHT, true).forward_mm);
+    TEST_ASSERT_EQUAL_UINT8(0, caution.beside);
+    TEST_ASSERT_EQUAL_UINT8(30, caution.blind_mm);
+}
+
+TEST(what_is_ahead_is_shown_by_the_front_sensor_alone)
+{
+    struct senses senses = {.feel = CLEAR};
+    struct caution caution = {.ahead = true};
+
+    (void)caution_next(&caution, &robot.brain, &robot.config, &senses);
+    TEST_ASSERT_EQUAL_UINT8(FRONT, senses.feel);
+}
+
+TEST(what_was_ahead_is_not_after_just_40_degrees_to_the_left)
+{
+    unsigned found = 0;
+
+    learned(SIDE_LEFT);
+    for (unsigned i = 0; i < MANY; i++) {
+        struct caution caution = {.ahead = true, .turned_deg = -30};
+        struct action action = next(&caution, CLEAR, false);
+
+        if (action.turn_deg == -10) {
+            found++;
+            TEST_ASSERT_FALSE(caution.ahead);
+        }
+    }
+    TEST_ASSERT_GREATER_THAN_UINT(0, found);
+}

@@ -118,3 +118,12 @@ TEST(a_body_that_has_stood_at_0_all_the_time_has_not_restarted)
     sense(wheels);
     TEST_ASSERT_FALSE(out.contradiction);
 }
+
+TEST(a_robot_that_was_stopped_owes_no_way)
+{
+    robot.motion.apart.counts = robot.motion.together.counts = 100;
+    command(OPCODE_STOP, 0, 0);
+    TEST_ASSERT_EQUAL_INT32(0, robot.motion.apart.counts);
+    TEST_ASSERT_EQUAL_INT32(0, robot.motion.together.counts);
+    TEST_ASSERT_FALSE(robot.motion.referenced);
+}

@@ -1,6 +1,6 @@
 #include "firmware/sharing.h"
 
-#include "firmware/memory/confidence.h"
+#include "firmware/memory/memory.h"
 #include "firmware/robot.h"
 
 #include <string.h>

@@ -13,28 +13,30 @@ import argparse
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 
-from host_sim.backends.images import BOARDS
 from host_sim.emulator.board import EmulatedBoard, start_board
 from host_sim.emulator.chips import CHIPS
+from host_sim.emulator.flash_kinds import FlashG4
 from host_sim.emulator.pins_board import PinsBoard, start_robot
 from host_sim.lab.calibrate.calibration import STEPS, TRAITS
 from host_sim.lab.calibrate.places import Places
 from host_sim.protocol.generated import Side
 from host_sim.protocol.words import BODY_PARAMETERS
-from tests.image.power_cuts import Recording, recording_of
+from host_sim.sim.access import BOARDS
 from tests.image.support import Talk
-from tests.image.update_rig import Rig
 
 State = tuple[tuple[int, ...], tuple[int, ...]]
 """The eight cells; the traits in their order."""
 
 Step = Callable[[], None]
 
-RECORD = 16
-"""Bytes of the store's."""
+STORES = {"blue_pill": (0xF800, 0x10000), "feather_stm32f405": (0x4000, 0xC000), "nucleo_g431rb": (0x1F000, 0x20000)}
+"""Where the memory is kept: begin and end, bytes from the start of the flash."""
+
+RECORD, WRITE_MAX = 16, 8
+"""Bytes of the store's, and of the longest write."""
 
 OF_EACH_RECORD = ("body_track_mm", "body_lag_ms")
 """A trait of each record of them."""
@@ -43,6 +45,59 @@ _UP_S = {True: 0.15, False: 0.6}  # an erase each of three small pages, or of a 
 _STORED_S, _LONGEST_S = 0.1, 60.0
 _MEASURE = BODY_PARAMETERS["body_measure"].number
 _REFUSED = BODY_PARAMETERS["body_refused"].number
+
+
+@dataclass
+class Recording:
+    """What was done to a board's flash.
+
+    Attributes:
+        board: Its name.
+        before: The flash's bytes before.
+        changes: Of each change the place, the bytes after it, and the bytes if it was cut.
+        left: What cuts have left when each begins: pages that are half erased, places that are unreadable.
+    """
+
+    board: str
+    before: bytes
+    changes: list[tuple[int, bytes, bytes]] = field(default_factory=list)
+    left: list[tuple[set[int], set[int]]] = field(default_factory=list)
+
+    def cut_at(self, number: int) -> bytes:
+        """The flash as it is if the power fails within that change."""
+        memory = bytearray(self.before)
+        for offset, whole, _ in self.changes[:number]:
+            memory[offset : offset + len(whole)] = whole
+        offset, _, partial_ = self.changes[number]
+        memory[offset : offset + len(partial_)] = partial_
+        return bytes(memory)
+
+    def cut(self, board: EmulatedBoard, number: int) -> None:
+        """Gives a board the flash as it is if the power fails within that change."""
+        flash = board.hardware.flash
+        offset, whole, _ = self.changes[number]
+        half_erased, unreadable = self.left[number]
+        flash.memory[:] = self.cut_at(number)
+        flash._half_erased = set(half_erased)
+        if isinstance(flash, FlashG4):
+            flash.unreadable = set(unreadable)
+        flash.changed(offset, len(whole), cut=True)
+
+
+def recording_of(board: EmulatedBoard, work: Callable[[EmulatedBoard], None]) -> Recording:
+    """Has that work done, and notes all changes of the board's flash."""
+    flash = board.hardware.flash
+    found = Recording(board.hardware.chip.name, bytes(flash.memory))
+    change = flash._change
+
+    def recorded(offset: int, whole: bytes, partial_: bytes) -> None:
+        found.changes.append((offset, whole, partial_))
+        found.left.append((set(flash._half_erased), set(getattr(flash, "unreadable", ()))))
+        change(offset, whole, partial_)
+
+    flash._change = recorded  # type: ignore[method-assign]
+    work(board)
+    return found
 
 
 @dataclass(frozen=True)
@@ -71,7 +126,7 @@ class Robot:
 
     def __init__(self, name: str) -> None:
         self.board: EmulatedBoard = start_robot(name) if CHIPS[name].converter else start_board(name)
-        self.rig, self.talk = Rig(name), Talk(self.board)
+        self.talk = Talk(self.board)
 
     def power_up(self) -> None:
         self.board.cut_power()
@@ -114,7 +169,7 @@ class Robot:
 
     def fill(self, store: int, page: int) -> None:
         """As after long use: what is newest in a page stands in all places but the last. After it, power up."""
-        memory, (begin, end) = self.board.hardware.flash.memory, self.rig.store
+        memory, (begin, end) = self.board.hardware.flash.memory, STORES[self.board.hardware.chip.name]
         size = (end - begin) // 2
         begin += (page - 2 * store) * size
         used = begin + -(-len(memory[begin : begin + size].rstrip(b"\xff")) // RECORD) * RECORD
@@ -131,7 +186,7 @@ class Robot:
                 step()
                 known.append((flash.operations - first, self.knows()))
 
-        return Life(before, known, recording_of(self.rig, self.board, work))
+        return Life(before, known, recording_of(self.board, work))
 
 
 def full_robot(name: str) -> Robot:
@@ -159,7 +214,7 @@ def a_calibration(name: str) -> Life:
 
 def known_after(life: Life, cuts: Iterable[int]) -> list[State]:
     """What the robot knows after a power cut at each of these changes."""
-    robot, found = Robot(life.recording.rig.board), []
+    robot, found = Robot(life.recording.board), []
     for cut in cuts:
         life.recording.cut(robot.board, cut)
         robot.power_up()
@@ -178,7 +233,7 @@ def outcomes(life: Life, cuts: Sequence[int]) -> Counter[str]:
 
 def going_on(life: Life, cut: int) -> Life:
     """A life after that cut: everything is stored anew."""
-    robot = Robot(life.recording.rig.board)
+    robot = Robot(life.recording.board)
     (before,) = known_after(life, [cut])
     life.recording.cut(robot.board, cut)
     return robot.live(before, [robot.power_up, *robot.storing(Side.LEFT + Side.RIGHT - before[0][1])])

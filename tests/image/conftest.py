@@ -2,9 +2,8 @@
 
 import pytest
 
-from host_sim.backends.images import BOARDS
 from host_sim.emulator.clock import Clock
-from tests.image.update_rig import RIGS, Rig
+from host_sim.sim.access import BOARDS
 
 
 @pytest.fixture
@@ -15,10 +14,4 @@ def clock():
 @pytest.fixture(params=BOARDS)
 def name(request: pytest.FixtureRequest) -> str:
     """A board's."""
-    return request.param
-
-
-@pytest.fixture(params=RIGS, ids=lambda rig: rig.board)
-def rig(request: pytest.FixtureRequest) -> Rig:
-    """A board with a boot loader."""
     return request.param

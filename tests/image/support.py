@@ -3,9 +3,9 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from host_sim.client.commands import handshake
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
-from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
 from host_sim.emulator.board import EmulatedBoard, start_board
 from host_sim.emulator.hardware import Faults

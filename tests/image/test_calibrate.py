@@ -6,13 +6,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from host_sim.backends.images import BOARDS
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import ROOT
 from host_sim.cli.main import main
+from host_sim.client.commands import handshake
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import NoLog
-from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
 from host_sim.emulator.pins_board import start_robot
 from host_sim.lab.calibrate import calibrate_command
@@ -21,8 +20,8 @@ from host_sim.lab.calibrate.places import Places
 from host_sim.protocol.codec import Protocol
 from host_sim.protocol.generated import Side
 from host_sim.protocol.words import BODY_PARAMETERS
-from tests.image.calibrate_cuts import Robot, a_calibration, cut_again, outcomes
-from tests.image.power_cuts import WRITE_MAX
+from host_sim.sim.access import BOARDS
+from tests.image.calibrate_cuts import STORES, WRITE_MAX, Robot, a_calibration, cut_again, outcomes
 
 SAMPLE = 60
 """After one of so many cuts, the power is cut again at each write."""
@@ -85,6 +84,13 @@ def test_a_motor_without_its_encoder_is_refused(rig):
     assert rig.measure("motors").startswith("body_forward_right cannot be 0 ")
 
 
+def test_a_motor_that_turns_only_forward_is_refused(rig, monkeypatch):
+    robot = rig.board.robot
+    push = robot._push
+    monkeypatch.setattr(robot, "_push", lambda side: max(push(side), 0) if side else push(side))
+    assert rig.measure("motors").startswith("body_forward_right cannot be 0 ")
+
+
 def test_a_bump_interrupts_it(rig):
     rig.places.put("motors")
     rig.calibration.set("body_measure", 1 + STEPS.index("motors"))
@@ -115,14 +121,14 @@ def test_a_power_cut_at_any_write_leaves_the_old_values_or_the_new_and_always_th
     found, again = outcomes(life, cuts), cut_again(life, cuts[::SAMPLE])
 
     erases = sum(len(whole) > WRITE_MAX for _, whole, _ in life.recording.changes)
-    assert erases == len(Robot(life.recording.rig.board).storing(Side.LEFT))
+    assert erases == len(Robot(life.recording.board).storing(Side.LEFT))
     assert (found["neither"], again["neither"]) == (0, 0)
     assert found.total() == len(cuts) > erases
     assert again.total() > len(cuts[::SAMPLE])
 
 
 def test_a_cut_that_lost_something_would_be_noticed(life):
-    begin, end = life.recording.rig.store
+    begin, end = STORES[life.recording.board]
     before = life.recording.before
     harmed = replace(life.recording, before=before[:begin] + bytes(end - begin) + before[end:])
 

@@ -131,3 +131,46 @@ def test_events_happen_in_their_order_while_time_is_skipped(clock):
     clock.skip(10)
 
     assert seen == [("a", 3), ("b", 5), ("a", 9)]
+
+
+TIM1_UP, ICSR = 25, 0xE000ED04
+SELF, RETURN, MASK = 0xE7FE, 0x4770, 0xB672  # b .; bx lr; cpsid i
+HANDLER = BASE + 0x108
+
+
+def handled(hardware, first, vector=HANDLER + 1):
+    """Executes an instruction, then loops, and an interrupt comes; returns ICSR for each time that it is handled."""
+    active = []
+    hardware.watchdog.registers[0xC].on_read = lambda: active.append(hardware.space.read(ICSR, 4)) or 0
+
+    def due():
+        if hardware.clock.now < SECOND // 2000:
+            return SECOND // 2000
+        hardware.interrupts.pend(TIM1_UP)
+        return NEVER
+
+    hardware.clock.add(due)(SECOND // 2000)
+    vectors = [0x20001000, *[BASE + 0x101] * 15, *[0] * TIM1_UP, vector]
+    load_r0 = 0x4801
+    code = struct.pack("<8HI", first, SELF, *NOP, *NOP, load_r0, LOAD, RETURN, *NOP, WATCHDOG_BASE + 0xC)
+    hardware.flash_image([(BASE, struct.pack("<42I", *vectors).ljust(0x100, b"\0") + code)])
+    write(hardware.interrupts, 0x00, 1 << TIM1_UP)
+    hardware.core.run()
+    while hardware.clock.now < SECOND // 1000:
+        hardware.core.run()
+    return active
+
+
+def test_an_interrupt_is_taken_once_and_its_handler_returns(hardware):
+    assert handled(hardware, *NOP) == [16 + TIM1_UP]
+    assert (hardware.space.read(ICSR, 4), hardware.interrupts.wakes, hardware.faults) == (0, False, [])
+
+
+def test_an_interrupt_that_is_masked_stays_pending(hardware):
+    assert handled(hardware, MASK) == []
+    assert hardware.interrupts.wakes
+
+
+def test_a_vector_that_is_no_code_for_this_core_is_a_fault(hardware):
+    assert handled(hardware, *NOP, vector=0x4903BF38) == []
+    assert [fault.cause for fault in hardware.faults] == [1 << 17]  # INVSTATE

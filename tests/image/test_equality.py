@@ -2,12 +2,12 @@
 
 import pytest
 
-from host_sim.backends.images import BOARDS
 from host_sim.client.connection import Connection
 from host_sim.emulator.board import start_board
-from host_sim.lab.bench.equality import IMAGES, REFERENCE, compare, first_difference, record
 from host_sim.protocol.generated import PROFILES
+from host_sim.sim.access import BOARDS
 from tests.image.support import run_robot
+from tests.runs.equality import IMAGES, REFERENCE, compare, first_difference, record
 
 TICKS = 700
 MEMORY = b" 681#"
@@ -48,7 +48,7 @@ def test_a_log_that_ends_early_differs(tmp_path):
 
 
 def test_the_log_of_an_image_that_differs_is_left(tmp_path, monkeypatch):
-    module = "host_sim.lab.bench.equality"
+    module = "tests.runs.equality"
     monkeypatch.setattr(f"{module}.record", lambda where, _seed, _ticks, log: log.write_text(f"{where}\n"))
 
     verdicts = list(compare([5], 10, tmp_path, ["qemu"]))

@@ -14,11 +14,11 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.emulator.__main__ import JoinedBoard, main
 from host_sim.emulator.board import start_board
 from host_sim.emulator.chips import CHIPS
-from host_sim.lab.bench.equality import REFERENCE, first_difference, record
 from host_sim.lab.bench.short_run import run_ticks
 from host_sim.protocol.codec import DBC, Frame, Protocol
 from host_sim.protocol.generated import Senses
 from host_sim.sim.run_config import RunConfig
+from tests.runs.equality import REFERENCE, first_difference, record
 from tools.pytest_canbench.bench import Bench, Setup
 from tools.pytest_canbench.devices import open_device
 from tools.pytest_canbench.messages import Messages

@@ -144,14 +144,14 @@ def test_an_update_comes_each_so_many_periods_and_asks_for_its_interrupt(clock, 
 
 def test_a_duty_is_that_of_a_running_enabled_unbroken_channel(motors):
     timer, _ = motors
-    assert timer.duty(2) == 0
+    assert timer.duty("ch2n") == 0
     write(timer, 0x00, 1)
-    assert timer.duty(2) == 0.25
-    assert timer.duty(3) == 0
+    assert timer.duty("ch2n") == 0.25
+    assert timer.duty("ch3n") == 0
     timer.break_at(low=False)
-    assert timer.duty(2) == 0.25
+    assert timer.duty("ch2n") == 0.25
     timer.break_at(low=True)
-    assert timer.duty(2) == 0
+    assert timer.duty("ch2n") == 0
     assert read(timer, 0x10) & 1 << 7
 
 

@@ -12,15 +12,16 @@ from contextlib import ExitStack
 
 import pytest
 
-from host_sim.backends.connect import connect
-from host_sim.backends.qemu import Qemu
 from host_sim.base.errors import OctetError, RobotError, UsageError
 from host_sim.base.paths import image_path
 from host_sim.protocol.codec import Frame
+from host_sim.sim.access import Access
+from host_sim.sim.connect import Connector
+from host_sim.sim.qemu import Qemu
 from host_sim.transport.slcan_link import SlcanLink
 from tests.image.support import run_robot
 
-ROBOT = "import time, host_sim.backends.qemu as q; robot = q.Qemu(); print(robot.pid, flush=True); time.sleep(60)"
+ROBOT = "import time, host_sim.sim.qemu as q; robot = q.Qemu(); print(robot.pid, flush=True); time.sleep(60)"
 
 
 @pytest.fixture
@@ -49,7 +50,7 @@ def is_running(pid):
 
 def test_a_robot_in_qemu_learns_and_its_process_ends(tmp_path):
     with ExitStack() as stack:
-        connection = connect(stack, "fd", "qemu", 1)
+        connection = Connector(stack, Access("fd", "qemu")).connection(1)
         session = run_robot(connection, 1, 1000, tmp_path / "run.log")
 
     assert any(session.memory)
@@ -111,15 +112,15 @@ def test_what_is_no_image_ends_qemu_with_its_reason(tmp_path):
 
 
 def test_an_image_that_says_nothing_is_given_up(monkeypatch):
-    monkeypatch.setattr("host_sim.backends.qemu._READY_S", 0.001)
+    monkeypatch.setattr("host_sim.sim.qemu._READY_S", 0.001)
 
     with pytest.raises(RobotError, match=r"sent nothing for 0\.001 s; it is running in QEMU"):
         Qemu()
 
 
 def test_an_image_that_never_pauses_is_ready_nevertheless(monkeypatch):
-    monkeypatch.setattr("host_sim.backends.qemu._PAUSE_S", 5.0)  # heartbeats come each second
-    monkeypatch.setattr("host_sim.backends.qemu._READY_S", 1.0)
+    monkeypatch.setattr("host_sim.sim.qemu._PAUSE_S", 5.0)  # heartbeats come each second
+    monkeypatch.setattr("host_sim.sim.qemu._READY_S", 1.0)
 
     qemu = Qemu()
 
@@ -129,15 +130,15 @@ def test_an_image_that_never_pauses_is_ready_nevertheless(monkeypatch):
 
 @pytest.mark.parametrize("robot", ["qemu", "emulated"])
 def test_an_emulator_brings_its_own_bus_and_node(robot):
-    with ExitStack() as stack, pytest.raises(UsageError, match="its own bus"):
-        connect(stack, "socketcan:vcan0", robot, 1)
-    with ExitStack() as stack, pytest.raises(UsageError, match="is node 1, not 2"):
-        connect(stack, "fd", robot, 2)
+    with pytest.raises(UsageError, match="its own bus"):
+        Access("socketcan:vcan0", robot)
+    with pytest.raises(UsageError, match="is node 1, not 2"):
+        Access("fd", robot, [2])
 
 
 def test_a_board_that_does_not_exist_is_named():
     with ExitStack() as stack, pytest.raises(UsageError, match="no board 'stm32f999'; there are feather_stm32f405,"):
-        connect(stack, "fd", "emulated", 1, board="stm32f999")
+        Connector(stack, Access("fd", "emulated", board="stm32f999")).connection(1)
 
 
 def test_frames_go_over_the_line_as_text(line):

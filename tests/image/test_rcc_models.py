@@ -176,5 +176,5 @@ def test_causes_of_resets_are_noted_until_cleared(clock):
     write(rcc, 0x74, 1 << 24)
     rcc.restart("software")
 
-    assert noted == 1 << 29 | 1 << 27 | 1 << 26
+    assert noted == 1 << 29 | 1 << 27 | 1 << 26 | 1 << 25
     assert read(rcc, 0x74) == 1 << 28 | 1 << 26

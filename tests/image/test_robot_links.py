@@ -6,10 +6,11 @@ from contextlib import ExitStack
 
 import pytest
 
-from host_sim.backends.connect import connect
 from host_sim.protocol.codec import COUNTERS as COUNTER_SPAN
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import Reason, Senses
+from host_sim.sim.access import Access
+from host_sim.sim.connect import Connector
 
 PROTOCOL = Protocol()
 COUNTERS = itertools.cycle(range(COUNTER_SPAN))  # the robots live longer than a test, and remember the last one
@@ -29,7 +30,7 @@ ROBOTS = {
 def connection(request):
     bus, robot, board = ROBOTS[request.param]
     with ExitStack() as stack:
-        yield connect(stack, bus, robot, 1, board=board)
+        yield Connector(stack, Access(bus, robot, board=board)).connection(1)
 
 
 @pytest.fixture
@@ -49,7 +50,8 @@ def senses(tick):
 
 def receive(link, timeout_s):
     """The next message, but for what the robot says unasked: of faults, and while it hears nothing."""
-    while (frame := link.receive(timeout_s)) is not None:
+    give_up = time.monotonic() + timeout_s
+    while (frame := link.receive(max(give_up - time.monotonic(), 0.0))) is not None:
         said = PROTOCOL.decode(frame)
         assert said is not None, frame
         if (

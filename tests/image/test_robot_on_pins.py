@@ -127,12 +127,30 @@ def test_a_fault_of_the_bridge_stops_the_pwm_without_the_image(name):
         for _ in range(20):
             simulation.step()
         board = board_of(simulation)
-        assert board.robot.motors.duty(2) > 0
+        assert board.robot.motors.duty("ch2n") > 0
         board.robot.set_bridge_fault(True)
-        assert board.robot.motors.duty(2) == 0
+        assert board.robot.motors.duty("ch2n") == board.robot.motors.duty("ch1") == 0
         simulation.step()
         port, pin = board.robot.wiring.port("BRIDGE_AWAKE")
         assert not port.drives(pin)
+
+
+@pytest.mark.parametrize(
+    ("name", "lasts_s", "drives"),
+    [
+        ("nucleo_g431rb", 3e-6, True),
+        ("nucleo_g431rb", 4e-6, False),
+        ("blue_pill", 1e-7, False),
+    ],
+)
+def test_a_spike_on_the_fault_signal_ends_no_run_where_the_chip_can_filter_it(name, lasts_s, drives):
+    with make(replace(PINS, board=name)) as simulation:
+        simulation.enter(1)
+        board = board_of(simulation)
+        board.robot.set_bridge_fault(True, lasts_s)
+        simulation.step()
+        port, pin = board.robot.wiring.port("BRIDGE_AWAKE")
+        assert port.drives(pin) == drives
 
 
 @pytest.mark.parametrize("name", BOARDS)
@@ -143,12 +161,12 @@ def test_the_button_starts_and_stops_it_without_a_pc(name):
     board.robot.set_button(False)
     board.pass_time(1.5)
     assert board.robot.wiring.meets("LEFT_PWM")
-    assert board.robot.motors.duty(2) > 0
+    assert board.robot.figures()["duty"][0] != 0
     board.robot.set_button(True)
     board.pass_time(0.3)
     board.robot.set_button(False)
     board.pass_time(0.5)
-    assert board.robot.motors.duty(2) == 0
+    assert board.robot.figures()["duty"][0] == 0
 
 
 @pytest.mark.parametrize("name", BOARDS)
@@ -186,7 +204,7 @@ def test_a_page_is_told_what_is_on_its_pins():
 
 
 def test_other_boards_and_robots_are_refused():
-    why = "there is no image with a body on pins for feather_stm32f405: use --board blue_pill or nucleo_g431rb"
+    why = "there is no image with a body on pins for feather_stm32f405: use --board blue_pill, nucleo_g431rb or pico"
     with pytest.raises(UsageError, match=why):
         start_robot("feather_stm32f405")
     with pytest.raises(UsageError, match="use --robot emulated --board blue_pill"):

@@ -68,7 +68,7 @@ def test_nearly_all_of_an_image_is_known_by_its_file() -> None:
     motion = [piece for piece in pieces if piece.module == "motion"]
     rest = [piece.flash for piece in pieces if piece.module == "rest"]
     assert sum(piece.flash for piece in motion) > 300
-    assert "startup_reset" in {piece.symbol for piece in motion}, "nothing was put into the main loop"
+    assert "startup_begin" in {piece.symbol for piece in motion}, "nothing was put into the main loop"
     assert 0 <= sum(rest) < flash // 50
 
 

@@ -4,7 +4,6 @@ from functools import partial
 
 import pytest
 
-from host_sim.backends.robot_process import PROGRAM
 from host_sim.base.errors import OctetError
 from host_sim.emulator.board import load_segments
 from host_sim.emulator.c_models import c_models
@@ -15,6 +14,7 @@ from host_sim.emulator.hardware import Faults, Hardware
 from host_sim.emulator.ports import GpioF1, GpioF4, GpioG4
 from host_sim.emulator.registers import BoardError
 from host_sim.emulator.system import SystemControl, SysTick, Watchdog
+from host_sim.sim.robot_process import PROGRAM
 from tests.image.support import read, write
 
 

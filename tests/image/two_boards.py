@@ -1,6 +1,5 @@
 """Two emulated boards on one emulated bus: a body on pins, and the brain that drives it."""
 
-from host_sim.base.frame import Frame
 from host_sim.base.paths import image_path
 from host_sim.emulator.board import EmulatedBoard, start_board
 from host_sim.emulator.can import CanFrame
@@ -8,6 +7,7 @@ from host_sim.emulator.chips import CHIPS
 from host_sim.emulator.robot_on_pins import RobotOnPins
 from host_sim.protocol.codec import Protocol
 from host_sim.protocol.generated import Reason
+from host_sim.transport.link import Frame
 from host_sim.world.arena import Arena
 
 _SLICE_S = 0.0005

@@ -13,7 +13,7 @@ from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import at
 from host_sim.sim.make import start_robots
 from host_sim.sim.run_config import RunConfig
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import SimParams
 from tests.live.support import Live
 from tests.recording.conftest import kept, short, ten_seconds
 from tests.recording.support import open_simulation

@@ -124,19 +124,17 @@ def test_there_is_no_code_where_it_could_not_be_read(terminal, monkeypatch, tmp_
 
 
 @pytest.mark.parametrize("listen", [None, "127.0.0.1"])
-def test_what_it_waits_for_is_said(monkeypatch, tmp_path, listen):
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+def test_what_it_waits_for_is_said(tmp_path, listen):
     listener = Listener(listen, 0)
     listener.socket.close()
     with (tmp_path / "said").open("w+") as out:
-        browser.announce(listener, 3, out, waits=True)
+        browser.announce(listener, out, waits=True)
         out.seek(0)
         said = out.read()
 
     assert listener.urls[0] in said
     assert "Ctrl-C ends it" in said
-    assert (listener.board_url in said) == (listen is not None)
-    assert ("each page gets one of 3" in said) == (listen is not None)
+    assert (f"to type   {listener.short_urls[0]}" in said) == (listen is not None)
     assert ("begins when the page is open" in said) == (listen is None)
 
 

@@ -1,18 +1,14 @@
 """What pages are told of a run: what is new and only that, trails, each lesson once, and what robots answer."""
 
 import json
-from types import SimpleNamespace
 
 import pytest
 
 from host_sim.client.commands import write_cells
-from host_sim.live.board_feed import BoardFeed, Class
 from host_sim.live.feed import PageFeed, points
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, Question, page_command_from
 from host_sim.live.page_talk import PageTalk
-from host_sim.live.seats import Seats
-from host_sim.live.visitor import Rights
 from host_sim.protocol.generated import ROW, Reason
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import RobotTrack
@@ -52,17 +48,6 @@ def test_a_page_that_asks_seldom_gets_no_more_than_one_that_asks_often(live):
             run.simulation.enter(2)
         run.simulation.step()
     assert len(feed.next()) < 50_000
-
-
-def test_nobody_is_told_what_a_page_is_recognised_by(live):
-    run, seats, key = live(robots=2), Seats([1, 2]), "0123456789abcdef" * 2
-    seat = seats.take(key)
-    listener = SimpleNamespace(short_urls=["octet/mint-4711"], qr_modules=[])
-
-    said = [PageFeed(run, rights=Rights(seats, seat)).next(), BoardFeed(run, of=Class(run, listener, seats)).next()]
-
-    assert all(text and "node" in text for text in said)
-    assert not any(key in text for text in said)
 
 
 def test_a_page_is_told_each_lesson_once_though_earlier_ones_are_forgotten():

@@ -2,16 +2,16 @@
 
 import asyncio
 
+import aiohttp
 import pytest
 
-from host_sim.live import connections
+from host_sim.live import connections, server
 from host_sim.live.listener import Listener
 from host_sim.live.server import LiveServer
 from tests.runs.support import DEADLINE_S
 
 
-def test_a_request_for_a_websocket_that_does_not_become_one_is_not_exempt(live, monkeypatch, tmp_path):
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+def test_a_request_for_a_websocket_that_does_not_become_one_is_not_exempt(live, monkeypatch):
     monkeypatch.setattr(connections, "LIFETIME_S", 0.2)
     monkeypatch.setattr(connections, "_KEEP_ALIVE_S", 2.0 * DEADLINE_S)
     listener = Listener(None, 0)
@@ -47,8 +47,7 @@ def test_masks_are_seen_however_the_bytes_come(step):
         assert all(masks.are_in(data[at : at + step]) for at in range(0, len(data), step)) == masked
 
 
-def test_a_frame_without_a_mask_closes_the_websocket(live, monkeypatch, tmp_path):
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+def test_a_frame_without_a_mask_closes_the_websocket(live):
     listener = Listener(None, 0)
     host = f"127.0.0.1:{listener.port}"
     request = (
@@ -72,3 +71,44 @@ def test_a_frame_without_a_mask_closes_the_websocket(live, monkeypatch, tmp_path
 
     assert asyncio.run(answer()).endswith(b"\x88\x02\x03\xea")
     assert run.playing
+
+
+def test_where_no_place_is_left_the_page_that_has_been_idle_for_longest_goes(live, monkeypatch):
+    monkeypatch.setattr(server, "PAGES_MAX", 2)
+    monkeypatch.setattr(server, "IDLE_S", 0.1)
+    listener = Listener(None, 0)
+    home = f"http://127.0.0.1:{listener.port}"
+
+    async def open_three() -> list[bool]:
+        async with LiveServer(live(), listener).serving(), aiohttp.ClientSession() as session:
+
+            async def page() -> aiohttp.ClientWebSocketResponse:
+                return await session.ws_connect(f"{home}/live?token={listener.token}", headers={"Origin": home})
+
+            first, second = await page(), await page()
+            with pytest.raises(aiohttp.WSServerHandshakeError, match="503"):
+                await page()
+            await asyncio.sleep(2 * server.IDLE_S)
+            await first.send_str('{"do": "pause"}')
+            while "playing" not in await first.receive_str():
+                pass
+            third = await page()
+            while (await second.receive()).type is aiohttp.WSMsgType.TEXT:
+                pass
+            return [each.closed for each in (first, second, third)]
+
+    assert asyncio.run(asyncio.wait_for(open_three(), DEADLINE_S)) == [False, True, False]
+
+
+@pytest.mark.parametrize("origin", ["{home}0", "{home}.evil.example", "{home}/", "http://127.0.0.1", "", "null"])
+def test_an_origin_is_compared_whole(live, origin):
+    listener = Listener(None, 0)
+    home = f"http://127.0.0.1:{listener.port}"
+
+    async def connect() -> None:
+        async with LiveServer(live(), listener).serving(), aiohttp.ClientSession() as session:
+            headers = {"Origin": origin.format(home=home)}
+            await session.ws_connect(f"{home}/live?token={listener.token}", headers=headers)
+
+    with pytest.raises(aiohttp.WSServerHandshakeError, match="403"):
+        asyncio.run(connect())

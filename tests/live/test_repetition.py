@@ -2,10 +2,10 @@
 
 from host_sim.client.commands import stop
 from host_sim.live.page_commands import EraseMemory, Freeze, NewSeed, NextEnvironment, WriteCell
+from host_sim.recording.phrases import news_of
 from host_sim.recording.resimulation import resimulate
 from host_sim.recording.world_file import world_path, write_world
 from host_sim.report.replay_page import run_data
-from host_sim.view.news import news_of
 from host_sim.world.edits import Edit
 from tests.live.support import order
 

@@ -23,8 +23,8 @@ import pytest
 from host_sim.live import terminal_view
 from host_sim.live.page_commands import FULL_SPEED, Play, WriteCell
 from host_sim.live.terminal_view import faster, slower
-from host_sim.view.state import states
-from host_sim.view.state_types import State
+from host_sim.recording.state import states
+from host_sim.recording.state_types import State
 from tests.live.support import order, play
 
 DEADLINE_S = 600

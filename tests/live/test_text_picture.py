@@ -7,8 +7,8 @@ import pytest
 
 from host_sim.live import terminal_view
 from host_sim.live.text_picture import draw_text
-from host_sim.view.phrases import sentence
-from host_sim.view.state_types import EnvironmentScene, Trial
+from host_sim.recording.phrases import sentence
+from host_sim.recording.state_types import EnvironmentScene, Trial
 
 
 @pytest.mark.parametrize(("columns", "rows"), [(60, 20), (80, 24), (100, 20), (60, 50), (250, 80)])

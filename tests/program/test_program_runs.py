@@ -1,4 +1,4 @@
-"""Robots whose brain is a program: docs/language.md."""
+"""Robots whose brain is a program: docs/article.md."""
 
 import hashlib
 from pathlib import Path
@@ -121,3 +121,95 @@ def test_a_replay_runs_the_program_again_that_was_there_then(tmp_path, capsys):
     assert main(["replay", str(out / "run.log"), "--no-world"]) == 1
 
     assert "drives, no difference" in capsys.readouterr().out
+
+
+PRINTS = """n = 0
+while n < 3
+  rForward 1
+  n += 1
+  if n != 2 && true then print "step", n
+wend
+print "not complete";
+"""
+
+
+@pytest.mark.parametrize("bus", ["none", "fd"])
+def test_what_a_program_prints_is_in_the_run_s_output(bus, tmp_path, capsys):
+    program = written(tmp_path, PRINTS)
+
+    assert main(["run", "--program", program, "--out", str(tmp_path), "--bus", bus, "--environments", "1"]) == 0
+
+    lines = capsys.readouterr().out.splitlines()
+    assert [line for line in lines if line.startswith("printed")] == ["printed   step 1", "printed   step 3"]
+
+
+@pytest.mark.parametrize("bus", ["none", "fd"])
+def test_a_program_that_prints_without_end_is_no_trouble(bus, tmp_path, capsys):
+    program = written(tmp_path, "while true\nrForward 1\nfor i = 1 to 999\nprint i, i, i\nnext\nwend\n")
+    words = ["--environments", "1", "--limit-s", "5", "--bus", bus]
+
+    assert main(["run", "--program", program, "--out", str(tmp_path), *words]) == 0
+
+    lines = [line for line in capsys.readouterr().out.splitlines() if line.startswith("printed")]
+    assert lines[-1].split()[1] == lines[-1].split()[3]
+    assert 300 < len(lines) < 500
+
+
+@pytest.mark.parametrize("bus", ["none", "fd"])
+def test_a_program_that_asks_for_distances_is_sent_them(bus, tmp_path, capsys):
+    text = "while rRange() > 6\nrForward 1\nwend\nprint rRange() > 2, rFeel() & 4\n"
+    words = ["--environments", "1", "--seed", "1", "--bus", bus, "--out", str(tmp_path)]
+
+    assert main(["run", "--program", written(tmp_path, text), *words]) == 0
+
+    assert "printed   1 4" in capsys.readouterr().out
+    assert main(["replay", str(tmp_path / "run.log")]) == 0
+
+
+COURSE = {
+    "wall": """
+// Turns away from whatever is near.
+MainLoop:
+  feel = rFeel()
+  if feel & 0%01110
+    rTurn 10
+  elseif feel == 0x1 || feel == 0x10
+    rTurn 1
+  else
+    rForward 1
+  endif
+goto MainLoop
+""",
+    "bounce": """
+bounces = 0
+repeat
+  while !rBumper() && rRange(0) > 5
+    rForward 1
+  wend
+  bounces += 1
+  print "bounce"; bounces
+  rTurn 120 + random(60)
+until bounces == 3
+""",
+    "search": """
+turned = 0
+for i = 1 to 360
+  if rLook() == Green then break
+  if i % 2 != 0 then continue
+  rTurn 2
+  turned += 2
+next
+print "turned", turned
+""",
+}
+"""Programs in the manner of a first course: goto, repeat, break, the operators of C, print, distances."""
+
+
+@pytest.mark.parametrize("name", COURSE)
+def test_a_course_s_program_runs(name, tmp_path, capsys):
+    program = written(tmp_path, COURSE[name])
+    words = ["--environments", "1", "--limit-s", "60", "--bus", "none", "--out", str(tmp_path)]
+
+    assert main(["run", "--program", program, *words]) == 0
+
+    assert "expected" not in capsys.readouterr().out

@@ -6,7 +6,7 @@ ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).parent
 GENERATED = ROOT / "build/host-vcan/generated"
 INCLUDED = (
-    *(f"-I{folder}" for folder in (ROOT, GENERATED, ROOT / "build/monocypher")),
+    *(f"-I{folder}" for folder in (ROOT, GENERATED)),
     "-DOCTET_VERSION_MAJOR=1",
     "-DOCTET_VERSION_MINOR=0",
 )
@@ -22,7 +22,6 @@ _ANY_FLASH = HERE / "any/flash.c"
 ROBOT = [HERE / "any/robot.c", *_CORE]
 """The core, with a robot in any state."""
 
-_UPDATE = ("choice", "image", "isotp", "resident", "sha512", "start", "uds_parts")
 
 PARTS = {
     "core": ROBOT,
@@ -30,26 +29,20 @@ PARTS = {
     "wire": [*sorted((ROOT / "hal/protocol").glob("*.c")), _CRC32, *_CORE, GENERATED / "octet.c"],
     "slcan": [ROOT / "hal/link/slcan.c"],
     "store": [*_STORE, _ANY_FLASH],
-    "update": [*(ROOT / f"hal/boot/{name}.c" for name in _UPDATE), *_STORE, _ANY_FLASH],
 }
-
-_ON_THE_CHIP = {"boot_main.c", "challenge.c", "resident.c", "signer.c"}
-
-_BOOT = [source for source in sorted((ROOT / "hal/boot").glob("*.c")) if source.name not in _ON_THE_CHIP]
 
 _EXCHANGE = [*PARTS["wire"], HERE / "any/command.c", ROOT / "hal/library/exchange.c"]
 
 _PROGRAM = [
     source
     for source in sorted((ROOT / "host_sim/program/native").glob("*.c"))
-    if source.name not in {"brain.c", "programmed.c", "program_main.c", "tell.c"}
+    if source.name not in {"brain.c", "programmed.c", "program_main.c", "trace.c"}
 ]
 
 FUZZED = {
     **PARTS,
     "program": [*_PROGRAM, *_CORE, ROOT / "host_sim/world/native/trig.c"],
     "flash": _STORE,
-    "boot": [*_BOOT, *_STORE],
     "commands": _EXCHANGE,
     "session": _EXCHANGE,
 }

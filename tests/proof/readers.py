@@ -4,22 +4,20 @@ import gzip
 import io
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from itertools import islice
 from pathlib import Path
 from typing import Any
 
 import can
 
 from host_sim.base.errors import OctetError
-from host_sim.client.frame_log import line_of
-from host_sim.faults.rule import Rule, read_rules
 from host_sim.lab.campaign.cell import Cell
-from host_sim.lab.study.plan_file import read_plan
+from host_sim.lab.study import used_seeds
+from host_sim.lab.study.plan import read_plan
 from host_sim.live.page_commands import page_command_from
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.memory_file import load_memory
-from host_sim.recording.wire_1 import OldLog
 from host_sim.recording.world_file import read_world
+from host_sim.transport.rule import Rule, read_rules
 from host_sim.world.changes import read_changes
 from host_sim.world.worlds import world_of
 from tools.robot_words.description import DescriptionError
@@ -92,8 +90,12 @@ def in_list(read: Callable[[str], Any]) -> Callable[[bytes, Path], Any]:
     return in_file("list.txt", lambda path: read(f"@{path}"))
 
 
-OLD = recorded("wire_1_three_robots.log")
-TODAY = "".join(f"{line_of(*it)}\n" for it in islice(OldLog(DATA / "version_1_0.log"), 40)).encode()
+LOG = b"".join(recorded("a_gap.log").splitlines(keepends=True)[:40])
+WORLD = b"""\
+{"format": 1, "seed": 1, "of": 1, "limit_ticks": 150, "robots": 1, "front_extra_mm": 0.5,
+ "environments": [{"seed": 1, "number": 1, "first_tick": 0}],
+ "edits": [{"tick": 50, "do": "plant", "at": [2761, 2403], "radius": 80}]}
+"""
 MEMORIES = [
     bytes(cells) for cells in ((0, 1, 2, 1, 2, 1, 2, 1), (0, 5, 6, 9, 10, 13, 14, 0), (15, 0, 36, 0, 0, 0, 0, 0))
 ]
@@ -106,7 +108,6 @@ ORDERS = b"""\
 {"do": "next"}
 {"do": "decision"}
 {"do": "pause"}
-{"do": "name", "name": "Ada"}
 {"do": "lift", "robot": 1}
 {"do": "put", "at": [500, 600], "heading": -1571}
 {"do": "add_bar", "a": [500, 600], "b": [700, 800]}
@@ -126,15 +127,18 @@ forge:stop@300/to
 CELLS = [b"article fd lockstep seed=12 limit=4 fault=drop:10% change=swap-motors@2s event=hang:300@100"]
 CHANGES = [(ROOT / "docs/worlds/day.txt").read_bytes(), b"swap-motors@env2+3.5s\nrepair@40s\n"]
 READERS = {
-    "log": Reader([TODAY], log("run.log")),
-    "log_old": Reader([OLD], in_file("old.log", lambda path: list(OldLog(path)))),
-    "log_gz": Reader([gzip.compress(TODAY, mtime=0)], log("run.log.gz")),
+    "log": Reader([LOG], log("run.log")),
+    "log_gz": Reader([gzip.compress(LOG, mtime=0)], log("run.log.gz")),
     "log_asc": Reader([ASC], log("run.asc")),
     "log_blf": Reader([as_blf()], log("run.blf")),
     "memory": Reader(MEMORIES, in_file("robot.mem", load_memory)),
-    "world_file": Reader(contents(DATA.glob("*.world.json")), in_file("run.world.json", read_world)),
+    "world_file": Reader([WORLD], in_file("run.world.json", read_world)),
     "world": Reader(contents(WORLDS.glob("*.toml")), in_file("my.toml", lambda path: world_of(str(path)))),
-    "study": Reader(contents((ROOT / "studies").glob("*.toml")), in_file("study.toml", read_plan)),
+    "study": Reader(
+        contents({*(ROOT / "studies").glob("*.toml")} - {ROOT / "studies/used_seeds.toml"}),
+        in_file("study.toml", read_plan),
+    ),
+    "used_seeds": Reader([used_seeds.FILE.read_bytes()], in_file("used.toml", used_seeds.read_used)),
     "order": Reader(ORDERS, as_text(page_command_from), ValueError),
     "changes": Reader(CHANGES, in_list(read_changes)),
     "fault": Reader(FAULTS, as_text(Rule.parse)),

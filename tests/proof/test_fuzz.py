@@ -65,13 +65,6 @@ bool __wrap_config_fits(uint8_t parameter, uint32_t value)
     return parameter < PARAMETER_COUNT && value < 256;
 }
 """
-VERIFY = """
-#include "hal/boot/image.h"
-enum refusal __wrap_image_verify(unsigned slot, struct image *out)
-{
-    return image_check(slot, out);
-}
-"""
 WRITE = """
 #include "hal/flash_store/flash.h"
 int __real_flash_write(unsigned, uint32_t, const uint32_t[], uint32_t);
@@ -99,7 +92,6 @@ int __wrap_flash_write(unsigned page, uint32_t offset, const uint32_t words[], u
         ("commands", "robot_respond", RESPOND.replace("FAULT", "out->drive.right_mm_s = robot->config.value[0];")),
         ("commands", "config_fits", FITS),
         ("flash", "flash_write", WRITE),
-        ("boot", "image_verify", VERIFY),
     ],
 )
 def test_what_must_not_come_of_any_input_is_found(compiler, tmp_path, name, function, lines):

@@ -59,7 +59,7 @@ def test_a_run_keeps_to_the_protocol(short):
 
 
 def test_what_the_robot_does_is_its_own_affair(short):
-    edited(short.log, "DRIVE", 20, faster)
+    edited(short.log, "DRIVE", -2, faster)  # the last one of the run, which HEALTH does not cover
 
     assert octet("replay", short.log).returncode == 1
     assert octet("replay", short.log, "--protocol").returncode == 0
@@ -73,6 +73,7 @@ def test_what_the_robot_does_is_its_own_affair(short):
         ("DRIVE", lambda data: data[:-1], "damaged or of a wrong length"),
         ("ANSWER", lambda _: None, "a command was not answered"),
         ("HEALTH", with_other_orders, "HEALTH holds something else"),
+        ("DRIVE", faster, "HEALTH holds something else"),
     ],
 )
 def test_what_is_against_it_is_said_with_its_time(short, name, edit, problem):

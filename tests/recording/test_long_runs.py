@@ -9,6 +9,7 @@ import pytest
 
 from host_sim.protocol.codec import Protocol
 from host_sim.recording import run_recorder as run_recorder_module
+from host_sim.recording.history import LearningHistory
 from host_sim.recording.log_reader import LogReader
 from host_sim.recording.recording import read_recording
 from host_sim.recording.run_recorder import RunRecorder
@@ -16,7 +17,6 @@ from host_sim.report.picture import write_picture
 from host_sim.report.replay_page import omissions, run_data
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
-from host_sim.view.history import LearningHistory
 
 TICKS_MAX, LIMIT_S, EPISODE_TICKS = 1000, 4.0, 200
 PIECES_OF_A_RESULT = 40

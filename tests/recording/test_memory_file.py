@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import UsageError
+from host_sim.base.files import write_bytes
 from host_sim.protocol.generated import MemoryKind
 from host_sim.recording import memory_lock as module
 from host_sim.recording.memory_file import MemorySaver, load_memory
@@ -49,8 +49,35 @@ def test_the_file_that_a_link_named_goes_when_a_run_turns_doubtful_and_the_link_
     assert load_memory(path) is None
 
 
+def test_a_run_that_is_killed_as_it_turns_doubtful_leaves_the_file_as_it_was_before(path, reported, monkeypatch):
+    path.write_bytes(bytes(SOME))
+    saver = MemorySaver(path, SOME, reported.append)
+    saver.save(MORE)
+    written = []
+
+    def killed_after_one(target, content):
+        if written:
+            raise KeyboardInterrupt
+        written.append(target)
+        write_bytes(target, content)
+
+    monkeypatch.setattr("host_sim.recording.memory_file.write_bytes", killed_after_one)
+    with pytest.raises(KeyboardInterrupt):
+        saver.save(NOTHING, doubtful=True)
+
+    assert load_memory(path) == SOME
+
+
 def test_no_file_is_no_memory(path):
     assert load_memory(path) is None
+
+
+@pytest.mark.parametrize("size", [0, 7, 9, 8652, 1 << 20])
+def test_a_file_of_another_size_is_no_memory_file(path, size):
+    path.write_bytes(bytes(size))
+
+    with pytest.raises(UsageError, match=f"is not a memory file: {size} bytes, expected 8"):
+        load_memory(path)
 
 
 def test_a_memory_that_knows_more_replaces_the_old_one_without_a_word(path, reported):

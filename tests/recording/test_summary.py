@@ -5,12 +5,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from host_sim.backends.in_process_link import InProcessLink
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import INCIDENTS_MAX, RobotClient
 from host_sim.protocol.codec import Protocol
 from host_sim.recording.summary import Summary, frame_counts, summarize, text_of
+from host_sim.sim.in_process_link import InProcessLink
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.world_record import WorldRecord
 

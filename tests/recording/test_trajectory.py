@@ -29,8 +29,7 @@ from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.world.crates import Crates
 from host_sim.world.edits import Edit
-from host_sim.world.geometry import Bar
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import Bar, SimParams
 from tests.recording.support import open_simulation, record_run, run_through, without, write_log
 
 

@@ -6,11 +6,10 @@ import pytest
 
 from host_sim.base.errors import OctetError, UsageError
 from host_sim.recording.world_file import read_world, world_path, write_world
-from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
+from host_sim.sim.world_record import Begun, Edited, Refused, Source, WorldRecord
 from host_sim.world.edits import Edit
-from host_sim.world.geometry import Bar, Plant
+from host_sim.world.geometry import Bar, Plant, SimParams
 from host_sim.world.layouts import World
-from host_sim.world.params import SimParams
 from host_sim.world.worlds import world_of
 
 PLANT = Plant((500.0, 600.0), 80.0)
@@ -42,6 +41,7 @@ def record() -> WorldRecord:
         [Refused(12, "plant@1s", "the robot stands there")],
         world,
         program="\u201cx = 1\u201d\n".encode() + b"\xff",
+        own=Source("mine.c", b"int x; /* \xff */\n"),
     )
 
 
@@ -124,6 +124,11 @@ GOOD = {"format": 1, "seed": 1, "of": 5, "limit_ticks": 9, "environments": [], "
     "change",
     [
         {"format": 2},
+        {"own": "int x;"},
+        {"own": {"name": "../mine.c", "sha256": Source("", b"x").sha256, "source": "x"}},
+        {"own": {"name": "mine.sh", "sha256": Source("", b"x").sha256, "source": "x"}},
+        {"own": {"name": "mine.c", "sha256": Source("", b"y").sha256, "source": "x"}},
+        {"own": {"name": "mine.c", "sha256": Source("", b"x").sha256}},
         {"seed": -1},
         {"seed": True},
         {"seed": 1.0},

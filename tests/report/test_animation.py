@@ -7,11 +7,11 @@ import pytest
 from PIL import Image, ImageChops
 
 from host_sim.cli.main import main
+from host_sim.recording.phrases import lesson_sentence, sentence
+from host_sim.recording.state_types import State
 from host_sim.recording.trajectory import Trajectory
 from host_sim.report.animation import Clip, draw_frame, write_gif
 from host_sim.report.drawing import CONE_LIT
-from host_sim.view.phrases import lesson_sentence, sentence
-from host_sim.view.state_types import State
 from tests.runs.support import octet_process
 
 README_BYTES_MAX = 1_500_000

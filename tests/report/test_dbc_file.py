@@ -1,4 +1,4 @@
-"""The DBC and KCD files for any nodes, loaded by cantools."""
+"""The DBC files for any nodes, loaded by cantools."""
 
 import re
 from contextlib import ExitStack
@@ -14,7 +14,7 @@ from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.protocol.every_node import hear
 from host_sim.protocol.generated import MESSAGES
 from host_sim.recording.log_reader import read_log
-from host_sim.report.dbc_file import dbc_text, kcd_text
+from host_sim.report.dbc_file import dbc_text
 from host_sim.sim.run_config import RunConfig
 from tests.recording.support import open_simulation, run_through
 
@@ -100,13 +100,6 @@ def test_one_node_is_the_same_as_its_part_of_many(dbc):
     assert [contents(it) for it in alone.messages] == [contents(it) for it in dbc.messages if it.name[:3] == "N3_"]
 
 
-def test_the_kcd_file_loses_only_what_kcd_has_no_place_for(dbc):
-    kcd = cantools.database.load_string(kcd_text(NODES), "kcd")
-
-    found = {message.name: contents(message) for message in kcd.messages}
-    assert found == {message.name: contents(message) for message in dbc.messages}
-
-
 def contents(message) -> dict[str, object]:
     """What a message says, but for its start values and attributes."""
     fields = ("start", "length", "byte_order", "is_signed", "minimum", "maximum", "unit", "choices", "comment")
@@ -141,9 +134,3 @@ def test_nodes_that_do_not_exist_are_refused(capsys, words):
     assert main(["dbc", "--nodes", words]) == 2
 
     assert re.fullmatch(r"octet: argument --nodes: .*\n", capsys.readouterr().err)
-
-
-def test_kcd_is_printed_when_asked_for(capsys):
-    assert main(["dbc", "--node", "1", "--kcd"]) == 0
-
-    assert capsys.readouterr().out == kcd_text([1])

@@ -14,19 +14,18 @@ from PIL import Image, ImageChops
 
 from host_sim.cli.main import main
 from host_sim.protocol.generated import ROW
+from host_sim.recording.state import environment_scene
+from host_sim.recording.state_types import EnvironmentScene
 from host_sim.recording.trajectory import RobotTrack, Trajectory
 from host_sim.report.fleet_picture import write_fleet_picture
 from host_sim.report.picture import draw_run, omissions
 from host_sim.sim.fleet import FleetResult
 from host_sim.sim.native_fleet import Contacts
 from host_sim.sim.world_record import Begun
-from host_sim.view.state import environment_scene
-from host_sim.view.state_types import EnvironmentScene
 from host_sim.world.arena import Arena
-from host_sim.world.geometry import Pose
+from host_sim.world.geometry import Pose, SimParams
 from host_sim.world.layouts import generate
-from host_sim.world.params import SimParams
-from host_sim.world.world_names import WORLD_NAMES
+from host_sim.world.names import WORLD_NAMES
 
 PARAMS = SimParams()
 EMPTY_MEMORY = [0] * 8

@@ -27,7 +27,7 @@ from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.world.edits import Edit, EditError
-from host_sim.world.world_names import STILL_WORLDS
+from host_sim.world.names import STILL_WORLDS
 
 EDITS = {
     60: Edit("plant", at=(700.0, 600.0), radius=80.0),

@@ -9,8 +9,8 @@ import sys
 
 import pytest
 
-from host_sim.backends import bus_choice
 from host_sim.recording.memory_lock import memory_lock
+from host_sim.sim import access
 from tests.runs.support import ROBOT, ROOT, octet, octet_process
 
 
@@ -160,10 +160,10 @@ def test_text_may_begin_with_a_byte_order_mark(run, tmp_path):
 
 
 def test_a_run_finds_its_bus_without_with_vcan(tmp_path, monkeypatch):
-    monkeypatch.setattr(bus_choice, "_WITH_VCAN", tmp_path / "with-vcan")
+    monkeypatch.setattr(access, "_WITH_VCAN", tmp_path / "with-vcan")
     monkeypatch.delenv("OCTET_VCAN_CHOSEN", raising=False)
 
-    assert bus_choice.choose_bus("auto", "spawn") == "fd"
+    assert access.choose_bus("auto", "spawn") == "fd"
 
 
 def test_a_robot_with_another_layout_of_messages_is_refused(tmp_path):

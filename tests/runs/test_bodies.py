@@ -1,5 +1,7 @@
 """Runs with bodies that are not ideal, and with distances on the wire: the same wherever, and from the log."""
 
+from dataclasses import replace
+
 import pytest
 
 from host_sim.base.errors import SessionLostError, UsageError
@@ -172,7 +174,7 @@ def test_a_bad_bus_repeats_them_too_and_changes_nothing(tmp_path):
     clean, bad = tmp_path / "clean.log", tmp_path / "bad.log"
     run(clean, ASKED)
     faults = ("drop:20%", "duplicate:10%", "reorder:10%")
-    repeated, incidents = run(bad, RunConfig(**{**vars(ASKED), "faults": faults}))
+    repeated, incidents = run(bad, replace(ASKED, faults=faults))
 
     assert repeated > 100
     assert not incidents

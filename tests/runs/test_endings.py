@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.backends.robot_process import RobotProcess
 from host_sim.base.errors import RobotError
 from host_sim.live.paced_run import PAUSE_S
+from host_sim.sim.robot_process import RobotProcess
 from tests.runs.support import (
     BUSY_HOST,
     DEADLINE_S,
@@ -184,6 +184,26 @@ def test_a_run_that_ends_before_its_first_tick_leaves_the_last_one(tmp_path, wor
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
 
 
+def test_a_watched_run_that_no_page_began_leaves_the_last_one(tmp_path):
+    assert octet("run", *SHORT, "--seed", "3", "--quiet", "--out", tmp_path).returncode == 0
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    process = start_octet("watch", "--port", "0", "--bus", "none", "--out", tmp_path)
+    wait_until(lambda: "watch" in process.stdout.readline(), "the address")
+    process.send_signal(signal.SIGINT)
+    said, _ = process.communicate(timeout=DEADLINE_S)
+
+    assert (process.returncode, "replay.html" in said) == (0, False)
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+def test_a_run_without_a_page_names_none(tmp_path):
+    process = start_octet("watch", "--port", "0", "--bus", "none", "--out", tmp_path)
+    wait_until(lambda: "watch" in process.stdout.readline(), "the address")
+    process.send_signal(signal.SIGINT)
+
+    assert "replay.html" not in process.communicate(timeout=DEADLINE_S)[0]
+
+
 @pytest.mark.parametrize("summary", [b"", b"{", b"[]", b"\xff\xfe", b"{}"])
 def test_a_summary_that_is_none_does_no_harm(tmp_path, summary):
     (tmp_path / "run.log").write_text("old")
@@ -266,7 +286,7 @@ def test_a_command_without_a_log_that_is_interrupted_speaks_of_none(monkeypatch)
     def interrupted(_: object) -> int:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("host_sim.lab.monitor.monitor_command._monitor", interrupted)
+    monkeypatch.setattr("host_sim.cli.dbc_command._dbc", interrupted)
 
-    assert (ended := octet("monitor", "socketcan:can0")).returncode == 128 + signal.SIGINT
+    assert (ended := octet("dbc", "--node", "1")).returncode == 128 + signal.SIGINT
     assert ended.stderr == "octet: ended by SIGINT\n"

@@ -181,7 +181,7 @@ def test_recorded_faults_are_made_again(run):
 
 @pytest.mark.faulty
 def test_faults_that_were_too_many_to_record_are_said_to_be_left_out(run, monkeypatch):
-    monkeypatch.setattr("host_sim.faults.schedule.RECORD_MAX", 3)
+    monkeypatch.setattr("host_sim.transport.faulty_link.RECORD_MAX", 3)
 
     first = run("--environments", "1", "--limit-s", "1", "--bus", "none", "--fault", "duplicate:20%")
 

@@ -13,7 +13,7 @@ from PIL import Image
 
 from host_sim.cli.run_options import RunOptions
 from host_sim.sim import native_fleet
-from host_sim.sim.run_config import flag_of, options_of
+from host_sim.sim.option import flag_of, options_of
 from tests.runs.support import octet
 
 SHORT = ("--environments", "2", "--limit-s", "20", "--seed", "3")
@@ -120,6 +120,9 @@ REFUSED = {
     "a node number": (("--node", "5"), "leave --node out"),
     "the reference physics": (("--physics", "pymunk"), "leave --physics pymunk out"),
     "a compressed log": (("--compress-log",), "leave --compress-log out"),
+    "a behaviour of one's own that is not there": (("--profile", "no.c"), "cannot read no.c: No such file"),
+    "an unchecked behaviour": (("--fast",), "leave --fast out"),
+    "a debugger": (("--gdb",), "--gdb stops one robot"),
     "changes": (("--change", "plant@5s"), "leave --change out"),
     "faults": (("--fault", "drop:1%"), "leave --fault out"),
     "people who watch": (("--watch",), "a fleet cannot be watched"),

@@ -16,10 +16,10 @@ from host_sim.protocol.codec import Protocol
 from host_sim.protocol.generated import MEMORY_KINDS, PROFILES, MemoryKind, Side
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.replay import replay
-from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
+from host_sim.sim.world_record import EpisodeResult
 from host_sim.world.memory_kinds import kinds_of, sides_of
 from tests.runs.support import octet
 
@@ -84,7 +84,7 @@ def test_what_is_on_the_right_causes_left_turns_and_the_other_way_round(last, ce
 
 
 @pytest.mark.parametrize(("cell", "enough"), [(2, 0.9), (5, 0.55), (7, 0.55)])
-def test_for_symmetrical_patterns_the_first_thing_tried_is_remembered_and_robots_differ(last, cell, enough):
+def test_for_symmetrical_patterns_some_side_is_learned_and_robots_differ(last, cell, enough):
     learned = [memory[cell] for memory in last if memory[cell]]
 
     assert len(learned) >= enough * len(last)

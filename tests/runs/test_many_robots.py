@@ -1,7 +1,6 @@
 """Many robots on one bus: on vcan, and behind one slcan adapter."""
 
 import os
-import re
 import socket
 import subprocess
 import threading
@@ -12,12 +11,12 @@ from dataclasses import dataclass
 import can
 import pytest
 
-from host_sim.cli.main import main
 from host_sim.client.robot_reports import REPORTS
 from host_sim.protocol.codec import Frame, node_of
 from host_sim.protocol.every_node import hear
 from host_sim.recording.log_reader import read_log
-from host_sim.report.bus_load import measure
+from host_sim.report.bus_load import robot_bits_a_second, worst_bits
+from tests.report.bits_sent import bits_sent
 from tests.runs.slcan_adapter import Adapter
 from tests.runs.support import ROBOT, Run, assert_healthy, octet
 
@@ -76,7 +75,7 @@ def test_robots_behind_one_adapter_do_what_they_do_elsewhere(run, adapter):
 
 
 def test_a_robot_that_is_missing_behind_the_adapter_is_named(run, adapter, monkeypatch):
-    monkeypatch.setattr("host_sim.sim.make._EXTERNAL_S", 0.5)
+    monkeypatch.setattr("host_sim.sim.connect._EXTERNAL_S", 0.5)
 
     done = run(*WORDS, "--robots", "3", *external(adapter(1, 2)))
 
@@ -99,7 +98,7 @@ def test_the_adapter_is_told_the_bit_rate(run, adapter, words, order):
     done = run(*WORDS, "--limit-s", "1", *external(plugged, *words))
 
     assert done.code == 0
-    assert plugged.orders == [b"C", order, b"O"]
+    assert plugged.orders == [b"C", b"Z0", order, b"O"]
 
 
 @pytest.mark.vcan
@@ -175,17 +174,14 @@ def test_another_reader_of_a_full_bus_sees_the_frames_of_the_log(crowd):
 
 
 @pytest.mark.vcan
-def test_a_full_bus_takes_what_is_computed(crowd, capsys):
-    log = list(read_log(crowd.run.out / "run.log"))
-    load = measure(it for it in log if it.time_us)  # without the start, which takes no time in a log
+def test_a_full_bus_takes_what_is_computed(crowd):
+    log = [it for it in read_log(crowd.run.out / "run.log") if it.time_us]  # the start takes no time in a log
+    available = (log[-1].time_us - log[0].time_us) / 1e6 * BIT_RATE
 
-    assert main(["load"]) == 0
-
-    (computed,) = re.findall(rf"^\| {MANY} (?:[^|]*\|){{3}} +(\d+)%", capsys.readouterr().out, re.MULTILINE)
-    at_worst = sum(share.worst for share in load.messages.values()) / load.seconds / BIT_RATE
-    assert load.nodes == set(range(1, 1 + MANY))
-    assert at_worst == pytest.approx(int(computed) / 100, rel=0.03)
-    assert 0.8 * at_worst < load.bits_a_second / BIT_RATE < at_worst
+    at_worst = sum(worst_bits(len(it.frame.data)) for it in log) / available
+    assert {node_of(it.frame.id) for it in log} == set(range(1, 1 + MANY))
+    assert at_worst == pytest.approx(MANY * robot_bits_a_second() / BIT_RATE, rel=0.03)
+    assert 0.8 * at_worst < sum(len(bits_sent(it.frame)) for it in log) / available < at_worst
 
 
 def test_an_external_robot_gets_an_owner_that_depends_on_the_seed_alone(run, adapter):

@@ -5,10 +5,12 @@ import os
 import re
 import subprocess
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack, closing
 
 import pytest
 
-from host_sim.faults.cable import Cable, Socket
+from host_sim.transport.cable import Cable, Socket
+from tests.runs.slcan_adapter import Adapter
 from tests.runs.support import BUSY_HOST, DEADLINE_S, ROBOT, octet, start_octet, wait_until
 
 LEARNED = bytes([0, 1, 1, 1, 2, 1, 2, 1])
@@ -172,3 +174,38 @@ def test_watching_an_external_robot_is_in_real_time_on_its_own_clock(robot_on, c
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert summary["environments"][0]["ticks"] == 150
     assert summary["wall_s"] > 2.5
+
+
+@pytest.fixture
+def adapter_that() -> Iterator[Callable[[str], str]]:
+    """Plugs in an adapter with a habit, on a bus with a robot; returns the name of its tty."""
+    with ExitStack() as stack:
+
+        def plug(habit: str) -> str:
+            adapter = stack.enter_context(closing(Adapter(1, node_of=lambda _id: 1, habit=habit)))
+            robot = subprocess.Popen([os.fspath(ROBOT), f"slcan:{adapter.robots[1]}"], stdout=subprocess.PIPE)
+            stack.callback(robot.communicate)
+            stack.callback(robot.kill)
+            return adapter.host
+
+        yield plug
+
+
+@pytest.mark.parametrize("habit", ["crlf", "stamps", "echoes", "restarts"])
+def test_what_real_adapters_do_changes_nothing(run, adapter_that, habit):
+    words = ("--environments", "1", "--limit-s", "5", "--owner", "1")
+
+    over_adapter = run(*words, "--bus", f"slcan:{adapter_that(habit)}", "--robot", "external")
+
+    assert (over_adapter.code, over_adapter.errors) == (0, "")
+    assert drives_in(over_adapter.log) == drives_in(run(*words, "--bus", "none").log)
+
+
+def test_an_adapter_that_refuses_to_open_its_bus_is_said_to(run, adapter_that, monkeypatch):
+    monkeypatch.setattr("host_sim.sim.connect._EXTERNAL_S", 3.0)
+    refused = run("--environments", "1", "--bus", f"slcan:{adapter_that('refuses')}", "--robot", "external")
+
+    assert refused.code != 0
+    assert re.search(
+        r"no robot answered .*; the adapter refused a command or a frame \d+ times \(BELL\)", refused.errors
+    )

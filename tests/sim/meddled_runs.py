@@ -8,15 +8,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.errors import RobotError
-from host_sim.client.commands import stop
+from host_sim.client.commands import handshake, stop
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
-from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.codec import Frame, Protocol, crc8
 from host_sim.recording.run_recorder import RunRecorder
+from host_sim.sim.in_process_link import InProcessLink
 from host_sim.sim.make import assemble
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig

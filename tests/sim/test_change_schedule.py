@@ -1,6 +1,6 @@
 """When changes are due."""
 
-from host_sim.sim.change_schedule import ChangeSchedule
+from host_sim.sim.simulation import ChangeSchedule
 from host_sim.world.changes import Change
 
 

@@ -13,9 +13,8 @@ from host_sim.sim import fleet, native_fleet
 from host_sim.sim.fleet import FleetResult, run_fleet
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
-from host_sim.world.geometry import Pose
+from host_sim.world.geometry import Pose, SimParams
 from host_sim.world.layouts import Layout
-from host_sim.world.params import SimParams
 
 UNSEEN = native_fleet.Contacts(0, 0, 0, False)
 OWN = RunConfig(seed=11, robots=3, worlds="own", environments=2, limit_s=60.0)
@@ -49,7 +48,7 @@ def results_with_frames(config: RunConfig, number_from: int = 1) -> list[FleetRe
 
 def in_order(results: list[FleetResult]) -> list[FleetResult]:
     """Without the contacts, which a run of its own does not count; tests of studies compare them."""
-    seen = [replace(result, contacts=UNSEEN, known_ticks=None) for result in results]
+    seen = [replace(result, contacts=UNSEEN, known_ticks=None, met=()) for result in results]
     return sorted(seen, key=lambda result: (result.robot, result.environment))
 
 
@@ -70,6 +69,30 @@ def test_robots_in_one_world_do_what_they_do_on_a_bus(robots):
     config = RunConfig(seed=1, robots=robots, environments=2, limit_s=20.0)
 
     assert in_order(list(run_fleet(config))) == in_order(results_with_frames(config))
+
+
+def test_bodies_that_are_faulty_from_the_start_are_so_in_a_fleet():
+    config = replace(OWN, robots=1, changes=("mirror@0s", "weak-motor:left:80%@env1"))
+
+    found = in_order(list(run_fleet(config)))
+    assert found == in_order(results_with_frames(replace(config, worlds="one")))
+    assert found != in_order(list(run_fleet(replace(config, changes=()))))
+
+
+@pytest.mark.parametrize("change", ["mirror@env2", "mirror@5s", "mirror@0s/1", "plant@0s"])
+def test_nothing_changes_in_a_fleet_later_on(change):
+    with pytest.raises(UsageError, match="nothing changes in a fleet"):
+        run_fleet(replace(OWN, changes=(change,)))
+
+
+def test_robots_that_learn_no_more_have_their_memories_and_seeds():
+    frozen = [fleet.Frozen(seed, (0, 1, 0, 0, 2, 0, 0, 0)) for seed in (11, 11, 12)]
+    config = replace(OWN, environments=1, limit_s=20.0)
+
+    same, again, other = in_order(list(run_fleet(config, frozen=frozen)))
+    assert same.memory == other.memory == (0, 1, 0, 0, 2, 0, 0, 0)
+    assert replace(again, robot=1) == same
+    assert (other.seed, other.pose) != (same.seed, same.pose)
 
 
 @pytest.mark.parametrize("world", ["corridors", "small"])

@@ -15,7 +15,7 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.protocol.codec import Frame
 from host_sim.protocol.generated import NOTHING_SENSED
 from host_sim.recording.run_recorder import RunRecorder
-from host_sim.sim import loop_robots
+from host_sim.sim import block_catch_up
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from tests.sim.meddled_runs import (
@@ -127,9 +127,8 @@ def test_a_robot_whose_wheels_may_not_do_what_it_tells_them_is_doubted_once(tmp_
 
     result = assert_alike(tmp_path, {40: rush, 41: rush})
 
-    assert [text.partition(") ")[2].partition(" and")[0] for text in result.incidents] == [
-        "the robot told its wheels 2047"
-    ]
+    told = [text.partition(") ")[2].partition(" and")[0] for text in result.incidents]
+    assert told.count("the robot told its wheels 2047") == 1
 
 
 COMMANDS = {
@@ -201,13 +200,13 @@ def test_without_a_descriptor_to_spare_python_runs_the_ticks(tmp_path, monkeypat
     def refuse(_: int) -> int:
         raise OSError(errno.EMFILE, "Too many open files")
 
-    monkeypatch.setattr(loop_robots.os, "dup", refuse)
+    monkeypatch.setattr(block_catch_up.os, "dup", refuse)
 
     assert set(outcome(tmp_path, {}, native=True).blocks) == {1}
 
 
 def test_a_socket_that_c_code_cannot_use_is_left_to_python(tmp_path, monkeypatch):
-    monkeypatch.setattr(loop_robots.os, "dup", lambda _: os.open("/dev/null", os.O_RDONLY))
+    monkeypatch.setattr(block_catch_up.os, "dup", lambda _: os.open("/dev/null", os.O_RDONLY))
     before = descriptors()
 
     assert set(outcome(tmp_path, {}, native=True).blocks) == {1}

@@ -1,14 +1,14 @@
-"""A sample of the comparison that `tools/bench --loops` makes over ten million ticks, and its canary."""
+"""A sample of the comparison of ten million ticks, and its canary."""
 
 from dataclasses import replace
 
 import pytest
 
-from host_sim.lab.bench import native_equality
-from host_sim.lab.bench.native_equality import compare_loops
 from host_sim.sim.native_loop import NativeLoop
 from host_sim.world.plain_space import PlainSpace
 from host_sim.world.world_library import world_library
+from tests.sim import native_equality
+from tests.sim.native_equality import compare_loops
 
 
 @pytest.fixture(autouse=True)

@@ -124,3 +124,16 @@ TEST(a_memory_is_the_cores)
     fleet_memories(robots, 1, cells);
     TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0, 1, 1, 1, 2, 1, 2, 1}), cells, CELL_COUNT);
 }
+
+TEST(the_patterns_at_which_a_robot_is_blocked_are_noted_in_the_order_in_which_it_first_was)
+{
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, fleet_command(&robots[0], OPCODE_START, PROFILE_NEVER, 7, &answer));
+    (void)fleet_run_alone(robots, 1, TICKS);
+    TEST_ASSERT_EQUAL_HEX32(0, robots[0].met);
+    for (unsigned sensors = 1, i = 0; i < 4; sensors = sensors == 4 ? 1 : 2 * sensors, i++) {
+        bodies[0].faults = (struct body_faults){.stuck_on = (uint8_t)(sensors << 1)};
+        robots[0].ticks = 0;
+        (void)fleet_run_alone(robots, 1, TICKS);
+    }
+    TEST_ASSERT_EQUAL_HEX32(0x421, robots[0].met);
+}

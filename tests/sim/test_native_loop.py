@@ -13,11 +13,11 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.client.session import Session
 from host_sim.protocol.generated import PROFILES, Reason
 from host_sim.recording.run_recorder import RunRecorder
-from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.make import make
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
+from host_sim.sim.world_record import EpisodeResult
 from host_sim.world.edits import Edit
 from tests.sim.meddled_runs import learned
 

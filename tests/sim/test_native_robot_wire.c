@@ -1,15 +1,17 @@
 #include "host_sim/sim/native/robot_wire.h"
 #include "tests/test.h"
+#include "hal/flash_store/crc32.h"
 #include "hal/protocol/e2e.h"
 #include "octet.h"
 
-enum { SENSES = 0x103, DRIVE = 0x043, HEARTBEAT = 0x6A3, FAULTS = 0x783 };
+enum { SENSES = 0x103, DRIVE = 0x043, HEARTBEAT = 0x6A3, FAULTS = 0x783, HEALTH = 0x7C3 };
 
 static struct loop_robot robot;
 
 void setUp(void)
 {
-    robot = (struct loop_robot){.senses_id = SENSES, .drive_id = DRIVE, .heartbeat_id = HEARTBEAT};
+    robot = (struct loop_robot){.senses_id = SENSES, .drive_id = DRIVE, .heartbeat_id = HEARTBEAT,
+        .health_id = HEALTH};
 }
 
 static struct octet_senses_t told(const struct senses *senses, struct frame *frame)
@@ -223,6 +225,76 @@ TEST(a_heartbeat_of_another_state_does_not_go_on)
     stopped.data[1] = 2;
     e2e_protect(&stopped);
     TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &stopped));
+}
+
+static struct frame health(uint8_t counter, uint8_t rx_errors, uint32_t held)
+{
+    struct octet_health_t message = {.counter = counter, .rx_errors = rx_errors, .held = (uint16_t)held};
+    struct frame frame = {.id = HEALTH, .len = OCTET_HEALTH_LENGTH};
+
+    TEST_ASSERT_EQUAL_INT(OCTET_HEALTH_LENGTH, octet_health_pack(frame.data, &message, sizeof frame.data));
+    e2e_protect(&frame);
+    return frame;
+}
+
+TEST(a_health_is_no_news_only_because_of_what_it_holds)
+{
+    const struct frame reports[] = {health(1, 0, 5), health(2, 0, 6), health(3, 1, 6)};
+    const bool news[] = {true, false, true};
+
+    for (unsigned i = 0; i < 3; i++) {
+        robot.has_news = false;
+        robot_wire_report(&robot, &reports[i]);
+        TEST_ASSERT_EQUAL_INT(news[i], robot.has_news);
+    }
+}
+
+static const struct frame answer = {.id = DRIVE, .len = 8, .data = {0x11, 2, 3, 4, 0xA0, 0xB0, 0xC0, 0xD0}};
+
+/* CRC-32 is linear: to combine the first four bytes is to combine the register. */
+static uint32_t with_answer(uint32_t heard, const struct frame *senses)
+{
+    const uint8_t tail[] = {senses->data[5] ^ 0xB0, senses->data[6] ^ 0xC0, senses->data[7] ^ 0xD0};
+
+    return crc32_more(crc32_more(heard ^ 0xA0040302u, senses->data + 1, 4), tail, 3);
+}
+
+/* CRC-32 over the senses that a robot has answered, and over its answers: each of them, in order. */
+TEST(a_health_goes_on_when_it_holds_the_commands_all_senses_and_all_drives_before)
+{
+    const struct senses first = {.tick = 1, .feel = 3}, second = {.tick = 2};
+    struct frame one, two, held, wrong, before;
+    uint32_t heard;
+
+    robot.commands = 0xABCD1234;
+    (void)told(&first, &one);
+    robot.senses = one;
+    robot_wire_hear_answer(&robot, &answer);
+    (void)told(&second, &two);
+    robot.senses = two;
+    heard = with_answer(crc32_more(0, one.data + 1, 7), &two);
+    held = health(2, 0, robot.commands ^ heard);
+    wrong = health(2, 0, robot.commands ^ heard ^ 0x8000u);
+    before = health(2, 0, robot.commands);
+    know(health(1, 0, robot.commands));
+    TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &wrong));
+    TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &before));
+    TEST_ASSERT_TRUE(robot_wire_goes_on(&robot, &held));
+}
+
+TEST(the_last_checks_over_senses_are_kept)
+{
+    const struct senses senses = {.tick = 1};
+    uint32_t heard = 0;
+    struct frame frame;
+
+    for (unsigned i = 0; i < 3 * LOOP_HEARD; i++) {
+        (void)told(&senses, &frame);
+        robot.senses = frame;
+        heard = i == 0 ? crc32_more(0, frame.data + 1, 7) : with_answer(heard, &frame);
+        robot_wire_hear_answer(&robot, &answer);
+    }
+    TEST_ASSERT_EQUAL_HEX32(heard, robot.heard[(robot.heard_count - 1) % LOOP_HEARD]);
 }
 
 TEST(a_heartbeat_of_no_length_does_not_go_on)

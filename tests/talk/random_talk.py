@@ -10,7 +10,7 @@ from tests.talk.second_reading import SecondReading
 
 NASTY = """
 (HELLO THERE) START ()
-(A = B 3 ((0 B 0) (FIRST 1 , 3) (=C) (NEWKEY) (PRE (B C 3 1) (=D))) ((2) (TWO 1)))
+(A = B 3 ((0 B 0) (FIRST 1 , 3, 1ST) (=C) (NEWKEY) (PRE (B C 3 1) (=D))) ((2) (TWO 1)))
 (C 3 ((1 C 0) (ONE 1 3)) ((0 (*X Y) 0 (/T) 0) (X 2 THEN 4) (4 2 5)) (=D))
 (D 1 ((B 0 C) (BETWEEN 2)) ((0 2 C) (TAIL 2)) ((C 0) (NEWKEY) (HEAD 2 2)))
 (E DLIST(/T U)) (F = G DLIST (/ U) 7 ((0 (/U) 0) (=A) (U 2 ; a comment (with brackets
@@ -40,7 +40,7 @@ def random_script(draw: random.Random) -> str:
     words = [*keys, "P", "Q", "R"]
 
     def parts() -> list[str]:
-        pool = ("0", "0", "0", "1", "2", "(*P Q KEY1)", "(/T)", "(/ U T)", draw.choice(words))
+        pool = ("0", "0", "0", "1", "2", "(*P Q KEY1)", "(P)", "(/T)", "(/ U T)", draw.choice(words))
         return [draw.choice(pool) for _ in range(draw.randrange(1, 5))]
 
     def answer(i: int, count: int) -> str:

@@ -29,7 +29,7 @@ OCTAL = {
 
 def read(text: str) -> list[Any]:
     """Nested lists of words."""
-    tokens = re.findall(r"[()=]|[^\s()=]+", re.sub(";.*", "", text).upper())
+    tokens = re.findall(r"[()=]|[0-9]+|[^\s()=]+", re.sub(";.*", "", text).upper())
 
     def group(at: int) -> tuple[list[Any], int]:
         found: list[Any] = []
@@ -183,6 +183,8 @@ class SecondReading:
             return part == word
         if part[0].startswith("*"):
             return word in listed(part)
+        if not part[0].startswith("/"):
+            return False  # the program of 1966 knows no other list
         return bool(set(listed(part)) & set(self.rules.get(word, {"tags": []})["tags"]))
 
 

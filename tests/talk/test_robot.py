@@ -13,7 +13,7 @@ from host_sim.protocol.codec import Protocol
 from host_sim.protocol.generated import PATTERNS, SENTENCES, SIDES, Reason
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.trajectory import Trajectory
-from host_sim.talk.conversation import Conversation, Source, about_memory, script_named, texts_of
+from host_sim.talk.conversation import Conversation, Source, about_memory, about_nothing, script_named, texts_of
 from host_sim.talk.facts import FACTS, RobotFacts
 from host_sim.talk.log_index import index_log
 from host_sim.talk.texts import POINT, Texts
@@ -236,3 +236,17 @@ def test_what_cannot_be_read_is_a_line_and_exit_code_2(arguments, error):
     assert (done.returncode, done.stdout) == (2, "")
     assert error in done.stderr
     assert done.stderr.count("\n") == 1
+
+
+FOREIGN = """(HELLO) (IF ((0 IF 0) (WHY IF 3))) (NO ((0 NO 0) (1 NO 3)))
+(MEMORY NO (0 = 1) (0 = 1) (0 = 1) (0 = 1)) (NONE ((0) (GO ON)))"""
+
+
+def test_a_script_of_somebody_else_hears_each_sentence_as_it_is(tmp_path):
+    """As the public reimplementation answers by these rules: a comma and a decimal point split the sentence."""
+    path = tmp_path / "own.script"
+    path.write_text(FOREIGN)
+
+    talk = about_nothing(str(path))
+
+    assert [talk.answer(it).text for it in ("You no, if x", "no 3.5")] == ["YOU NO", "NO 3"]

@@ -12,11 +12,11 @@ ROOT = Path(__file__).resolve().parents[2]
 EXTRAS = ("export", "study", "cluster", "classroom")
 INSTALLERS = ("sudo", "apt-get")
 """With stand-ins for these, no test installs a package that this machine lacks."""
-STAGES = ("run", "emulator", "gym", *EXTRAS, "tests", "update", "web")
+STAGES = ("run", "emulator", "gym", *EXTRAS, "tests", "web")
 LOCKS = tuple(f"requirements/{name}.lock" for name in STAGES)
 
 # Notes each call. `python3 -m venv` makes a folder whose python does the same, with a script as pip writes it;
-# cmake, tools/generate and the downloads of Unity and Monocypher make what they are to make. With a file beside the
+# cmake, tools/generate and the download of Unity make what they are to make. With a file beside the
 # notes, installing that lock fails, as without a network.
 STAND_IN = """#!/bin/bash
 [ "$*" = --version ] || echo "${0##*/} $*" >>"$CALLS"
@@ -27,10 +27,6 @@ case "${0##*/} $*" in
     ;;
   "python tools/generate"*) touch "$3" "$5" "$7" ;;
   cmake*) mkdir -p "$2" ;;
-  *" download "*pymonocypher*)
-    mkdir -p build/monocypher/its && touch -d 2020-01-01 build/monocypher/its/monocypher.c
-    tar -czf build/monocypher/pymonocypher-1.tar.gz -C build/monocypher its
-    ;;
   *" download "*)
     mkdir -p build/unity/its/tests/c/test_framework
     touch -d 2020-01-01 build/unity/its/tests/c/test_framework/unity.c
@@ -47,6 +43,7 @@ class Tree:
     def __init__(self, tmp_path: Path) -> None:
         self.folder = tmp_path / "a tree"
         self.calls = tmp_path / "calls"
+        self.environment: dict[str, str] = {}
         self.bin = tmp_path / "bin"
         (self.folder / "tools").mkdir(parents=True)
         shutil.copy(ROOT / "tools/setup", self.folder / "tools")
@@ -57,13 +54,12 @@ class Tree:
             "hal/protocol/octet.dbc",
             "hal/protocol/robot.toml",
             "tools/generate",
-            "requirements/monocypher.lock",
             "requirements/unity.lock",
             "tools/robot_words/description.py",
             "tools/robot_words/model.py",
             "tools/cmake/wasm32.cmake",
-            "host_sim/view/state_types.py",
-            "host_sim/world/params.py",
+            "host_sim/recording/state_types.py",
+            "host_sim/world/geometry.py",
         ):
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.folder / name)
@@ -77,7 +73,11 @@ class Tree:
     def setup(self, *stages: str, path: str | None = None) -> tuple[subprocess.CompletedProcess[str], list[str]]:
         """Runs tools/setup and returns how it ended and what it called."""
         self.calls.write_text("")
-        environment = {"PATH": path or f"{self.bin}:{os.environ['PATH']}", "CALLS": str(self.calls)}
+        environment = {
+            **self.environment,
+            "PATH": path or f"{self.bin}:{os.environ['PATH']}",
+            "CALLS": str(self.calls),
+        }
         command = [self.folder / "tools/setup", *stages]
         done = subprocess.run(command, cwd="/", env=environment, capture_output=True, text=True, check=False)
         return done, [line.split()[0] for line in self.calls.read_text().splitlines()]

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from host_sim.base.errors import UsageError
-from host_sim.emulator.board_pins import STM32, read_pins
+from host_sim.emulator.board_pins import HAL, read_pins
 from tools.flashing.images import ROOT, all_boards
 
 
@@ -16,8 +16,8 @@ from tools.flashing.images import ROOT, all_boards
 def root(tmp_path: Path) -> Path:
     """A copy of what is known of boards and chips."""
     for path in (
-        *(ROOT / STM32).glob("boards/*.cmake"),
-        *(ROOT / STM32).glob("*/pins.toml"),
+        *(ROOT / HAL).glob("*/boards/*.cmake"),
+        *(ROOT / HAL).rglob("pins.toml"),
         ROOT / "hal/pins_body/wiring.toml",
     ):
         copy = tmp_path / path.relative_to(ROOT)
@@ -27,7 +27,7 @@ def root(tmp_path: Path) -> Path:
 
 
 def change(root: Path, old: str, new: str) -> None:
-    path = root / STM32 / "boards" / "blue_pill.cmake"
+    path = root / HAL / "stm32" / "boards" / "blue_pill.cmake"
     text = path.read_text()
     assert old in text
     path.write_text(text.replace(old, new))
@@ -35,7 +35,7 @@ def change(root: Path, old: str, new: str) -> None:
 
 @pytest.mark.parametrize("board", sorted(all_boards()))
 def test_each_board_has_pins_that_its_chip_has(board: str) -> None:
-    assert len(read_pins(board).signals) >= 5
+    assert len(read_pins(board).signals) >= 3
 
 
 def test_a_blue_pill_is_a_robot() -> None:
@@ -49,14 +49,14 @@ def test_a_blue_pill_is_a_robot() -> None:
 @pytest.mark.parametrize(
     ("old", "new", "why"),
     [
-        ("(OCTET_BUTTON PA8)", "(OCTET_BUTTON PB10)", "BUMPER_LEFT and BUTTON are both on PB10"),
-        ("(OCTET_BUTTON PA8)", "(OCTET_BUTTON PA13)", "SWDIO and BUTTON are both on PA13"),
-        ("(OCTET_BUTTON PA8)", "(OCTET_BUTTON PC1)", "BUTTON is on PC1, which an stm32f103 does not have"),
+        ("(OCTET_BUTTON PB0)", "(OCTET_BUTTON PB10)", "BUMPER_LEFT and BUTTON are both on PB10"),
+        ("(OCTET_BUTTON PB0)", "(OCTET_BUTTON PA13)", "SWDIO and BUTTON are both on PA13"),
+        ("(OCTET_BUTTON PB0)", "(OCTET_BUTTON PC1)", "BUTTON is on PC1, which an stm32f103 does not have"),
         ("(OCTET_BATTERY PA5)", "(OCTET_BATTERY PB2)", "BATTERY is on PB2, which has no ADC"),
         (
             "(OCTET_CAN_RX PB8)",
-            "(OCTET_CAN_RX PA11)",
-            "CAN_RX on PA11 and CAN_TX on PB9: an stm32f103 has CAN rx, tx on PA11, PA12 or PB8, PB9",
+            "(OCTET_CAN_RX PB4)",
+            "CAN_RX on PB4 and CAN_TX on PB9: an stm32f103 has CAN rx, tx on PA11, PA12 or PB8, PB9",
         ),
         (
             "(OCTET_RIGHT_ENCODER_A PB6)",
@@ -74,7 +74,7 @@ def test_pins_that_cannot_be_are_refused_by_name(root: Path, old: str, new: str,
 
 
 def test_a_board_that_is_refused_is_not_built(root: Path, tmp_path: Path) -> None:
-    change(root, "(OCTET_BUTTON PA8)", "(OCTET_BUTTON PB10)")
+    change(root, "(OCTET_BUTTON PB0)", "(OCTET_BUTTON PB10)")
     header = tmp_path / "board_pins.h"
     done = subprocess.run(
         [sys.executable, ROOT / "tools/pins", "blue_pill", "--root", root, "--c", header],

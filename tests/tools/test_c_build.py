@@ -106,27 +106,6 @@ def test_no_c_test_is_listed_by_hand():
     assert listing == []
 
 
-SIGNS = f"""
-cmake_minimum_required(VERSION 3.22)
-project(canary LANGUAGES C)
-set(MONOCYPHER_DIR ${{PROJECT_SOURCE_DIR}})
-include({ROOT}/tools/cmake/monocypher.cmake)
-"""
-
-
-def test_another_monocypher_is_built_anew(tmp_path: Path) -> None:
-    (tmp_path / "CMakeLists.txt").write_text(SIGNS)
-    for name in ("one", "two"):
-        (tmp_path / "monocypher.c").write_text(f"int {name};\n")
-        if name == "one":
-            subprocess.run(["cmake", "-G", "Ninja", "-S", tmp_path, "-B", tmp_path], check=True, capture_output=True)
-        subprocess.run(["ninja", "-C", tmp_path], check=True, capture_output=True)
-
-    listed = subprocess.run(["nm", tmp_path / "libmonocypher.a"], capture_output=True, text=True, check=True).stdout
-
-    assert " two\n" in listed
-
-
 WARNS = f"""
 cmake_minimum_required(VERSION 3.22)
 project(canary LANGUAGES C)

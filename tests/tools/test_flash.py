@@ -12,9 +12,11 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tools.flashing import FlashError  # noqa: E402 - found by the line above
+from tools.flashing.drive import find_drive, write_to_drive  # noqa: E402
 from tools.flashing.images import Image, all_boards, build, choose_board, identify  # noqa: E402
 from tools.flashing.probes import Probe, choose_probe, find_probes  # noqa: E402
 from tools.flashing.programs import CHIP_IDS, Plan, check_chip, make_plan, write  # noqa: E402
+from tools.flashing.troubles import explain  # noqa: E402
 
 BOARDS = all_boards()
 STLINK, OTHER = Probe("stlink", "A1"), Probe("cmsis-dap", "B2")
@@ -55,6 +57,7 @@ def test_every_board_has_a_chip_and_its_links() -> None:
         "feather_stm32f405": ("stm32f405", "bxcan", "slcan"),
         "nucleo_g431rb": ("stm32g431", "fdcan", "slcan", "pins", "mute", "body"),
         "olimex_stm32_h405": ("stm32f405", "bxcan", "slcan"),
+        "pico": ("rp2040", "slcan", "pins"),
     }
 
 
@@ -76,9 +79,11 @@ def test_a_board_that_does_not_exist_is_refused() -> None:
 
 
 def test_a_link_that_does_not_exist_is_refused() -> None:
-    with pytest.raises(FlashError, match="no link usb on blue_pill; there are bxcan, slcan"):
+    with pytest.raises(FlashError, match="no image usb for blue_pill; there are bxcan, slcan"):
         build(BOARDS["blue_pill"], "usb", 1, 500_000)
-    with pytest.raises(FlashError, match="no link bxcan on nucleo_g431rb; there are fdcan, slcan, pins, mute, body"):
+    with pytest.raises(
+        FlashError, match="no image bxcan for nucleo_g431rb; there are fdcan, slcan, pins, mute, body"
+    ):
         build(BOARDS["nucleo_g431rb"], "bxcan", 1, 500_000)
 
 
@@ -185,13 +190,45 @@ def test_a_wrong_chip_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
 def test_a_chip_that_does_not_answer_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     plan = plan_with(tmp_path, monkeypatch, "echo Error: init mode failed >&2; exit 1")
-    with pytest.raises(FlashError, match=r"openocd finds no chip \(exit code 1\): Error: init mode failed"):
+    with pytest.raises(
+        FlashError,
+        match=r"openocd finds no chip \(exit code 1\): the probe does not reach .* \(Error: init mode failed\)",
+    ):
         check_chip(plan, "stm32f405")
+
+
+REPORTED = {
+    "no right to use the probe": "Error: libusb_open() failed with LIBUSB_ERROR_ACCESS\nError: open failed\n",
+    "is a clone": "Warn : UNEXPECTED idcode: 0x2ba01477\nError: expected 1 of 1: 0x1ba01477",
+    "read-out protected": "Error: stm32x device protected\nError: failed erasing sectors 0 to 2",
+    "has no power": "Info : Target voltage: 0.002410\nError: target voltage may be too low for reliable debugging\n"
+    "Error: init mode failed (unable to connect to the target)",
+    "does not reach a chip": "Error: init mode failed (unable to connect to the target)\n"
+    "in procedure 'init'\n** OpenOCD init failed **",
+    "right to open the serial port": "stm32flash 0.7\n\nFailed to open port: /dev/ttyUSB0\n",
+    "boot loader does not answer": "Interface serial_posix: 57600 8E1\nFailed to init device, timeout.\n",
+    "cannot be opened": "Info : clock speed 1000 kHz\nError: open failed\nin procedure 'init'\n",
+}
+"""What users of openocd and stm32flash reported in public, and a part of the sentence for each."""
+
+
+@pytest.mark.parametrize("sentence", REPORTED)
+def test_a_known_trouble_gets_a_sentence_and_the_line_that_shows_it(sentence: str) -> None:
+    told = explain(REPORTED[sentence])
+
+    assert sentence in told
+    assert any(told.endswith(f" ({line})") for line in REPORTED[sentence].splitlines())
+    assert [other for other in REPORTED if other in told] == [sentence]
+
+
+def test_a_trouble_that_is_not_known_is_the_last_line() -> None:
+    assert explain("Info : fine\nError: the moon is full\n\n") == "Error: the moon is full"
+    assert explain("\n") == "no output"
 
 
 def test_a_write_that_fails_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     plan = plan_with(tmp_path, monkeypatch, "echo '** Verify Failed **'; exit 1")
-    with pytest.raises(FlashError, match=r"openocd failed, flash again \(exit code 1\): \*\* Verify Failed"):
+    with pytest.raises(FlashError, match=r"openocd did not write the image \(exit code 1\): \*\* Verify Failed"):
         write(plan)
 
 
@@ -207,6 +244,34 @@ def test_a_dry_run_says_what_it_would_do_and_calls_nothing(tmp_path: Path, monke
     assert not called.exists()
 
 
+def test_nothing_is_written_to_another_chip(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    calls = tmp_path / "calls"
+    installed(tmp_path, monkeypatch, stm32flash=f"echo $* >>{calls}; echo 'Device ID    : 0x0413 (STM32F40xxx)'")
+    image = image_file(tmp_path, "blue_pill", "stm32f103")
+
+    result = flash("blue_pill", "bxcan", f"--image={image}", "--probe=serial:/dev/null")
+
+    assert (result.returncode, len(calls.read_text().splitlines())) == (1, 1), result.stderr
+    assert "the chip behind the probe is 0x413, not stm32f103 (0x410)" in result.stderr
+
+
+def test_a_dry_run_needs_no_probe(tmp_path: Path) -> None:
+    image = image_file(tmp_path, "blue_pill", "stm32f103")
+
+    result = flash("blue_pill", "bxcan", f"--image={image}", "--dry-run", "--probe=jlink")
+
+    assert result.returncode == 0
+    assert "openocd -f interface/jlink.cfg" in result.stdout
+
+
+@pytest.mark.parametrize(("words", "names"), [(["nucleo"], "nucleo_g431rb"), (["blue_pill"], "bxcan, slcan, pins")])
+def test_a_board_or_an_image_that_is_not_named_is_answered_with_those_there_are(words: list[str], names: str) -> None:
+    result = flash(*words)
+
+    assert (result.returncode, result.stderr.count("\n")) == (2, 1)
+    assert names in result.stderr
+
+
 def test_an_image_built_earlier_keeps_its_node(tmp_path: Path) -> None:
     result = flash("blue_pill", "bxcan", f"--image={tmp_path}", "--node=2")
 
@@ -218,3 +283,81 @@ def test_an_image_built_earlier_keeps_its_node(tmp_path: Path) -> None:
 def test_a_wrong_choice_is_one_line_and_ends_with_2(words: str) -> None:
     result = flash(*words.split())
     assert (result.returncode, result.stdout, result.stderr.count("\n")) == (2, "", 1)
+
+
+def drive(
+    folder: Path, name: str, about: str = "UF2 Bootloader v3.0\nModel: Raspberry Pi RP2\nBoard-ID: RPI-RP2\n"
+) -> Path:
+    """A mounted drive; the second line of `about` is what the RP2040's boot ROM says of itself."""
+    made = folder / name
+    made.mkdir()
+    (made / "INFO_UF2.TXT").write_text(about)
+    with (folder / "mounts").open("a") as mounts:
+        mounts.write(f"/dev/sda1 {str(made).replace(' ', chr(92) + '040')} vfat rw 0 0\n")
+    return made
+
+
+def test_a_pico_is_found_among_other_drives_and_gets_its_image(tmp_path: Path) -> None:
+    drive(tmp_path, "other", "Board-ID: SAMD21G18A-Feather-v0\n")
+    pico = drive(tmp_path, "RPI RP2")
+    uf2 = tmp_path / "octet-pico-slcan.uf2"
+    uf2.write_bytes(b"blocks")
+
+    found = find_drive(tmp_path / "mounts")
+    write_to_drive(uf2, found)
+
+    assert found == pico
+    assert (pico / uf2.name).read_bytes() == b"blocks"
+
+
+def test_without_a_pico_it_is_said_what_to_press(tmp_path: Path) -> None:
+    with pytest.raises(FlashError, match="hold the Pico's BOOTSEL button while you plug in its USB cable"):
+        find_drive(tmp_path / "mounts")
+
+
+def test_several_picos_are_named(tmp_path: Path) -> None:
+    drive(tmp_path, "one"), drive(tmp_path, "two")
+    with pytest.raises(FlashError, match=r"several Picos .*one, .*two: unplug all but one"):
+        find_drive(tmp_path / "mounts")
+
+
+def test_a_pico_that_is_unplugged_meanwhile_is_told(tmp_path: Path) -> None:
+    (tmp_path / "some.uf2").touch()
+    with pytest.raises(FlashError, match=r"cannot copy .*some.uf2 to .*gone \(No such file or directory\): hold"):
+        write_to_drive(tmp_path / "some.uf2", tmp_path / "gone")
+
+
+def test_a_pico_without_a_drive_ends_in_one_line(tmp_path: Path) -> None:
+    image = image_file(tmp_path, "pico", "rp2040")
+    image.with_suffix(".uf2").touch()
+
+    dry = flash("pico", "slcan", f"--image={image}", "--dry-run")
+    result = flash("pico", "slcan", f"--image={image}")
+
+    assert [line.split()[0] for line in dry.stdout.splitlines()] == ["image", "robot", "board", "copy"]
+    assert (result.returncode, result.stdout, result.stderr.count("\n")) == (1, "", 1)
+
+
+def test_a_pico_takes_a_probe_too_and_no_serial_port() -> None:
+    image = image_for("rp2040")
+    assert "target/rp2040.cfg" in make_plan(image, Probe("cmsis-dap", ""), has=bool).write
+    with pytest.raises(FlashError, match="no boot loader on a serial port"):
+        make_plan(image, Probe("serial", "/dev/null"), has=bool)
+
+
+def test_a_behaviour_that_makes_a_mistake_is_not_flashed(tmp_path: Path) -> None:
+    text = (ROOT / "host_sim/program/own/mine.c").read_text()
+    (tmp_path / "mine.c").write_text(text.replace("brain->awaits = NOTHING;", "brain->own[pattern + 8] = 1;"))
+
+    done = flash("blue_pill", "bxcan", "--dry-run", "--profile", str(tmp_path / "mine.c"))
+
+    assert done.returncode == 2
+    assert "index 8 is outside of 'uint8_t [8]', at tick 0" in done.stderr
+    assert done.stderr.endswith("it has to drive a simulated robot for a minute first\n")
+
+
+def test_an_image_has_its_behaviour_built_in(tmp_path: Path) -> None:
+    done = flash("blue_pill", "--image", str(tmp_path / "a.elf"), "--profile", "mine.c")
+
+    assert done.returncode == 2
+    assert "and --profile" in done.stderr

@@ -1,5 +1,6 @@
 """Each package has a licence that was judged, and is pinned by its hash."""
 
+import json
 import re
 import sys
 from collections.abc import Sequence
@@ -11,7 +12,7 @@ import pytest
 
 from tests.tools.project import ROOT, script_named
 
-PAGE = (ROOT / "docs/licences.md").read_text()
+PAGE = (ROOT / "THIRD-PARTY.md").read_text()
 
 
 @pytest.fixture
@@ -86,6 +87,15 @@ def test_the_lock_files_pin_by_hash_and_name_no_address() -> None:
         assert "==" in text
         assert "://" not in text
         assert unpinned(text) == []
+
+
+def test_the_lock_file_of_node_pins_by_hash_and_names_no_address() -> None:
+    (path,) = ROOT.glob("requirements/*/package-lock.json")
+    text = path.read_text()
+    packages = [it for name, it in json.loads(text)["packages"].items() if name]
+
+    assert "://" not in text
+    assert [it["integrity"].partition("-")[0] for it in packages] == ["sha512"]
 
 
 def test_a_package_without_a_hash_or_a_version_is_noticed() -> None:

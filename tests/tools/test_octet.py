@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.faults.bus_faults import FAULTS
-from host_sim.faults.rule import FAULT_NAMES
 from host_sim.protocol import generated, words
+from host_sim.transport.bus_faults import FAULTS
+from host_sim.transport.rule import FAULT_NAMES
 from tools.robot_words.model import read
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -24,12 +24,20 @@ STAGES = {
     "run --robot qemu": "images",
     "run --robot=qemu --seed 2": "images",
     "run --robot emulated --board blue_pill": "images emulator",
+    "run --robot emulated --board pico": "pico",
+    "run --robot emulated --board pico --body pins": "pico emulator",
     "watch --robot=emulated": "images emulator",
     "watch --listen": "run classroom",
     "run --watch --listen=0.0.0.0 --robot qemu": "images classroom",
     "run --out=--listen": "run",
+    "new mine.c": "run",
     "page octet.html": "page",
+    "class": "page",
+    "class --listen": "page classroom",
     "replay out/run.log": "run",
+    "debug out/run.log --tick 7": "debug",
+    "run --gdb": "debug",
+    "run --gdb --robot qemu": "debug-images",
     "replay out/run.log --html run.html --what-if": "page",
     "export out/run.log --csv out/run.csv": "run",
     "export out/run.log --parquet out/run.parquet": "export",
@@ -38,12 +46,7 @@ STAGES = {
     "compare article --robot emulated": "images emulator",
     "compare article": "run",
     "study studies/learned.toml": "study",
-    "study studies/learned.toml --dask tcp://host:8786": "study cluster",
-    "dask scheduler": "cluster",
-    "keygen my.pem": "update",
-    "update robot.octet --bus socketcan:can0": "update",
-    "update --bus socketcan:can0 --set-node 7": "update",
-    "update blue_pill --save robot.octet": "images",
+    "study studies/learned.toml --cluster tcp://host:8786": "study cluster",
 }
 """What `tools/octet` sets up, by the words after it."""
 
@@ -63,22 +66,16 @@ WRONG = (
     "page",
     "replay run.log --what-if",
     "campaign --links blue_pill",
-    "dask",
-    "dask manager",
     "export run.log --mf4 run.log",
-    "update blue_pill",
-    "update --bus socketcan:can0",
-    "update --bus socketcan:can0 --node 1-2 --set-node 3",
     "dance",
 )
 
 HELP = (
-    *("octet --help", "run --help", "bench --help", "bench -h", "octet dask --help", "octet study -h"),
-    *("octet dask scheduler --help", "octet dask worker tcp://host:8786 -h"),
+    *("octet --help", "run --help", "bench --help", "bench -h", "octet study -h"),
     *("octet watch --listen --help", "octet page --help", "octet run --robot emulated --help"),
     *("coverage --help", "flash --help", "fresh --help", "generate --help", "legacy-fpu --help", "licences --help"),
     *("misra --help", "mutate --help", "prove --help", "requirements --help", "size --help", "test --help"),
-    *("pins --help", "wheels --help", "with-vcan --help"),
+    *("pins --help", "release --help", "rooms --help", "wheels --help", "with-vcan --help", "uf2 --help"),
 )
 
 
@@ -163,9 +160,9 @@ def test_where_the_set_up_fails_nothing_is_run(with_python: Path, tmp_path: Path
 
 
 def test_a_python_that_is_too_old_is_named(sources: Path, tmp_path: Path) -> None:
-    source = (sources / "tools/door.py").read_text()
+    source = (sources / "tools/launch.py").read_text()
     folder = shutil.copytree(sources, tmp_path / "tree")
-    (folder / "tools/door.py").write_text(source.replace("(3, 10)", "(4, 10)"))
+    (folder / "tools/launch.py").write_text(source.replace("(3, 10)", "(4, 10)"))
     done = call(folder, "run --help")
     assert done.returncode == 1
     assert done.stderr.startswith("octet: python3 must be 4.10 or newer; here it is 3.")

@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+from argparse import Namespace
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.testing import concerned, places, quick  # noqa: E402 - found by the line above
+from tools.testing import affected, quick, stage_paths  # noqa: E402 - found by the line above
 
 FILES = {
     "host_sim/world/near.py": "X = 1\n",
@@ -19,6 +20,18 @@ FILES = {
     "tests/world/test_far.py": "from host_sim.world import far\n",
     "tests/world/test_lonely_things.py": "",
     "tests/runs/test_far_runs.py": "import tests.world.test_far\n",
+    "host_sim/web/core/kept.js": "",
+    "host_sim/web/core/model.ts": "",
+    "host_sim/web/core/alone.js": "",
+    "host_sim/web/core/app.js": 'import { kept } from "./kept.js";\nimport type { Model } from "./model.ts";\n',
+    "host_sim/web/head.html": '<link rel="stylesheet" href="style.css">\n',
+    "host_sim/web/page.html": '{head.html}<script src="core/app.js"></script>\n',
+    "host_sim/web/style.css": "",
+    "host_sim/web/texts/de.json": "{}",
+    "host_sim/report/page.py": 'PAGE, WORDS = "page.html", WEB / "texts"\n',
+    "tests/web/test_page.py": "from host_sim.report import page\n",
+    "tests/docs/test_links.py": "",
+    "docs/words.md": "",
     "tests/tools/test_words.py": 'WORDS = ROOT / "tools/words"\n',
     "tests/tools/test_wordsmith.py": 'WORDS = ROOT / "tools/wordsmith"\n',
 }
@@ -41,22 +54,67 @@ def project(tmp_path: Path) -> Path:
     return tmp_path
 
 
+def found_for(project: Path, changed: str) -> tuple[set[str], int]:
+    found, farther = quick.python_tests(project, [changed])
+    return found[changed], farther
+
+
 def test_a_module_concerns_the_tests_nearest_to_it_and_the_others_are_counted(project):
-    assert quick.python_tests(project, ["host_sim/world/near.py"]) == ({"tests/world/test_far.py"}, 1)
+    assert found_for(project, "host_sim/world/near.py") == ({"tests/world/test_far.py"}, 1)
 
 
 def test_a_module_that_nobody_imports_concerns_the_tests_of_its_name(project):
-    assert quick.python_tests(project, ["host_sim/world/lonely.py"]) == ({"tests/world/test_lonely_things.py"}, 0)
+    assert found_for(project, "host_sim/world/lonely.py") == ({"tests/world/test_lonely_things.py"}, 0)
 
 
 def test_a_test_that_has_changed_concerns_itself(project):
-    found, _ = quick.python_tests(project, ["tests/runs/test_far_runs.py"])
+    found, _ = found_for(project, "tests/runs/test_far_runs.py")
 
     assert found == {"tests/runs/test_far_runs.py"}
 
 
 def test_a_file_concerns_the_tests_that_name_it_and_not_those_that_name_one_like_it(project):
-    assert quick.python_tests(project, ["tools/words"]) == ({"tests/tools/test_words.py"}, 0)
+    assert found_for(project, "tools/words") == ({"tests/tools/test_words.py"}, 0)
+
+
+@pytest.mark.parametrize("changed", ["core/kept.js", "core/model.ts", "texts/de.json", "style.css"])
+def test_what_a_page_is_made_of_concerns_the_tests_of_the_page(project, changed):
+    assert found_for(project, f"host_sim/web/{changed}") == ({"tests/web/test_page.py"}, 0)
+
+
+def test_a_file_of_no_page_concerns_no_test_of_a_page(project):
+    assert found_for(project, "host_sim/web/core/alone.js") == (set(), 0)
+
+
+def test_a_document_concerns_the_tests_of_the_documents(project):
+    assert found_for(project, "docs/words.md") == ({"tests/docs/test_links.py"}, 0)
+
+
+@pytest.mark.parametrize(
+    ("path", "tests", "of_c", "is_named"),
+    [
+        ("host_sim/world/alone.py", (), (), True),
+        ("host_sim/world/alone.py", ("tests/world/test_alone.py",), (), False),
+        ("host_sim/web/alone.js", (), (), True),
+        ("hal/link/alone.c", (), (), True),
+        ("hal/link/slcan.c", (), ("hal/link/slcan.c",), False),
+        ("tools/words", (), (), True),
+        ("LICENSE", (), (), False),
+    ],
+)
+def test_a_changed_file_of_code_without_a_test_is_named(path, tests, of_c, is_named):
+    assert quick.untested({path: set(tests)}, set(of_c)) == [path] * is_named
+
+
+def test_a_changed_file_without_a_test_ends_with_exit_code_1(monkeypatch, capsys):
+    monkeypatch.setattr(quick, "changed_files", lambda _root: ["host_sim/alone.js"])
+    monkeypatch.setattr(quick, "python_tests", lambda _root, _changed: ({"host_sim/alone.js": set()}, 0))
+    monkeypatch.setattr(quick, "run_stages", lambda _stages, _arguments: 0)
+
+    code = quick.run(Namespace(allow_missing=[]))
+
+    assert code == 1
+    assert "no test is known for host_sim/alone.js\n" in capsys.readouterr().out
 
 
 def test_new_and_changed_files_count_as_changed(project):
@@ -65,7 +123,7 @@ def test_new_and_changed_files_count_as_changed(project):
     (project / "tests/world/test_far.py").write_text("")
     (project / "tests/tools/test_words.py").unlink()
 
-    new = sorted(path for path in FILES if path.startswith("host_sim"))
+    new = sorted(path for path in FILES if not path.startswith("tests"))
     assert quick.changed_files(project) == ["tests/world/test_far.py", *new]
 
 
@@ -87,9 +145,9 @@ def test_a_c_source_concerns_the_tests_that_are_made_of_it(name, changed, tests,
     (build / "build.ninja").write_text(BUILD.format(source=str(source).replace(" ", "$ ")))
     noted = f"lib.o: #deps 3, deps mtime 1 (VALID)\n    {source}/hal/lib.c\n    {source}/hal/lib.h\n"
     noted += f"    {build}/made.h\n\n"
-    monkeypatch.setattr(concerned, "_noted_deps", lambda _: noted)
+    monkeypatch.setattr(affected, "_noted_deps", lambda _: noted)
 
-    assert concerned.c_tests(build, [changed]) == tests
+    assert affected.c_tests(build, [changed]) == tests
 
 
 @pytest.mark.parametrize(("test", "is_one"), [("slcan", True), ("link_contract_fd", True), ("slcan_decoder2", False)])
@@ -100,9 +158,9 @@ def test_each_test_of_a_program_is_run(test, is_one):
 @pytest.mark.parametrize("changed", ["hal/protocol/octet.dbc", "hal/protocol/robot.toml", "hal/link/slcan.c"])
 def test_what_c_is_made_of_is_tested_in_c(changed, monkeypatch):
     monkeypatch.setattr(quick, "set_up", lambda stages: stages)
-    monkeypatch.setattr(concerned, "c_tests", lambda _build, _changed: ["one"])
+    monkeypatch.setattr(affected, "c_tests", lambda _build, _changed: ["one"])
 
-    assert [stage.name for stage in quick._c_stage([changed])] == ["c"]
+    assert [stage.name for stage in quick._c_stage([changed])[0]] == ["c"]
 
 
 @pytest.mark.parametrize(
@@ -116,4 +174,4 @@ def test_what_c_is_made_of_is_tested_in_c(changed, monkeypatch):
     ],
 )
 def test_a_stage_has_the_tests_of_its_folders_that_no_other_stage_names(name, test, is_one):
-    assert places.is_of(name, test) == is_one
+    assert stage_paths.is_of(name, test) == is_one

@@ -2,14 +2,18 @@
 
 import os
 import re
+import shlex
 import shutil
+import signal
 import subprocess
+import sys
+from importlib.metadata import distributions
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
 
-from tests.tools.setup_tree import EXTRAS, INSTALLERS, STAND_IN, Tree
+from tests.tools.setup_tree import EXTRAS, INSTALLERS, ROOT, STAND_IN, Tree
 
 
 @pytest.fixture
@@ -48,8 +52,7 @@ def test_the_stages_of_c_tests_build_what_they_run_and_no_image(tree: Tree) -> N
 def test_what_is_fetched_is_newer_than_what_was_built_from_an_older_one(tree: Tree) -> None:
     tree.setup("c")
     began = (tree.folder / "build/setup.lock").stat().st_mtime
-    for name in ("unity/unity.c", "monocypher/monocypher.c"):
-        assert (tree.folder / "build" / name).stat().st_mtime >= began
+    assert (tree.folder / "build/unity/unity.c").stat().st_mtime >= began
 
 
 def test_warnings_are_errors_from_the_first_stage_of_tests_on(tree: Tree) -> None:
@@ -74,7 +77,7 @@ def test_what_is_compiled_is_said_once_for_each_folder(tree: Tree) -> None:
     done, _ = tree.setup("images")
 
     said = sorted(line for line in done.stderr.splitlines() if "compiling" in line)  # not what the system lacks
-    boards = ("blue_pill", "feather_stm32f405", "host", "nucleo_g431rb")
+    boards = ("blue_pill", "feather_stm32f405", "host", "nucleo_g431rb", "pico")
     assert said == [f"octet: compiling in build/{board}, which takes a while" for board in boards]
 
 
@@ -84,7 +87,7 @@ def test_a_toolchain_that_changed_is_configured_anew(tree: Tree) -> None:
 
     tree.setup("images")
 
-    assert sorted(tree.built()) == ["build/blue_pill", "build/feather_stm32f405", "build/nucleo_g431rb"]
+    assert sorted(tree.built()) == ["build/blue_pill", "build/feather_stm32f405", "build/nucleo_g431rb", "build/pico"]
 
 
 def test_a_build_that_fails_fails_the_set_up_and_the_others_end(tree: Tree) -> None:
@@ -103,11 +106,32 @@ def test_an_interrupted_set_up_is_repaired(tree: Tree) -> None:
     assert calls.count("cmake") == 1
 
 
+def test_who_interrupts_a_compilation_reads_no_compiler_s_failure(tree: Tree) -> None:
+    (tree.bin / "ninja").write_text("#!/bin/sh\necho 'ninja: build stopped'\nkill -INT 0\nexit 130\n")
+    done = subprocess.run(
+        [tree.folder / "tools/setup"],
+        cwd="/",
+        env={"PATH": f"{tree.bin}:{os.environ['PATH']}", "CALLS": str(tree.calls)},
+        start_new_session=True,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+    assert done.returncode in (130, -signal.SIGINT)
+    assert done.stderr.splitlines()[-1] == "octet: interrupted while compiling"
+    assert "failed" not in done.stderr
+    assert "build stopped" not in done.stderr
+
+
 def test_without_a_network_the_last_line_says_what_to_do_and_nothing_is_left_of_the_call(tree: Tree) -> None:
     with tree.offline("requirements/run.lock"):
         done, _ = tree.setup()
 
-    last = "octet: cannot get the Python packages of requirements/run.lock: call again when there is a network"
+    last = (
+        "octet: cannot get the Python packages of requirements/run.lock: "
+        "pip says why above; call again when that is mended, mostly a network"
+    )
     assert (done.returncode, done.stderr.splitlines()[-1]) == (1, last)
     assert [path.name for path in tree.folder.glob("build/setup.*")] == ["setup.lock"]
 
@@ -266,12 +290,92 @@ def test_packages_whose_installation_was_killed_are_installed_by_the_next_call(t
 def test_a_set_up_that_is_somebody_elses_is_said_in_a_line_with_whose_it_is(tree: Tree) -> None:
     with TemporaryDirectory() as place:  # whose path, unlike tmp_path's, is open to others
         folder = Path(shutil.copytree(tree.folder / "tools", Path(place) / "tools")).parent
+        shutil.copytree(tree.folder / "requirements", folder / "requirements")
         (folder / "build").mkdir()
         (folder / "build/setup.lock").touch(mode=0o444)
         folder.chmod(0o755)
         nobody = ("setpriv", "--reuid=65534", "--regid=65534", "--clear-groups") if os.geteuid() == 0 else ()
         done = subprocess.run([*nobody, folder / "tools/setup"], capture_output=True, text=True, check=False)
 
-    said = r"octet: cannot write to \S+, which is \w+'s: call as that user, or get a clone of your own\n"
+    said = (
+        r"octet: cannot write to \S+, which is \w+'s, and something is missing there: "
+        r"call as that user, or get a clone of your own\n"
+    )
     assert (done.returncode, done.stdout) == (1, "")
     assert re.fullmatch(said, done.stderr)
+
+
+@pytest.mark.parametrize(("changed", "code"), [("", 0), ("firmware/robot.c", 1)])
+def test_a_set_up_of_somebody_else_can_be_used_while_it_is_whole(tree: Tree, changed: str, code: int) -> None:
+    with TemporaryDirectory() as place:  # whose path is open to others
+        tree.folder = Path(shutil.move(tree.folder, Path(place) / "a tree"))
+        tree.setup()
+        if changed:
+            (tree.folder / changed).parent.mkdir()
+            (tree.folder / changed).touch()
+            later_s = (tree.folder / "build/host/compiled").stat().st_mtime + 1
+            os.utime(tree.folder / changed, (later_s, later_s))
+        for path in (Path(place), tree.folder, *tree.folder.rglob("*")):
+            path.chmod(0o555 if path.is_dir() or path.parent.name in {"bin", "tools"} else 0o444)
+        nobody = ("setpriv", "--reuid=65534", "--regid=65534", "--clear-groups") if os.geteuid() == 0 else ()
+        environment = {"PATH": "/usr/bin:/bin", "CALLS": "/dev/null"}
+        command = [*nobody, tree.folder / "tools/setup"]
+        done = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
+        for path in (Path(place), tree.folder, *tree.folder.rglob("*")):
+            path.chmod(0o755)
+
+    assert (done.returncode, done.stdout) == (code, "")
+    assert ("something is missing there" in done.stderr) == bool(changed)
+
+
+def test_settings_of_pip_that_install_elsewhere_do_not_count(tree: Tree) -> None:
+    stand_in = tree.bin / "python3"
+    stand_in.write_text(stand_in.read_text() + '[[ "$*" != *install* ]] || env >"$CALLS.env"\n')
+    tree.environment = {"PIP_USER": "1", "PIP_TARGET": "/elsewhere", "PIP_CONSTRAINT": "/none", "PIP_CACHE_DIR": "/c"}
+
+    done, _ = tree.setup()
+
+    seen = Path(f"{tree.calls}.env").read_text().splitlines()
+    assert done.returncode == 0
+    assert sorted(line for line in seen if line.startswith("PIP_")) == [
+        "PIP_CACHE_DIR=/c",
+        "PIP_CONFIG_FILE=/dev/null",
+    ]
+
+
+def test_a_tree_registered_under_an_earlier_name_has_one_distribution_again(tree: Tree) -> None:
+    tree.setup()
+    shutil.rmtree(tree.folder / ".venv/lib")
+    packages = tree.folder / ".venv/lib/python3.11/site-packages"
+    for name in ("octet-1.0", "octet_robot-0.9", "octet_other-1.0"):
+        (packages / f"{name}.dist-info").mkdir(parents=True)
+    tree.change("pyproject.toml")
+
+    done, _ = tree.setup()
+
+    (version,) = re.findall(r'^version = "(.+)"$', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)
+    assert done.returncode == 0
+    assert {path.name for path in packages.glob("*.dist-info")} == {
+        f"octet_robot-{version}.dist-info",
+        "octet_other-1.0.dist-info",
+    }
+    (ours,) = distributions(name="octet-robot", path=[os.fspath(packages)])
+    assert ours.version == version
+    assert ours.entry_points["octet"].group == "can.interface"
+
+
+def test_python_finds_this_folder_whatever_its_path_and_the_locale(tmp_path: Path) -> None:
+    folder = tmp_path / "\u00fcml\u00e4ut"
+    folder.mkdir()
+    (folder / "octet_here.py").touch()
+    (tmp_path / "site").mkdir()
+    lines = (ROOT / "tools/setup").read_text().splitlines()
+    written = next(line for line in lines if "sys.path.append" in line).strip().removesuffix(" \\")
+    script = f"{written.replace('.venv/bin/python', sys.executable)} {shlex.quote(str(folder))} >site/octet.pth"
+    subprocess.run(["bash", "-c", script], cwd=tmp_path, check=True)
+    code = f"import site; site.addsitedir({os.fspath(tmp_path / 'site')!r}); import octet_here"
+
+    environment = {**os.environ, "LC_ALL": "C"}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=False)
+
+    assert (done.returncode, done.stderr) == (0, "")

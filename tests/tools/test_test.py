@@ -12,7 +12,7 @@ from tests.tools.project import BROKEN, ENDS, FAILS, PASSES, ROOT, SKIPS, TEARDO
 
 sys.path.insert(0, str(ROOT))
 
-from tools.testing import places
+from tools.testing import stage_paths
 
 
 @pytest.fixture
@@ -159,7 +159,7 @@ def test_a_stage_of_tools_prove_that_cannot_be_set_up_costs_no_other(project):
     assert project.run("eva", "fuzz", "--allow-missing=eva", tool="prove")[0] == 0
 
 
-@pytest.mark.parametrize("path", places.named())
+@pytest.mark.parametrize("path", stage_paths.named())
 def test_what_a_stage_is_to_run_exists(path):
     assert (ROOT / path).exists()
 
@@ -168,13 +168,13 @@ def test_tools_setup_has_each_stage():
     setup = (ROOT / "tools/setup").read_text()
     (proving,) = re.findall(r"^  \[prove\]='(.*)'$", setup, re.MULTILINE)
 
-    assert proving.split() == list(places.PROVE)
+    assert proving.split() == list(stage_paths.PROVE)
 
 
 def test_each_test_has_one_stage():
     files = [path.relative_to(ROOT).as_posix() for path in (ROOT / "tests").rglob("test_*.py")]
-    named = set(places.named())
-    assert len(named) == len(places.named())
+    named = set(stage_paths.named())
+    assert len(named) == len(stage_paths.named())
     stages = {path: [own for own in named if f"{path}/".startswith(f"{own}/")] for path in files if path not in named}
 
     assert {path: own for path, own in stages.items() if len(own) > 1} == {}

@@ -13,7 +13,7 @@ from host_sim.base.errors import LinkDownError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.bus_link import BusLink
 from host_sim.transport.clock import VirtualClock, WallClock
-from host_sim.transport.line_stats import LineStats
+from host_sim.transport.link import LineStats
 from host_sim.transport.socket_pair_bus import SocketPairBus
 
 _LATE_S = 30.0
@@ -55,6 +55,38 @@ def test_what_is_sent_at_one_end_comes_out_of_the_other(ends):
 
     assert ends[1].receive(1.0) == Frame(0x41, b"\1\2")
     assert ends[1].receive(0.0) is None
+
+
+def returned(frame: Frame, **how: bool) -> can.Message:
+    return can.Message(arbitration_id=frame.id, data=frame.data, is_extended_id=False, **how)
+
+
+def test_a_frame_that_the_adapter_marks_as_its_own_is_skipped():
+    link = BusLink(Bus(returned(FRAME, is_rx=False), returned(FRAME)))
+
+    assert link.receive(1.0) == FRAME
+    with pytest.raises(StopIteration):
+        link.receive(1.0)
+
+
+def test_on_socketcan_another_program_of_this_host_is_heard():
+    """The kernel flags all that any program of this host sends, and python-can then says that it was not received."""
+    link = BusLink(Bus(returned(FRAME, is_rx=False)), is_socket=True)
+    link._heard = lambda _: returned(FRAME, is_rx=False)
+
+    assert link.receive(1.0) == FRAME
+
+
+def test_a_copy_of_what_was_sent_is_skipped_where_adapters_return_it_unmarked():
+    other = FRAME._replace(data=b"others")
+    does = (None, returned(FRAME), returned(other), returned(FRAME))
+    careful, trusting = BusLink(Bus(*does), echoes=True), BusLink(Bus(*does))
+
+    for link in (careful, trusting):
+        link.send(FRAME)
+
+    assert careful.receive(1.0) == other
+    assert trusting.receive(1.0) == FRAME
 
 
 def test_a_wait_is_no_longer_when_the_wall_clock_is_set_back_meanwhile(ends, monkeypatch):

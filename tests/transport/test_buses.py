@@ -12,7 +12,7 @@ from host_sim.base.errors import LinkDownError, OctetError, UsageError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.bus_process import BusProcess, start_on_socket_pair
 from host_sim.transport.buses import open_bus, open_bus_link, receive
-from host_sim.transport.line_stats import LineStats
+from host_sim.transport.link import LineStats
 
 
 @pytest.fixture
@@ -45,6 +45,36 @@ def test_an_adapter_of_python_can_for_slcan_is_not_waited_for(opened):
 def test_what_is_no_name_of_a_bus_is_said_with_one_that_is(bus):
     with pytest.raises(UsageError, match="socketcan:vcan0, not"):
         open_bus(bus)
+
+
+def test_options_of_an_interface_follow_a_question_mark(opened):
+    open_bus("socketcand:can0?host=10.0.0.7&port=29536&tcp_tune=true")
+
+    assert opened[0]["interface"], opened[0]["channel"] == ("socketcand", "can0")
+    assert {name: opened[0][name] for name in ("host", "port", "tcp_tune")} == {
+        "host": "10.0.0.7",
+        "port": 29536,
+        "tcp_tune": True,
+    }
+
+
+@pytest.mark.parametrize(
+    ("bus", "told"),
+    [
+        ("kvaser:0", "CANlib|canlib|driver"),
+        ("gs_usb:0", "needs the package gs-usb: .* -m pip install 'python-can\\[gs-usb\\]'"),
+        ("udp_multicast:239.0.0.1", "needs the package msgpack: .*'python-can\\[multicast\\]'"),
+        (
+            "socketcand:can0",
+            "'host' and 'port'; its options follow a question mark, as in --bus 'socketcand:can0[?]host",
+        ),
+        ("nosuch:0", "name an interface that python-can has"),
+    ],
+)
+def test_what_an_interface_of_python_can_lacks_is_said(bus, told):
+    for _ in range(2):  # what python-can logs once, when it is loaded, is not needed
+        with pytest.raises(UsageError, match=f"^cannot open the bus {bus}: [^\n]*({told})"):
+            open_bus(bus)
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import pytest
 
 from host_sim.base.errors import LinkDownError, RobotError, UsageError
 from host_sim.protocol.codec import Frame
-from host_sim.transport.line_stats import LineStats
+from host_sim.transport.link import LineStats
 from host_sim.transport.reconnecting_link import ReconnectingLink
 
 FRAME = Frame(0x123, b"\x01")

@@ -3,13 +3,15 @@
 import os
 import socket
 from collections.abc import Iterator
+from contextlib import suppress
 from random import Random
 
 import pytest
 
 from host_sim.base.errors import LinkDownError
 from host_sim.protocol.codec import Frame
-from host_sim.transport.line_stats import LineStats
+from host_sim.transport import slcan_link
+from host_sim.transport.link import LineStats
 from host_sim.transport.slcan_link import SlcanLink, encode
 
 FRAME = Frame(0x123, b"\x01\x02\x03")
@@ -41,6 +43,61 @@ def test_what_an_adapter_acknowledges_is_no_frame(ends):
     far.send(b"\r\rz\rZ\r\a" + encode(FRAME))
 
     assert link.receive(0.5) == FRAME
+
+
+@pytest.mark.parametrize("stamp", [b"", b"7A3F", b"0012D687"])
+@pytest.mark.parametrize("end", [b"\r", b"\r\n", b"\n"])
+def test_lines_may_end_in_any_way_and_have_time_stamps(ends, stamp, end):
+    link, far = ends
+
+    far.send((encode(FRAME)[:-1] + stamp + end) * 2)
+
+    assert [link.receive(0.5), link.receive(0.5), link.receive(0.0)] == [FRAME, FRAME, None]
+
+
+def test_frames_that_the_adapter_returns_to_their_sender_are_skipped(ends):
+    link, far = ends
+    other = Frame(0x321, b"")
+
+    link.send(FRAME)
+    far.send(encode(FRAME) + encode(other) + encode(FRAME._replace(data=b"others")))
+
+    assert [link.receive(0.5), link.receive(0.5)] == [other, FRAME._replace(data=b"others")]
+
+
+def test_an_adapter_is_opened_again_until_a_frame_comes(monkeypatch):
+    near, far = socket.socketpair()
+    monkeypatch.setattr(slcan_link, "_REOPEN_S", 0.05)
+    link = SlcanLink(near, opening=b"C\rS6\rO\r")
+    assert link.receive(0.2) is None
+    assert far.recv(4096).count(b"C\rS6\rO\r") >= 2
+
+    far.send(encode(FRAME))
+    assert link.receive(0.5) == FRAME
+    far.setblocking(False)
+    with suppress(BlockingIOError):
+        far.recv(4096)  # what it sent before that frame came
+    assert link.receive(0.2) is None
+
+    with pytest.raises(BlockingIOError):
+        far.recv(4096)
+    link.close()
+    far.close()
+
+
+def test_what_came_is_counted_for_whoever_asks_why_there_was_no_answer():
+    near, far = socket.socketpair()
+    stats = LineStats()
+    link = SlcanLink(near, stats)
+
+    far.send(b"\a\a+Board: \xff\r" + encode(FRAME))
+    while link.receive(0.5) != FRAME:
+        pass
+
+    assert (stats.frames, stats.errors, stats.garbled, stats.strange) == (1, 2, 1, "'+Board: \\xff'")
+    assert stats.heard == 11 + 1 + len(encode(FRAME))
+    link.close()
+    far.close()
 
 
 @pytest.mark.parametrize("noise", [b"\xff\xfe\r", b"t12\r", b"t1239\r", b"t1233010\r", b"T00000123301\r", b"tXYZ0\r"])

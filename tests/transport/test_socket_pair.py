@@ -8,7 +8,7 @@ import pytest
 
 from host_sim.base.errors import LinkDownError
 from host_sim.protocol.codec import Frame
-from host_sim.transport.line_stats import LineStats
+from host_sim.transport.link import LineStats
 from host_sim.transport.socket_pair import ERROR, EXTENDED, REMOTE, SocketPairLink
 
 FRAME = Frame(0x41, b"\1\2")

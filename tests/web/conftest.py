@@ -1,5 +1,6 @@
 """Chromium, runs to watch, and pages that are held to their manners."""
 
+import signal
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from urllib.parse import urldefrag, urljoin
@@ -7,7 +8,7 @@ from urllib.parse import urldefrag, urljoin
 import pytest
 from playwright.sync_api import Browser, Page, Playwright, sync_playwright
 
-from tests.runs.support import octet
+from tests.runs.support import octet, start_octet
 from tests.web.browsers import CHROMIUM, launch
 from tests.web.support import DEADLINE_S, READY, Faults, Watched, next_frame, start_watched, wait_for
 
@@ -24,14 +25,6 @@ def browser(playwright: Playwright) -> Iterator[Browser]:
         yield browser
 
 
-@pytest.fixture(scope="module", autouse=True)
-def state_home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """The token of this machine's pages is not that of the person who runs the tests."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
-        yield
-
-
 @pytest.fixture
 def watch(tmp_path: Path) -> Iterator[Callable[..., Watched]]:
     """Starts runs to watch; ends what is left of them."""
@@ -45,6 +38,28 @@ def watch(tmp_path: Path) -> Iterator[Callable[..., Watched]]:
     for watched in started:
         watched.process.kill()
         watched.process.communicate()
+
+
+@pytest.fixture
+def hold_class(tmp_path: Path) -> Iterator[Callable[..., tuple[str, str]]]:
+    """Begins classes; returns the addresses of a class's page and of its board."""
+    begun = []
+
+    def begin(*words: str) -> tuple[str, str]:
+        file = tmp_path / "class.json"
+        begun.append(start_octet("class", "--listen", "127.0.0.1", "--port", "0", "--file", file, *words))
+        lines = {}
+        for line in begun[-1].stdout:
+            word, _, rest = line.partition(" ")
+            lines[word] = rest.strip().partition(" ")[0]
+            if word == "ends":
+                return lines["class"], lines["board"]
+        raise AssertionError(f"the class does not begin: {begun[-1].stderr.read()}")
+
+    yield begin
+    for process in begun:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=DEADLINE_S)
 
 
 @pytest.fixture(scope="module")

@@ -10,11 +10,11 @@ import numpy as np
 from playwright.sync_api import Page, Route, WebSocketRoute
 
 from host_sim.base.paths import WEB
+from host_sim.recording.state import measures
+from host_sim.recording.state_types import EnvironmentScene, Measures, State
 from host_sim.report.page_bundle import page_of
 from host_sim.report.replay_page import pack, page
-from host_sim.view.state import measures
-from host_sim.view.state_types import EnvironmentScene, Measures, State
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import SimParams
 
 HOME = "http://octet.test/"
 MEASURES: Measures = measures(SimParams(), 10)

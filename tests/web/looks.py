@@ -14,6 +14,8 @@ DESKTOPS = [(1024, 768), (1280, 720), (1366, 657), (1440, 900), (1920, 1080)]
 PHONES = [(390, 844), (844, 390)]
 SCHEMES = ("light", "dark")
 THREE_SIZES = [(390, 844), (1024, 768), (1920, 1080)]
+# The arena's least size at each size of the window, CSS px.
+ARENA = {(1366, 657): (720, 540), (1920, 1000): (1150, 860), (1024, 768): (600, 450), (390, 844): (390, 290)}
 TOO_SMALL = """() => [...document.querySelectorAll("button, select, input, summary")]
   .map((element) => element.closest("label.check") ?? element)
   .filter((element) => element.checkVisibility())
@@ -57,6 +59,14 @@ BLANK = """(side) => {
   return places.filter(([x, y]) => !touched(x * side, y * side)).length / places.length;
 }"""
 
+# What lies over the middle or over a corner of an arena, each 30 px inside of it.
+COVERED = """() => [...document.querySelectorAll("#arena, .lane canvas")].flatMap((canvas) => {
+  const { x, y, width, height } = canvas.getBoundingClientRect();
+  return [[30, 30], [width - 30, 30], [30, height - 30], [width - 30, height - 30], [width / 2, height / 2]]
+    .map(([right, down]) => document.elementFromPoint(x + right, y + down)).filter((it) => it !== canvas)
+    .map((it) => it?.id || it?.className);
+})"""
+
 
 def blank(page: Page) -> float:
     """The part of the window in which there is nothing within about 24 px."""
@@ -80,6 +90,18 @@ def resize(page: Page, size: tuple[int, int]) -> None:
     page.set_viewport_size({"width": size[0], "height": size[1]})
     wait_for(page, "([width, height]) => innerWidth === width && innerHeight === height", list(size))
     next_frame(page)
+
+
+def too_small(page: Page, bars: dict[tuple[int, int], tuple[int, int]], arena: str) -> list[str]:
+    """The sizes at which an arena is smaller than it has to be, or something lies over it."""
+    found = []
+    for size, (width, height) in bars.items():
+        resize(page, size)
+        box = page.locator(arena).first.bounding_box()
+        assert box is not None
+        if box["width"] < width or box["height"] < height or page.evaluate(COVERED):
+            found.append(f"{size}: {box} {page.evaluate(COVERED)}")
+    return found
 
 
 def violations(page: Page, rules: str = "") -> list[str]:

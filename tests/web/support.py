@@ -91,7 +91,9 @@ class Faults:
 
     def _console(self, kind: str, text: str) -> None:
         # Reading pixels is the tests' own doing, and so is the end of a server that a page tries to reach again.
-        if kind in ("error", "warning") and not re.search("getImageData|ERR_CONNECTION_REFUSED", text):
+        if kind in ("error", "warning") and not re.search(
+            "getImageData|ERR_CONNECTION_REFUSED|ERR_INTERNET_DISCONNECTED|response code: 403", text
+        ):
             self.seen.append(f"console {kind}: {text}")
 
     def _request(self, url: str) -> None:

@@ -8,8 +8,8 @@ from host_sim.lab.campaign.html_report import page
 from host_sim.lab.campaign.matrix import groups
 from host_sim.lab.campaign.outcome import Outcome
 from host_sim.protocol.generated import Reason
+from host_sim.recording import phrases
 from host_sim.report.drawing import MARKS
-from host_sim.view import phrases
 from tests.runs.support import octet
 from tests.web.fake_run import HOME, FakeRun, robot_state
 from tests.web.looks import THREE_SIZES, resize, violations_at

@@ -9,14 +9,16 @@ from typing import Any
 import pytest
 
 from host_sim.base.paths import WEB
+from host_sim.base.toml_file import parse_toml
 from host_sim.protocol.generated import BODY_SENTENCES, PATTERNS, PROFILES, SENTENCES, SIDES
-from host_sim.view import languages as module
-from host_sim.view.languages import languages
-from host_sim.view.templates import template
-from host_sim.world.world_names import STILL_WORLDS
+from host_sim.talk import languages as module
+from host_sim.talk.conversation import SCRIPTS as SCRIPTS_FOLDER
+from host_sim.talk.languages import languages, template
+from host_sim.world.names import STILL_WORLDS
 from tests.runs.support import ROOT
 
 TEXTS = languages()
+SCRIPTS = {it["language"]: it for path in SCRIPTS_FOLDER.glob("*.toml") for it in [parse_toml(path.read_text())]}
 GAPS = re.compile(r"\{\w+\}")
 TEMPLATES = sorted(path.name for path in WEB.glob("*.html"))
 SAID_IN_ENGLISH = {
@@ -28,7 +30,6 @@ SAID_IN_ENGLISH = {
     "host_sim/live/server.py": r'_told\(("[^"]+")',
     "host_sim/live/join_code.py": r'Error\(("[^"]+")',
     "host_sim/live/paced_run.py": r'EditError\(("[^"]+")',
-    "host_sim/live/seats.py": r'(?:_THE_BOARDS =|_ONLY_WATCHING =|Error\() ?f?("[^"]+")',
 }
 """Where sentences come from that a page hears in English, and how they stand there."""
 
@@ -100,7 +101,7 @@ def test_no_text_is_left_in_english():
     words = {place: text for place, text in german.items() if re.search("[a-z]{3}", GAPS.sub("", text))}
     same = {text for place, text in words.items() if english.get(place) == text}
 
-    assert same == {"Arena", "Listing", "Name", "Pause", "ideal", "live"}
+    assert same == {"Arena", "Code", "Link", "Listing", "Name", "Pause", "ideal", "live"}
 
 
 @pytest.mark.parametrize("code", [code for code in TEXTS if code != "en"])
@@ -110,6 +111,130 @@ def test_a_lesson_calls_what_is_on_the_page_as_the_page_does(code):
 
     assert quoted & shown != set()
     assert quoted & english - shown == set()
+
+
+QUOTES = {"en": "“([^”]+)”", "de": "„([^“]+)“"}
+ELSEWHERE = {"en": r"above|at the bottom|below", "de": r"\boben|\bunten"}
+"""Words for places that depend on the screen."""
+
+
+def unknown_in_steps(code: str, words: dict[str, Any]) -> set[str]:
+    """What a step names that the page does not show by that name, and where it sends readers to look."""
+    shown = {text for part in (words["page"], words["kinds"], words["lessons"]["words"]) for _, text in places(part)}
+    shown |= {*words["robot"].get("patterns", PATTERNS), "ELIZA"}
+    shown |= {words["heard"].get(it, it) for it in ("front", "front-left", "front-right")}
+    steps = [step for lesson in words["lessons"]["lessons"].values() for step in lesson["steps"]]
+    named = {it for step in steps for it in re.findall(QUOTES[code], step) if not it.endswith("?")}
+    known = {it.casefold() for it in shown}
+    missing = {it for it in named if not any(text.startswith(it.casefold()) for text in known)}
+    return missing | {it for step in steps for it in re.findall(ELSEWHERE[code], step)}
+
+
+@pytest.mark.parametrize("code", TEXTS)
+def test_a_step_names_what_is_on_the_page_and_has_its_tool_in_it(code):
+    assert unknown_in_steps(code, TEXTS[code]) == set()
+
+
+@pytest.mark.parametrize(
+    ("said", "instead"), [("“Play”", "“Begin now”"), ("with the slider here", "with the slider above")]
+)
+def test_a_step_that_names_what_is_not_there_is_found(said, instead):
+    words = copy.deepcopy(TEXTS["en"])
+    for lesson in words["lessons"]["lessons"].values():
+        lesson["steps"] = [step.replace(said, instead) for step in lesson["steps"]]
+
+    assert len(unknown_in_steps("en", words)) == 1
+
+
+OTHER_MEANINGS = r"Food left|rules can each be right|right in front of|right away"
+"""Where left and right are no sides."""
+SIDES_OF = {"links": "left", "link": "left", "left": "left", "rechts": "right", "recht": "right", "right": "right"}
+
+
+def sides(text: str) -> list[str]:
+    """The sides that a text names, in order."""
+    words = re.findall("[a-zäöüß]+", re.sub(OTHER_MEANINGS, "", text).lower())
+    return [SIDES_OF[stem] for word in words if (stem := re.sub("(?<=link|echt)e[nrs]?$", "", word)) in SIDES_OF]
+
+
+def numbers(text: str) -> list[str]:
+    """The numbers in a text."""
+    return sorted(number.replace(",", ".") for number in re.findall(r"\d+(?:[.,:]\d+)*", text))
+
+
+def buttons(english: str, german: str, calls: dict[str, set[str]]) -> set[str]:
+    """What the English text quotes of the page, and the German one not as the page calls it there."""
+    quoted = set(re.findall("„([^“]+)“", german))
+    return {it for it in re.findall("“([^”]+)”", english) if it in calls and not calls[it] & quoted}
+
+
+def contradictions(english: dict[str, str], german: dict[str, str]) -> set[str]:
+    """Texts that name other sides, numbers or buttons than in English. Glossaries are sorted in each language."""
+    calls: dict[str, set[str]] = {}
+    for place, text in english.items():
+        calls.setdefault(text, set()).add(german.get(place, ""))
+    pairs = {place: (text, german[place]) for place, text in english.items() if "/glossary/" not in place}
+    return {
+        place
+        for place, (one, other) in pairs.items()
+        if sides(one) != sides(other) or numbers(one) != numbers(other) or buttons(one, other, calls)
+    }
+
+
+MEANT_OTHERWISE = {
+    "/lessons/lessons/watch/goals/2": ("nach links zu drehen", "nach rechts zu drehen"),
+    "/lessons/lessons/program/notes/expect": ("0,196", "0,169"),
+    "/lessons/lessons/plant/steps/0": ("„Abspielen“", "„Pause“"),
+}
+
+
+def test_german_names_the_sides_numbers_and_buttons_that_english_names():
+    assert contradictions(dict(places(own(TEXTS["en"]))), dict(places(own(TEXTS["de"])))) == set()
+
+
+def told_otherwise(words: dict[str, str]) -> set[str]:
+    """English words that name other sides or numbers than what is said for them."""
+    return {told for told, said in words.items() if sides(told) != sides(said) or numbers(told) != numbers(said)}
+
+
+@pytest.mark.parametrize("section", ["heard", "refused", "columns"])
+def test_what_is_heard_in_english_is_said_in_german_with_its_sides_and_numbers(section):
+    assert told_otherwise(TEXTS["de"][section]) == set()
+
+
+@pytest.mark.parametrize(
+    ("told", "said"),
+    [("left", "rechts"), ("front-left", "vorne rechts"), ("there are 40 obstacles", "es gibt schon 20")],
+)
+def test_what_is_said_with_another_side_or_number_is_found(told, said):
+    assert told_otherwise({told: said, "right": "rechts"}) == {told}
+
+
+def test_a_german_robot_names_the_sides_and_numbers_that_an_english_one_names():
+    words = TEXTS["de"]["robot"]
+    english, german = (SCRIPTS[code]["facts"] for code in ("en", "de"))
+
+    for told, said in ((PATTERNS, words["patterns"]), (SIDES, words["sides"])):
+        assert told_otherwise(dict(zip(told, said, strict=True))) == set()
+    assert told_otherwise({SENTENCES[it]: said for it, said in words["sentences"].items()}) == set()
+    assert contradictions(dict(places(english)), dict(places(german))) == set()
+
+
+@pytest.mark.parametrize("code", ["en", "de"])
+def test_a_robot_hears_each_side_by_its_own_names(code):
+    spoken = SCRIPTS[code]["spoken"]
+
+    heard = {(side, *sides(name)) for side in ("left", "right", "front") for name in spoken[side]}
+    assert heard == {("left", "left"), ("right", "right"), ("front",)}
+    assert [it for name in spoken["turns"] for it in sides(name)] == ["left", "right"] * (len(spoken["turns"]) // 2)
+
+
+@pytest.mark.parametrize("place", MEANT_OTHERWISE)
+def test_a_german_text_that_says_something_else_is_found(place):
+    german = dict(places(own(TEXTS["de"])))
+    german[place] = german[place].replace(*MEANT_OTHERWISE[place])
+
+    assert contradictions(dict(places(own(TEXTS["en"]))), german) == {place}
 
 
 def test_every_text_is_used():
@@ -181,12 +306,15 @@ def test_a_text_that_no_page_shows_is_found():
     assert unused(words, code() + "// nobodySaysThis") == {"nobodySaysThis"}
 
 
-def test_a_lesson_has_a_check_for_each_goal_and_an_answer_to_each_question():
-    plans = re.findall(r'^    id: "(\w+)",.*?^    goals: \[\n(.*?)^    \],', code(), re.DOTALL | re.MULTILINE)
-    check = re.compile(r"^      \(_?runs, _?tick(?:, talk)?\) =>", re.MULTILINE)
-    checks = {name: len(check.findall(goals)) for name, goals in plans}
+def test_a_lesson_has_a_check_for_each_goal_a_plan_for_each_step_and_an_answer_to_each_question():
+    plan = r'^    id: "(\w+)",.*?^    steps: \[\n(.*?)^    \],\n    goals: \[\n(.*?)^    \],'
+    plans = re.findall(plan, code(), re.DOTALL | re.MULTILINE)
+    check = re.compile(r"^      \(_?runs, _?tick(?:, \{ \w+ \})?\) =>", re.MULTILINE)
+    checks = {name: len(check.findall(goals)) for name, _, goals in plans}
+    steps = {name: len(re.findall(r"^      \{", written, re.MULTILINE)) for name, written, _ in plans}
 
     for words in TEXTS.values():
         lessons = words["lessons"]["lessons"]
         assert {name: len(lesson["goals"]) for name, lesson in lessons.items()} == checks
+        assert {name: len(lesson["steps"]) for name, lesson in lessons.items()} == steps
         assert all(len(lesson["tasks"]) == len(lesson["notes"]["answers"]) for lesson in lessons.values())

@@ -1,19 +1,33 @@
 """All that matters is in view at every size, fingers can hit it, and axe-core finds nothing wrong."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import Page
 
+from host_sim.base.paths import WEB
+from tests.runs.support import ROOT
 from tests.web.fake_run import HOME, FakeRun, robot_state
-from tests.web.looks import DESKTOPS, PHONES, TOO_SMALL, out_of_view, resize, violations, violations_at
+from tests.web.looks import (
+    ARENA,
+    DESKTOPS,
+    PHONES,
+    TOO_SMALL,
+    out_of_view,
+    resize,
+    too_small,
+    violations,
+    violations_at,
+)
 from tests.web.support import wait_for
 
 SIZES = DESKTOPS + PHONES
 LIVE = (
     "#floor",
     "#play",
+    "#scrub",
     "#decision",
     "#speed",
     "#doing",
@@ -60,6 +74,13 @@ def fill(run: FakeRun) -> None:
     run.send(lessons=[{**lesson, "tick": tick} for tick in range(30)])
 
 
+NEAR_THE_TOP = """() => {
+  scrollTo(0, 400);
+  const { x, y, right } = document.querySelector("canvas").getBoundingClientRect();
+  return scrollY > 300 && x === 0 && y <= 1 && right === innerWidth;
+}"""
+
+
 @pytest.fixture(scope="module")
 def live(open_shared: Callable[..., Page]) -> Page:
     """A full page, for all tests of this module."""
@@ -79,6 +100,30 @@ def test_the_live_page_has_all_that_matters_in_view(live):
         assert arena["height"] >= min(size[1] * 0.5, size[0] * 0.7), size
 
 
+def test_the_arena_is_what_a_live_page_shows_first(live):
+    assert too_small(live, ARENA, "#arena") == []
+    assert live.evaluate(NEAR_THE_TOP)
+
+
+def test_the_arena_is_what_a_replay_shows_first(recorded: Path, open_page):
+    page = open_page(recorded.as_uri())
+
+    assert too_small(page, ARENA, "#arena") == []
+    assert page.evaluate(NEAR_THE_TOP)
+
+
+def test_an_arena_that_is_small_or_covered_is_found(recorded: Path, open_page):
+    page = open_page(recorded.as_uri())
+    page.evaluate("document.querySelector('#stage').append(document.querySelector('.lens'))")
+    page.evaluate("document.querySelector('.lens').style = 'position: absolute; left: 12px; top: 60px'")
+
+    assert len(too_small(page, {(1366, 657): (720, 540)}, "#arena")) == 1
+    page.evaluate("document.querySelector('.lens').remove()")
+    assert too_small(page, {(1366, 657): (720, 540)}, "#arena") == []
+    page.evaluate("document.querySelector('#floor').style.width = '500px'")
+    assert len(too_small(page, {(1366, 657): (720, 540)}, "#arena")) == 1
+
+
 def test_the_replay_has_all_that_matters_in_view_even_while_it_compares(recorded: Path, open_page):
     page = open_page(recorded.as_uri())
     page.click("#pin")
@@ -88,6 +133,58 @@ def test_the_replay_has_all_that_matters_in_view_even_while_it_compares(recorded
         resize(page, size)
         assert out_of_view(page, REPLAY, size) == [], size
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), size
+
+
+def variables(block: str) -> dict[str, str]:
+    """The variables that a block of the style sheet sets."""
+    return dict(re.findall(r"(--[\w-]+): ([^;]+);", block))
+
+
+def wrong_in_design(page: str) -> list[str]:
+    """Rows of the table of variables that the style sheet contradicts."""
+    blocks = re.findall(r":root \{\n(.*?)\n *\}", (WEB / "style.css").read_text(), re.DOTALL)
+    light, dark = map(variables, blocks[:2])
+    rows = re.findall(r"^\| `(--[\w-]+)` \| `([^`]+)` \| (?:`([^`]+)` )?\|", page, re.MULTILINE)
+    assert len(rows) > 20
+    return [name for name, bright, dim in rows if (light[name], dark.get(name, "")) != (bright, dim)]
+
+
+def test_the_design_is_documented_as_it_is():
+    page = (ROOT / "docs/page.md").read_text()
+
+    assert wrong_in_design(page) == []
+    assert wrong_in_design(page.replace("`#12161b`", "`#12161c`").replace("`4px`", "`5px`")) == ["--s1", "--ground"]
+
+
+def out_of_legend(page: Page) -> list[str]:
+    """What is not in view after one press, by size."""
+    found = []
+    for size in ((1366, 657), *PHONES):
+        resize(page, size)
+        page.evaluate("scrollTo(0, 0)")
+        page.click("#to-legend")
+        found += [f"{size}: {it}" for it in out_of_view(page, ("#legend",), size)]
+    page.evaluate("scrollTo(0, 0)")
+    return found
+
+
+def test_the_legend_is_one_press_away_on_the_live_page(live):
+    assert out_of_legend(live) == []
+
+
+def test_the_legend_is_one_press_away_on_a_replay(recorded: Path, open_page):
+    assert out_of_legend(open_page(recorded.as_uri())) == []
+
+
+def test_a_printed_replay_is_one_white_sheet(recorded: Path, open_page):
+    page = open_page(recorded.as_uri())
+    page.evaluate("octet.go(octet.data.last)")
+
+    sheet = page.pdf(format="A4", margin=dict.fromkeys(("top", "right", "bottom", "left"), "10mm"))
+
+    assert len(re.findall(rb"/Type\s*/Page\b", sheet)) == 1
+    page.emulate_media(media="print")
+    assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgba(0, 0, 0, 0)"
 
 
 def test_fingers_can_hit_everything_on_a_phone(live):

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from host_sim.view.state_types import State
+from host_sim.recording.state_types import State
 from tests.runs.support import octet
 from tests.web.fake_run import ENVIRONMENT, HOME, FakeRun, robot_state, write_replay
 from tests.web.support import drag, next_frame, pause, place_on_page, wait_for, wait_for_text

@@ -11,11 +11,11 @@ from playwright.sync_api import Page
 
 from host_sim.protocol.generated import PARAMETERS, PATTERNS, SENTENCES, SIDES
 from host_sim.report.octet_page import octet_page
-from host_sim.view import languages as module
-from host_sim.view.languages import languages
+from host_sim.talk import languages as module
+from host_sim.talk.languages import languages
 from tests.runs.support import octet
+from tests.web.board.test_board import READY as BOARD_READY
 from tests.web.lab.support import READY, go, settle
-from tests.web.live.test_class import board_url
 from tests.web.looks import violations_at
 from tests.web.support import next_frame, wait_for
 
@@ -61,14 +61,12 @@ def esperanto(tmp_path_factory) -> Iterator[Path]:
     for code, words in {**languages(), "eo": third_language()}.items():
         (home / f"texts/{code}.json").write_text(json.dumps(words))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(module, "WEB", home)
+        patch.setattr(module, "TEXTS", home / "texts")
         octet("run", "--bus", "none", "--quiet", "--world", "small", "--out", home / "run")
-        words = ("--robots", "40", "--worlds", "own", "--environments", "1", "--limit-s", "10")
-        octet("run", "--bus", "none", "--quiet", "--out", home / "fleet", *words)
         yield home
 
 
-KEPT = {"run/replay.html": "window.octet?.scene?.state", "fleet/fleet.html": "window.octet?.picture"}
+KEPT = {"run/replay.html": "window.octet?.scene?.state"}
 
 
 def foreign(page: Page) -> set[str]:
@@ -120,35 +118,27 @@ def test_the_page_of_a_run_speaks_it(esperanto, open_page):
     assert foreign(page) == set()
 
 
-def test_the_page_of_a_fleet_speaks_it(esperanto, open_page):
-    page = open_page((esperanto / "fleet/fleet.html").as_uri(), ready="window.octet?.picture", locale="eo")
-    page.evaluate("octet.at = octet.last")
-
-    assert foreign(page) == set()
-
-
-def test_the_board_and_the_pages_of_a_class_speak_it(watch, open_page):
+def test_the_board_and_the_pages_of_a_run_speak_it(watch, hold_class, open_page):
     def speak(page: Page) -> None:
         lesson = f"{TEACH}({json.dumps(third_language())})"
         page.add_init_script(f"document.addEventListener('readystatechange', () => {lesson})")
 
     watched = watch("--listen", "127.0.0.1", "--robots", "2")
-    board = open_page(board_url(watched), "window.octet?.message", speak, locale="eo")
+    board = open_page(hold_class()[1], BOARD_READY, speak, locale="eo")
     pages = [open_page(watched.url, "window.octet?.scene?.state", speak, locale="eo") for _ in range(3)]
-    pages[0].evaluate("octet.send({ do: 'next' })")
+    pages[0].evaluate("octet.send({ do: 'remove_bar', id: 99 })")
     pages[1].evaluate("octet.send({ do: 'put', at: [100, 100], heading: 0 })")
-    pages[2].evaluate("octet.send({ do: 'erase', node: 1 })")
-    board.evaluate("octet.connection.send({ do: 'put', node: 1, at: [100, 100], heading: 0 })")
-    for page in (board, *pages):
+    pages[2].evaluate("octet.send({ do: 'erase', node: 9 })")
+    for page in pages:
         wait_for(page, "document.querySelector('#note').textContent !== ''")
 
     assert [foreign(page) for page in (board, *pages)] == [set()] * 4
 
 
-def test_axe_finds_nothing_in_german_on_a_phone_on_its_side(third, esperanto, watch, open_page):
+def test_axe_finds_nothing_in_german_on_a_phone_on_its_side(third, esperanto, watch, hold_class, open_page):
     watched = watch("--listen", "127.0.0.1", "--robots", "2")
     kept = [((esperanto / name).as_uri(), ready) for name, ready in KEPT.items()]
-    served = [(board_url(watched), "window.octet?.message"), (watched.url, "window.octet?.scene?.state")]
+    served = [(hold_class()[1], BOARD_READY), (watched.url, "window.octet?.scene?.state")]
     for page in (third, *(open_page(url, ready) for url, ready in (*kept, *served))):
         page.select_option("#language", "de")
         assert violations_at(page, [(740, 360)]) == []

@@ -9,8 +9,9 @@ import signal
 import subprocess
 import sys
 import sysconfig
-import urllib.request
+from collections.abc import Callable
 from pathlib import Path
+from urllib.request import HTTPCookieProcessor, build_opener
 
 import pytest
 
@@ -28,33 +29,27 @@ RUN = "run --environments 1 --limit-s 20 --quiet"
 USES = {
     "calibrate": "calibrate --robot emulated",
     "campaign": "campaign --repeat 'article none lockstep seed=12 limit=8 fault=drop:30%'",
-    "check-robot": f"check-robot --robot-command 'python3 {ROOT}/examples/robot/robot.py'",
+    "class": "class --port 0",
+    "check": f"check --robot-command 'python3 {ROOT}/examples/robot/robot.py'",
     "compare": "compare article never --seeds 2 --environments 1",
-    "convert": f"convert {ROOT}/tests/recording/data/wire_1_three_robots.log new.log",
-    "dask": "dask worker --version",
     "dbc": "dbc --nodes 1-8",
     "export": "export out/run.log --csv run.csv --mf4 run.mf4 --parquet run.parquet",
-    "keygen": "keygen my.pem",
-    "load": "load out/run.log",
-    "monitor": "monitor virtual:nobody --help",
     "page": "page octet.html",
     "picture": "picture out/run.log --png run.png",
-    "protocol": "protocol",
     "replay": "replay out/run.log --html run.html --what-if",
-    "reproduce": "reproduce --help",
     "run": "run --environments 1 --limit-s 5 --robot emulated --quiet --out emulated",
     "study": "study plan.toml",
     "talk": "talk",
     "tune": "tune --only turn_deg --environments 1 --limit-s 5 --trials 8 --seeds 3 --held-out 2",
-    "update": "update --help",
     "watch": "watch --port 0 --environments 1 --limit-s 5",
     "world": "world corridors --png corridors.png",
 }
-"""A use of each command; `watch` has a test of its own."""
+"""A use of each command; those that serve have a test of their own."""
+SERVING = ("class", "watch")
 
 
 NOT_NEEDED = (
-    "aiohttp PIL numpy unicorn gymnasium pettingzoo pyarrow matplotlib distributed asammdf mcap ifaddr segno pymunk"
+    "aiohttp PIL numpy unicorn gymnasium pettingzoo pyarrow matplotlib distributed asammdf ifaddr segno pymunk cmaes"
 )
 """Libraries that only some commands load."""
 
@@ -64,11 +59,31 @@ def commands() -> set[str]:
     return {name for action in groups for name in action.choices}
 
 
+IN_A_CHECKOUT = {"debug", "grade", "new"}
+"""The commands that need the sources."""
+
+
 def test_each_command_is_tried():
-    assert commands() == set(USES)
+    assert commands() == set(USES) | IN_A_CHECKOUT
 
 
-@pytest.mark.parametrize("name", sorted(set(USES) - {"watch"}))
+def test_a_behaviour_in_c_needs_a_checkout(octet, tmp_path):
+    done = octet("new", "mine.c")
+
+    assert (done.returncode, (tmp_path / "mine.c").exists()) == (1, False)
+    assert "need a checkout of Octet with gcc" in done.stderr
+
+
+def test_a_debugger_needs_a_checkout(octet):
+    octet(*RUN.split())
+
+    done = octet("debug", "out/run.log")
+
+    assert done.returncode == 1
+    assert "octet-debug is not built: this wheel was built without it" in done.stderr
+
+
+@pytest.mark.parametrize("name", sorted({*USES} - {*SERVING}))
 def test_a_command_does_what_that_of_a_checkout_does(name, octet, tmp_path):
     (tmp_path / "plan.toml").write_text(PLAN)
     assert "tools/" not in octet(*RUN.split()[:-1]).stdout
@@ -88,26 +103,30 @@ def test_a_run_is_that_of_the_checkout(octet, tmp_path):
     assert one["log_sha256"] == other["log_sha256"]
 
 
-def test_a_watched_run_serves_its_page(environment, tmp_path):
-    command = [environment / "bin/octet", "watch", "--port", "0", "--environments", "1", "--limit-s", "5"]
+@pytest.mark.parametrize("name", SERVING)
+def test_a_command_serves_its_page(name, environment, tmp_path):
+    command, browser = [environment / "bin/octet", *USES[name].split()], build_opener(HTTPCookieProcessor())
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, text=True) as watched:
         address = next(found[0] for line in watched.stdout if (found := re.search(r"http://\S+", line)))
-        page = urllib.request.urlopen(address, timeout=20).read()
+        page = browser.open(address, timeout=20).read()
         watched.send_signal(signal.SIGINT)
         watched.wait(30)
 
-    assert b"<canvas" in page
+    assert b'id="arena' in page
 
 
 def test_the_api_has_the_name_of_the_project(environment, tmp_path):
-    program = "import octet; print(len(octet.run(octet.RunConfig(environments=1, limit_s=1)).log_sha256))"
+    program = "import octet_robot as it; print(len(it.run(it.RunConfig(environments=1, limit_s=1)).log_sha256))"
 
     done = subprocess.check_output([environment / "bin/python", "-c", program], cwd=tmp_path, text=True)
 
     assert done == "64\n"
 
 
-def test_a_run_needs_neither_numpy_nor_an_extra(environment, tmp_path):
+@pytest.fixture
+def bare(environment, tmp_path) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Runs the command of the wheel without the libraries of its extras."""
+    (tmp_path / "plan.toml").write_text(PLAN)
     loads = "import sys; sys.modules.update(dict.fromkeys(sys.argv.pop(1).split()))"
     program = f"{loads}; from host_sim.__main__ import main; sys.exit(main())"
 
@@ -115,19 +134,43 @@ def test_a_run_needs_neither_numpy_nor_an_extra(environment, tmp_path):
         command = [environment / "bin/python", "-c", program, NOT_NEEDED, *words]
         return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
 
-    ran = call(*RUN.split()[:-1])
+    return call
+
+
+def install(environment: Path, extra: str) -> str:
+    return f"not installed: run {environment}/bin/python -m pip install 'octet-robot[{extra}]'\n"
+
+
+def test_a_run_needs_no_extra(bare, environment):
+    ran = bare(*RUN.split()[:-1])
+
     assert (ran.returncode, ran.stderr) == (0, "")
-    assert (
-        "left out  arena.png: this needs pillow, which is not installed: run python -m pip install pillow"
-        in ran.stdout
-    )
-    assert call("page", "octet.html").returncode == 0
-    assert call("world", "corridors").returncode == 0
-    wanted = call("run", "--robots", "40", "--quiet")
-    assert (wanted.returncode, wanted.stderr) == (
-        1,
-        "octet: this needs numpy, which is not installed: run python -m pip install numpy\n",
-    )
+    assert f"left out  arena.png: this needs pillow, which is {install(environment, 'picture')}" in ran.stdout
+    assert bare("page", "octet.html").returncode == 0
+    assert bare("world", "corridors").returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "packages", "extra"),
+    [
+        ("run --robots 40 --quiet", "numpy and pillow", "fleet"),
+        ("run --physics pymunk --quiet", "pymunk", "pymunk"),
+        ("run --robot emulated --quiet", "unicorn", "emulator"),
+        ("watch", "aiohttp, ifaddr, pillow and segno", "watch"),
+        ("class", "aiohttp, ifaddr, pillow and segno", "watch"),
+        ("compare article never --seeds 2 --environments 1", "numpy and pillow", "fleet"),
+        ("study plan.toml", "cmaes, matplotlib, numpy and pyarrow", "study"),
+        ("export out/run.log --parquet run.parquet", "asammdf, numpy and pyarrow", "export"),
+    ],
+)
+def test_a_refusal_names_all_that_is_missing_and_one_extra(words, packages, extra, bare, environment):
+    bare(*RUN.split())
+
+    refused = bare(*words.split())
+
+    assert refused.returncode in {1, 2}
+    verb = "are" if " and " in packages else "is"
+    assert refused.stderr == f"octet: this needs {packages}, which {verb} {install(environment, extra)}"
 
 
 def test_nothing_is_written_beside_the_program(environment, octet):
@@ -166,7 +209,7 @@ def test_two_versions_live_beside_each_other(wheel, tmp_path):
 
 
 def test_pip_says_that_a_wheel_is_for_another_system(wheel, tmp_path):
-    other = shutil.copy(wheel, tmp_path / "octet-1.0-py3-none-win_amd64.whl")
+    other = shutil.copy(wheel, tmp_path / "octet_robot-1.0-py3-none-win_amd64.whl")
     command = [sys.executable, "-m", "pip", "install", "--no-index", "--no-deps", "--target", tmp_path / "in", other]
 
     done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -176,7 +219,7 @@ def test_pip_says_that_a_wheel_is_for_another_system(wheel, tmp_path):
 
 
 def test_the_commands_of_the_page_do_what_it_says(wheel, tmp_path):
-    page = (ROOT / "docs/wheels.md").read_text()
+    page = (ROOT / "docs/python.md").read_text()
     (block,) = re.findall(r"^```sh from-a-wheel\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
     shutil.copy(wheel, tmp_path)
     libraries = sysconfig.get_path("purelib")

@@ -5,9 +5,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.world.geometry import Bar, Plant
+from host_sim.world.geometry import Bar, Plant, SimParams
 from host_sim.world.layouts import Layout
-from host_sim.world.params import SimParams
 
 CELL_MM = 25.0
 

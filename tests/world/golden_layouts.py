@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from host_sim.world.layouts import Layout, World
-from host_sim.world.world_names import WORLD_NAMES
-from host_sim.world.worlds import world_of
-from host_sim.world.written_world import world_from
+from host_sim.world.names import WORLD_NAMES
+from host_sim.world.worlds import world_from, world_of
 
 DIGESTS: dict[str, str] = json.loads(Path(__file__).with_name("layouts.json").read_text())
 

@@ -7,9 +7,8 @@ import pytest
 
 from host_sim.protocol.generated import Senses
 from host_sim.world.arena import Arena
-from host_sim.world.geometry import Bar, Point, Pose, ahead_of
+from host_sim.world.geometry import Bar, Point, Pose, SimParams, ahead_of
 from host_sim.world.layouts import Layout, generate
-from host_sim.world.params import SimParams
 from host_sim.world.reach import clearance_mm
 
 PARAMS = SimParams()

@@ -7,13 +7,12 @@ import pytest
 from host_sim.base.errors import UsageError
 from host_sim.protocol.words import BODY_FAULTS
 from host_sim.world.arena import Arena
-from host_sim.world.body_faults import check_fault
+from host_sim.world.body_kinds import check_fault
 from host_sim.world.change_effects import edits_of
 from host_sim.world.changes import Change, read_changes
 from host_sim.world.edits import Edit, EditError
-from host_sim.world.geometry import Bar, Pose
+from host_sim.world.geometry import Bar, Pose, SimParams
 from host_sim.world.layouts import Layout, generate
-from host_sim.world.params import SimParams
 from host_sim.world.reach import Reach
 
 

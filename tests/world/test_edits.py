@@ -6,10 +6,9 @@ import pytest
 
 from host_sim.world.arena import Arena
 from host_sim.world.edits import Edit, EditError
-from host_sim.world.geometry import Bar, Plant, Pose
+from host_sim.world.geometry import Bar, Plant, Pose, SimParams
 from host_sim.world.layouts import Layout
-from host_sim.world.params import SimParams
-from host_sim.world.physics_names import PHYSICS
+from host_sim.world.names import PHYSICS
 
 PARAMS = SimParams()
 FAR = Bar((500.0, 500.0), (900.0, 500.0))

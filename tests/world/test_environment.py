@@ -9,11 +9,10 @@ import pytest
 
 from host_sim.base.errors import UsageError
 from host_sim.world.body import rolled
-from host_sim.world.geometry import Pose, ahead_of
+from host_sim.world.geometry import Pose, SimParams, ahead_of
 from host_sim.world.layouts import Layout, NoRoomError, generate
-from host_sim.world.params import SimParams
+from host_sim.world.names import WORLD_NAMES
 from host_sim.world.world_library import world_library
-from host_sim.world.world_names import WORLD_NAMES
 from host_sim.world.worlds import world_of
 from tests.world.clearances import can_reach, clearances_mm, is_fair
 from tests.world.golden_layouts import DIGESTS, WANTED, digest, numbers, world

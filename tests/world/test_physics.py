@@ -13,10 +13,9 @@ from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import SPACES_MAX
 from host_sim.world.arena import Arena
 from host_sim.world.edits import Edit, EditError
-from host_sim.world.geometry import Bar, Point
+from host_sim.world.geometry import Bar, Point, SimParams
 from host_sim.world.layouts import generate
-from host_sim.world.params import SimParams
-from host_sim.world.physics_names import FAST, PHYSICS, PYMUNK
+from host_sim.world.names import FAST, PHYSICS, PYMUNK
 from tests.runs.log_hashes import Recorded, digest_of_log, runs
 
 PARAMS = SimParams()

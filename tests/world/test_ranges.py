@@ -8,12 +8,11 @@ import pytest
 from host_sim.protocol.generated import NOTHING_NEAR, RANGE_NONE, Ranges
 from host_sim.world.arena import Arena
 from host_sim.world.body_kinds import kind_from
-from host_sim.world.cones import CONE_BEARINGS_DEG
 from host_sim.world.edits import Edit
-from host_sim.world.geometry import Capsule, Pose, ahead_of
+from host_sim.world.geometry import Capsule, Pose, SimParams, ahead_of
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.native_world import NativeWorld
-from host_sim.world.params import SimParams
+from host_sim.world.plain_space import CONE_BEARINGS_DEG
 
 PARAMS = SimParams()
 START = Pose(2000.0, 1500.0, 0.7)

@@ -9,8 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.world.geometry import Bar, Plant
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import Bar, Plant, SimParams
 from host_sim.world.reach import Reach, clearance_mm, tour_mm
 from host_sim.world.worlds import world_of
 from tests.world.clearances import CELL_MM, clearances_mm, flooded, free_cells, length, middles

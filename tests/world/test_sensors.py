@@ -5,11 +5,9 @@ import math
 import pytest
 
 from host_sim.world.arena import Arena
-from host_sim.world.cones import CONE_BEARINGS_DEG, cone_outline, cone_reach_mm
-from host_sim.world.geometry import Bar, Point, Pose, ahead_of
+from host_sim.world.geometry import Bar, Point, Pose, SimParams, ahead_of
 from host_sim.world.layouts import Layout
-from host_sim.world.params import SimParams
-from host_sim.world.plain_space import cones_in_c
+from host_sim.world.plain_space import CONE_BEARINGS_DEG, cone_outline, cone_reach_mm, cones_in_c
 from host_sim.world.world_library import world_library
 
 PARAMS = SimParams()

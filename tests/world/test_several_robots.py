@@ -6,9 +6,8 @@ import pytest
 
 from host_sim.world.arena import Arena
 from host_sim.world.body import Body
-from host_sim.world.geometry import Bar, Point, Pose
+from host_sim.world.geometry import Bar, Point, Pose, SimParams
 from host_sim.world.layouts import Layout, generate
-from host_sim.world.params import SimParams
 
 PARAMS = SimParams()
 FRONT, LEFT, RIGHT = 4, 16, 1

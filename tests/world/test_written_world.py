@@ -7,10 +7,8 @@ import pytest
 
 from host_sim.base.errors import UsageError
 from host_sim.world.geometry import Bar, Pose
-from host_sim.world.layouts import World
-from host_sim.world.worlds import world_of
-from host_sim.world.written_layout import WrittenLayout
-from host_sim.world.written_world import content_of, world_from
+from host_sim.world.layouts import World, WrittenLayout
+from host_sim.world.worlds import content_of, world_from, world_of
 from tests.world.clearances import is_fair
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"

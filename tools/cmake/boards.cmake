@@ -1,12 +1,18 @@
+set(OCTET_BOARD_DIR ${PROJECT_SOURCE_DIR}/hal/stm32/boards CACHE PATH "where the boards are: hal/stm32/boards, or a folder of yours")
+get_filename_component(OCTET_BOARD_DIR ${OCTET_BOARD_DIR} ABSOLUTE BASE_DIR ${PROJECT_SOURCE_DIR})
 # octet_board_pins(TARGET BOARD): the pins of a board, for board.h.
 set(OCTET_PINS_MAKERS ${PROJECT_SOURCE_DIR}/tools/pins ${PROJECT_SOURCE_DIR}/host_sim/emulator/board_pins.py)
 function(octet_board_pins target board)
-  include(${PROJECT_SOURCE_DIR}/hal/stm32/boards/${board}.cmake)
+  set(file ${OCTET_BOARD_DIR}/${board}.cmake)
+  if(NOT EXISTS ${file})
+    file(GLOB file ${PROJECT_SOURCE_DIR}/hal/*/boards/${board}.cmake)
+  endif()
+  include(${file})
+  file(GLOB tables ${PROJECT_SOURCE_DIR}/hal/${OCTET_CHIP}/pins.toml ${PROJECT_SOURCE_DIR}/hal/*/${OCTET_CHIP}/pins.toml)
   set(folder ${PROJECT_BINARY_DIR}/generated/${board})
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${OCTET_PINS_MAKERS}
-    ${PROJECT_SOURCE_DIR}/hal/stm32/boards/${board}.cmake ${PROJECT_SOURCE_DIR}/hal/stm32/${OCTET_CHIP}/pins.toml)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${OCTET_PINS_MAKERS} ${file} ${tables})
   file(MAKE_DIRECTORY ${folder})
-  execute_process(COMMAND ${python} ${PROJECT_SOURCE_DIR}/tools/pins ${board} --c ${folder}/board_pins.h
+  execute_process(COMMAND ${python} ${PROJECT_SOURCE_DIR}/tools/pins ${file} --c ${folder}/board_pins.h
     COMMAND_ERROR_IS_FATAL ANY)
   target_include_directories(${target} PRIVATE ${folder})
 endfunction()

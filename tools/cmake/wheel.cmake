@@ -25,9 +25,9 @@ install(FILES ${sources}/web/generated.js DESTINATION host_sim/web)
 install(FILES ${PROJECT_BINARY_DIR}/code_version DESTINATION ${tree}/build)
 install(FILES ${OCTET_GENERATED}/robot_words.h DESTINATION ${tree}/build/host/generated)
 
-file(GLOB pins RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/hal/stm32/boards/*.cmake
-  ${PROJECT_SOURCE_DIR}/hal/stm32/*/pins.toml)
-foreach(file firmware/io.h firmware/memory/memory.h firmware/memory/memory_kind.h hal/link/link.h hal/pins_body/wheel.h
+file(GLOB pins RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/hal/*/boards/*.cmake
+  ${PROJECT_SOURCE_DIR}/hal/*/pins.toml ${PROJECT_SOURCE_DIR}/hal/stm32/*/pins.toml)
+foreach(file firmware/io.h firmware/memory/memory.h hal/link/link.h firmware/motion/speed_control.h host_sim/program/own/mine.c
     hal/pins_body/wiring.toml hal/protocol/octet.dbc hal/protocol/robot.toml ${pins})
   get_filename_component(folder ${file} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/${file} DESTINATION ${tree}/${folder})

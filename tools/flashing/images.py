@@ -1,12 +1,15 @@
 """Boards, and the images that are built for them."""
 
+import os
 import re
-import shutil
+import shlex
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
-from host_sim.emulator.board_pins import STM32, settings
+from host_sim.base.image_build import build_image
+from host_sim.emulator.board_pins import HAL, board_files, settings
 from tools.flashing import ChoiceError, FlashError
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -18,7 +21,7 @@ class Board:
     """A board that we build for.
 
     Attributes:
-        name: Name of the board, of its file in hal/stm32/boards, and of its CMake preset.
+        name: Name of the board, of its file in hal/*/boards, and of its CMake preset.
         chip: Such as stm32f405.
         links: Its images: one for each link of its chip, such as bxcan or slcan, and those that drive pins.
     """
@@ -54,11 +57,13 @@ class Image:
 def all_boards(root: Path = ROOT) -> dict[str, Board]:
     """Every board by its name."""
     boards = {}
-    for path in sorted((root / STM32 / "boards").glob("*.cmake")):
-        chip = settings(path)["OCTET_CHIP"]
-        made = settings(root / STM32 / chip / "chip.cmake")
+    for name, path in board_files(root).items():
+        made = settings(path)
+        chip = made["OCTET_CHIP"]
+        for file in (root / HAL).glob(f"*/{chip}/chip.cmake"):
+            made |= settings(file)
         links = f"{made['OCTET_LINKS']} {made.get('OCTET_BODIES', '')}"
-        boards[path.stem] = Board(path.stem, chip, tuple(links.split()))
+        boards[name] = Board(name, chip, tuple(links.split()))
     return boards
 
 
@@ -80,25 +85,40 @@ def choose_board(name: str, boards: dict[str, Board]) -> Board:
     return boards[name]
 
 
-def build(board: Board, link: str, node: int, bitrate: int, root: Path = ROOT) -> Path:
+def build(  # noqa: PLR0913 - what is built, and what is built into it
+    board: Board, link: str, node: int, bitrate: int, root: Path = ROOT, *, own: Path | None = None
+) -> Path:
     """Builds the image for a board and a link, in a separate folder: the usual images stay as they are.
 
+    With a user's behaviour in C, that drives a simulated robot for a minute first, in a process that checks it.
+
     Raises:
-        FlashError: The board has no such link, or the build fails.
+        FlashError: The board has no such link, the behaviour makes a mistake, or the build fails.
     """
     if link not in board.links:
-        raise ChoiceError(f"no link {link} on {board.name}; there are {', '.join(board.links)}")
+        what = f"no image {link} for {board.name}" if link else f"name an image for {board.name} after it"
+        raise ChoiceError(f"{what}; there are {', '.join(board.links)}")
+    if own is not None:
+        try_out(own, root)
     folder = root / "build" / "flash" / board.name
-    cache = folder / "CMakeCache.txt"
-    newest_s = max((path.stat().st_mtime for path in (root / "tools/cmake").glob("*.cmake")), default=0.0)
-    if cache.exists() and cache.stat().st_mtime < newest_s:
-        shutil.rmtree(folder)  # CMake takes nothing new from a toolchain into a folder that it has configured
     settings = [f"-DOCTET_NODE={node}", f"-DOCTET_CAN_BITRATE={bitrate}"]
-    for command in (["--preset", board.name, "-B", str(folder), *settings], ["--build", str(folder)]):
-        done = subprocess.run(["cmake", *command], cwd=root, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise FlashError(f"cmake {' '.join(command)} failed; run it to see why")
+    settings += [f"-DOCTET_OWN_BRAIN={own.resolve() if own else ''}"]
+    done = build_image(board.name, folder, *settings, root=root)
+    if done.returncode != 0:
+        raise FlashError(f"{shlex.join(done.args)} failed; run it to see why")
     return folder / f"octet-{board.name}-{link}.elf"
+
+
+def try_out(own: Path, root: Path = ROOT) -> None:
+    """Runs a user's behaviour; what is wrong with it is on standard error.
+
+    Raises:
+        FlashError: It is none, or makes a mistake.
+    """
+    with TemporaryDirectory() as out:
+        words = ["--profile", os.fspath(own), "--environments", "1", "--limit-s", "60", "--quiet", "--out", out]
+        if subprocess.run([root / "tools" / "run", *words], check=False).returncode != 0:
+            raise ChoiceError(f"{own} is not flashed: it has to drive a simulated robot for a minute first")
 
 
 def identify(path: Path, board: Board) -> Image:

@@ -12,15 +12,18 @@ from dataclasses import dataclass
 from tools.flashing import FlashError
 from tools.flashing.images import Image
 from tools.flashing.probes import Probe
+from tools.flashing.troubles import explain
 
-CHIP_IDS = {"stm32f405": 0x413, "stm32f103": 0x410, "stm32g431": 0x468}
-"""DBGMCU_IDCODE, bits 0..11: RM0090 38.6.1, RM0008 31.6.1, RM0440 47.6.1."""
+CHIP_IDS = {"stm32f405": 0x413, "stm32f103": 0x410, "stm32g431": 0x468, "rp2040": 0x927}
+"""Bits 0..11 of DBGMCU_IDCODE: RM0090 38.6.1, RM0008 31.6.1, RM0440 47.6.1; of CHIP_ID: RP2040 data sheet 2.20."""
 
+_IDCODES = {"rp2040": "0x40000000"}
 _IDCODE = "0xE0042000"
 _TARGETS = {
     "stm32f405": ("stm32f4x", "stm32f405rg"),
     "stm32f103": ("stm32f1x", "stm32f103c8"),
     "stm32g431": ("stm32g4x", "stm32g431rb"),
+    "rp2040": ("rp2040", "rp2040"),
 }
 _TIMEOUT_S = 120
 
@@ -44,21 +47,25 @@ class Plan:
     write: Command
 
 
+def _idcode(image: Image) -> str:
+    return _IDCODES.get(image.chip, _IDCODE)
+
+
 def _openocd(image: Image, probe: Probe) -> Plan:
     serial = ["-c", f"adapter serial {probe.where}"] if probe.where else []
     interface = ["-f", f"interface/{probe.kind}.cfg", *serial]
     transport = [] if probe.kind == "stlink" else ["-c", "transport select swd"]
     command = ["openocd", *interface, *transport, "-f", f"target/{_TARGETS[image.chip][0]}.cfg"]
-    ask = [*command, "-c", f"init; echo [format chip=0x%x [read_memory {_IDCODE} 32 1]]; shutdown"]
+    ask = [*command, "-c", f"init; echo [format chip=0x%x [read_memory {_idcode(image)} 32 1]]; shutdown"]
     write = [*command, "-c", f"program {{{image.path}}} verify reset exit"]
     return Plan("openocd", ask, re.compile(r"chip=0x([0-9a-f]+)"), write)
 
 
 def _pyocd(image: Image, probe: Probe) -> Plan:
     which = ["-u", probe.where] if probe.where else []
-    ask = ["pyocd", "commander", *which, "-t", "cortex_m", "-c", f"read32 {_IDCODE}"]
+    ask = ["pyocd", "commander", *which, "-t", "cortex_m", "-c", f"read32 {_idcode(image)}"]
     write = ["pyocd", "load", *which, "-t", _TARGETS[image.chip][1], "--erase", "sector", str(image.path)]
-    return Plan("pyocd", ask, re.compile(r"e0042000: +([0-9a-f]{8})", re.IGNORECASE), write)
+    return Plan("pyocd", ask, re.compile(r"[0-9a-f]{8}: +([0-9a-f]{8})", re.IGNORECASE), write)
 
 
 def _stm32flash(image: Image, probe: Probe) -> Plan:
@@ -81,6 +88,8 @@ def make_plan(image: Image, probe: Probe, has: Callable[[str], object] = shutil.
     Raises:
         FlashError: No program for the probe is installed.
     """
+    if probe.kind == "serial" and image.chip in _IDCODES:
+        raise FlashError(f"an {image.chip} has no boot loader on a serial port: leave --probe out")
     makers = _FOR_SERIAL if probe.kind == "serial" else _FOR_DEBUG_PROBES
     for program, make in makers.items():
         if has(program):
@@ -96,11 +105,6 @@ def _run(command: Command) -> tuple[int, str]:
     return done.returncode, done.stdout + done.stderr
 
 
-def _last_line(output: str) -> str:
-    lines = [line.strip() for line in output.splitlines() if line.strip()]
-    return lines[-1] if lines else "no output"
-
-
 def check_chip(plan: Plan, chip: str) -> None:
     """Checks that the chip behind the probe is the one that the image is for.
 
@@ -110,7 +114,7 @@ def check_chip(plan: Plan, chip: str) -> None:
     code, output = _run(plan.ask)
     found = plan.answer.search(output)
     if found is None:
-        raise FlashError(f"{plan.program} finds no chip (exit code {code}): {_last_line(output)}")
+        raise FlashError(f"{plan.program} finds no chip (exit code {code}): {explain(output)}")
     identity = int(found[1], 16) & 0xFFF
     if identity != CHIP_IDS[chip]:
         raise FlashError(f"the chip behind the probe is 0x{identity:03X}, not {chip} (0x{CHIP_IDS[chip]:03X})")
@@ -124,4 +128,4 @@ def write(plan: Plan) -> None:
     """
     code, output = _run(plan.write)
     if code != 0:
-        raise FlashError(f"{plan.program} failed, flash again (exit code {code}): {_last_line(output)}")
+        raise FlashError(f"{plan.program} did not write the image (exit code {code}): {explain(output)}")

@@ -5,12 +5,10 @@ from dataclasses import dataclass
 from typing import NamedTuple, NoReturn
 
 from host_sim.base.errors import LinkDownError, UsageError
-from host_sim.base.frame import Frame
-from host_sim.faults.faulty_link import FaultyLink
-from host_sim.faults.rule import Rule
-from host_sim.faults.schedule import Schedule
-from host_sim.faults.shrink import in_ranges
-from host_sim.transport.link import Link
+from host_sim.transport.faulty_link import FaultyLink, Schedule
+from host_sim.transport.link import Frame, Link
+from host_sim.transport.rule import Rule, in_ranges
+from host_sim.transport.socket_pair import EXTENDED
 
 from .devices import Device
 from .messages import Messages
@@ -35,6 +33,11 @@ class Heard(NamedTuple):
     at_ms: int
     name: str
     signals: dict[str, float]
+
+
+def _id_text(frame_id: int) -> str:
+    """An identifier, as candump writes it."""
+    return f"{frame_id & ~EXTENDED:08X}" if frame_id & EXTENDED else f"{frame_id:03X}"
 
 
 class _Moment(float):
@@ -106,7 +109,7 @@ class Bench:
         self.heard: list[Heard] = []
         self.damaged = 0
         self._frames: list[tuple[int, str, Frame]] = []
-        self._cyclic: dict[str, dict[str, float]] = {}
+        self._cyclic: dict[str, dict[str, float | str]] = {}
         if self.setup.node:
             self._cyclic = {name: {} for name in self.setup.messages.senders_of(self.setup.node)}
         self._device = self.setup.open_device()
@@ -128,12 +131,12 @@ class Bench:
         """The faults that have happened, each with its frames."""
         return list(in_ranges(self._link.schedule.struck))
 
-    def send(self, name: str, **signals: float) -> None:
-        """Sends a message once, now."""
+    def send(self, name: str, **signals: float | str) -> None:
+        """Sends a message once, now; a value may be one of the names that the DBC file has for it."""
         self.setup.messages.check(name, signals)
         self._send(name, signals)
 
-    def send_cyclic(self, name: str, **signals: float) -> None:
+    def send_cyclic(self, name: str, **signals: float | str) -> None:
         """From now on sends a message with these values at its GenMsgCycleTime."""
         self.setup.messages.check(name, signals)
         if not self.setup.messages[name].cycle_time:
@@ -211,7 +214,7 @@ class Bench:
             f", and {len(faults) - _FAULTS} more" if len(faults) > _FAULTS else ""
         )
         for at_ms, way, frame in self._frames[-_FRAMES:]:
-            yield f"{at_ms:8} ms {way:4} {frame.id:03X}#{frame.data.hex().upper()} {self._said_in(frame)}"
+            yield f"{at_ms:8} ms {way:4} {_id_text(frame.id)}#{frame.data.hex().upper()} {self._said_in(frame)}"
 
     def _said_in(self, frame: Frame) -> str:
         try:
@@ -228,7 +231,7 @@ class Bench:
         but = ", ".join(names) or (f"{self.damaged} damaged frames" if self.damaged else "nothing")
         raise BenchError(f"in {self.now_ms} ms the device has sent no {signal}; it has sent {but}")
 
-    def _send(self, name: str, signals: dict[str, float]) -> None:
+    def _send(self, name: str, signals: dict[str, float | str]) -> None:
         frame = self.setup.messages.frame(name, signals)
         self._frames.append((self.now_ms, "to", frame))
         self._link.send(frame)

@@ -13,13 +13,13 @@ import can
 import cffi
 
 from host_sim.base.errors import LinkDownError, UsageError
-from host_sim.base.frame import Frame
 from host_sim.transport.bus_link import BusLink
 from host_sim.transport.bus_process import BusProcess, start_on_socket_pair
-from host_sim.transport.socket_pair import SocketPairLink
+from host_sim.transport.link import Frame
+from host_sim.transport.socket_pair import ERROR, EXTENDED, FLAGS, REMOTE, SocketPairLink
 
 SEAM = """
-struct frame { uint32_t id; uint8_t len; uint8_t data[8]; };
+struct frame { uint32_t id; uint8_t len; uint8_t data[8]; };  /* a 29-bit id has bit 31 set, as in Linux */
 void receive(const struct frame *frame);
 int tick(uint32_t now_ms, struct frame frames[16]);
 """
@@ -28,7 +28,7 @@ int tick(uint32_t now_ms, struct frame frames[16]);
 START_S = 5.0
 """How long to wait for a program's first frame; without one, its time begins anyway."""
 
-_FRAMES_MAX, _SLICE_S, _LATE_S = 16, 0.1, 0.005
+_FRAMES_MAX, _SLICE_S, _LATE_S, _ID_MAX = 16, 0.1, 0.005, 0x7FF
 
 
 class Device(Protocol):
@@ -95,12 +95,19 @@ class LibraryDevice:
             raise LinkDownError(f"tick has returned {count}, which is no number of frames from 0 to {_FRAMES_MAX}")
         for i in range(count):
             out = self._out[i]
-            self._said.append(Frame(out.id, bytes(out.data)[: out.len]))
+            self._said.append(Frame(_identified(out.id), bytes(out.data)[: out.len]))
 
     def close(self) -> None:
         """As in `Device`."""
         self._ffi.dlclose(self._library)
         self._folder.cleanup()
+
+
+def _identified(can_id: int) -> int:
+    """The identifier as the bench has it: one over 11 bits needs no flag; remote and error frames are no messages."""
+    if can_id & (REMOTE | ERROR):
+        return -1
+    return can_id | EXTENDED if can_id & ~FLAGS > _ID_MAX else can_id
 
 
 def _build(source: Path, library: Path) -> None:
@@ -146,6 +153,7 @@ class ProcessDevice:
             except UsageError:
                 self._link.close()
                 raise
+        self._link.takes_extended = True
         try:
             self._await_first_frame()
         except LinkDownError as error:

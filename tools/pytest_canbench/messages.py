@@ -1,10 +1,11 @@
-"""Encodes and decodes the messages of a DBC file, with alive counters and valid CRCs."""
+"""Encodes and decodes the messages of a DBC file with cantools, with alive counters and valid CRCs."""
 
+import copy
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from random import Random
-from typing import NamedTuple
+from typing import Any
 
 import cantools
 from cantools.database.can import Database, Message
@@ -12,29 +13,84 @@ from cantools.database.can.signal import Signal
 from cantools.database.errors import Error as CantoolsError
 
 from host_sim.base.errors import UsageError
-from host_sim.base.frame import Frame
+from host_sim.transport.link import Frame
+from host_sim.transport.socket_pair import EXTENDED
 
-from .protection import PROFILES
+from .protection import PROFILES, Profile
 
 _CRC = re.compile(r"(?:.*_)?(?:crc|checksum)\d*", re.IGNORECASE)
 _COUNTER = re.compile(r"(?:.*_)?(?:counter|cnt|alive|rolling)\d*", re.IGNORECASE)
+_DATA_MAX, _TOLD_MAX = 8, 5
+_NOT_MULTIPLEXED = {"is_multiplexer": False, "multiplexer_ids": None, "multiplexer_signal": None}
+_UNENCODABLE = (CantoolsError, ArithmeticError, ValueError, LookupError, TypeError)
+"""What cantools raises for values that do not fit."""
 
 
-class _Guard(NamedTuple):
-    """The signals that protect a message; None where it has none."""
+class _Field:
+    """The place of a CRC or a counter: cantools puts a number there and takes it out, in either byte order."""
 
-    crc: Signal | None
-    counter: Signal | None
-    data_ids: list[int]
+    def __init__(self, message: Message, signal: Signal) -> None:
+        self.name, self.bits, self._length = signal.name, signal.length, message.length
+        self._layout = _alone(message, signal, is_signed=False)
+        mask = self.put(bytes(self._length), (1 << self.bits) - 1)
+        self.bytes = [i for i, byte in enumerate(mask) if byte]
+        self.is_whole = all(mask[i] == 0xFF for i in self.bytes)  # noqa: PLR2004 - a byte
+
+    def get(self, data: bytes) -> int:
+        """The number in the data."""
+        return int(str(dict(self._layout.decode(data, scaling=False, decode_choices=False))[self.name]))
+
+    def put(self, data: bytes, number: int) -> bytes:
+        """The data with a number in this place."""
+        full, new = (
+            int.from_bytes(self._layout.encode({self.name: each}, scaling=False, strict=False), "big")
+            for each in ((1 << self.bits) - 1, number)
+        )
+        return (int.from_bytes(data, "big") & ~full | new).to_bytes(self._length, "big")
+
+
+class _Guard:
+    """What protects a message: its CRC and its counter, of which multiplexers may select others, and its data IDs."""
+
+    def __init__(self, message: Message, profile: Profile | None) -> None:
+        """Finds the fields by their names.
+
+        Raises:
+            ValueError: They do not fit the profile, or a data ID is not a number.
+        """
+        self._message = message
+        self._crcs, self._counters = (
+            [_Field(message, signal) for signal in message.signals if kind.fullmatch(signal.name)]
+            for kind in (_CRC, _COUNTER)
+        )
+        self.data_ids: list[int] = []
+        bits = 0 if profile is None else profile.bits
+        for crc in self._crcs if bits else []:
+            if crc.bits != bits or not crc.is_whole:
+                raise ValueError(f"{crc.name} is no place for a CRC of {bits} bits")
+            self.data_ids = self.data_ids or _data_ids(message)
+
+    def in_data(self, data: bytes) -> tuple[_Field | None, _Field | None]:
+        """The CRC and the counter that these data have."""
+        if not self._message.is_multiplexed():
+            return next(iter(self._crcs), None), next(iter(self._counters), None)
+        try:
+            told = set(map(str, dict(self._message.decode(data, decode_choices=False))))
+        except _UNENCODABLE:
+            told = {signal.name for signal in self._message.signals if not signal.multiplexer_ids}
+        crc, counter = (next((f for f in some if f.name in told), None) for some in (self._crcs, self._counters))
+        return crc, counter
 
 
 class Messages:
     """Encodes and decodes; fills in the CRC and the counter, found by names such as `crc`, `checksum` and `counter`.
 
     The data ID of a message is its attribute `DataID`, or 16 of them in `DataIDList`, by commas; else its identifier.
+    A `Frame.id` has the flag `EXTENDED` if the identifier has 29 bits.
 
     Attributes:
         file: The DBC file.
+        refused: Why some messages cannot be used, by name.
     """
 
     def __init__(self, file: Path, profile: str) -> None:
@@ -46,28 +102,33 @@ class Messages:
         if profile not in PROFILES:
             raise UsageError(f"there is no CRC profile {profile!r}; there are {', '.join(PROFILES)}")
         self.file, self._profile = file, PROFILES[profile]
-        try:
-            database = cantools.database.load_file(file, strict=True)
-        except OSError as error:
-            raise UsageError(f"cannot read {file}: {error.strerror}") from None
-        except (CantoolsError, ValueError, LookupError) as error:
-            raise UsageError(f"{file} is not a DBC file: {str(error).partition(chr(10))[0]}") from None
-        if not isinstance(database, Database) or not database.messages:
-            raise UsageError(f"{file} has no messages")
-        self._names = {message.name: message for message in database.messages}
-        self._ids = {message.frame_id: message for message in database.messages if not message.is_extended_frame}
-        self._guards = {name: self._guard(message) for name, message in self._names.items()}
+        self.refused: dict[str, str] = {}
+        self._names: dict[str, Message] = {}
+        self._ids: dict[int, Message] = {}
+        self._guards: dict[str, _Guard] = {}
         self._counts: dict[str, int] = {}
+        for message in _read(file):
+            self._add(message)
 
     def __getitem__(self, name: str) -> Message:
         """A message by its name.
 
         Raises:
-            UsageError: There is no such message.
+            UsageError: There is no such message, or it cannot be used.
         """
         if name not in self._names:
             raise UsageError(f"{self.file} has no message {name}; it has {', '.join(sorted(self._names))}")
+        if name in self.refused:
+            raise UsageError(f"{name} cannot be used: {self.refused[name]}")
         return self._names[name]
+
+    def odd(self) -> str:
+        """What the file has that cannot be used, in a line; empty if all is well."""
+        reasons = [f"{name}: {why}" for name, why in self.refused.items()]
+        more = f"; and {len(reasons) - _TOLD_MAX} more" if len(reasons) > _TOLD_MAX else ""
+        return (
+            f"{self.file}: these messages cannot be used: {'; '.join(reasons[:_TOLD_MAX])}{more}" if reasons else ""
+        )
 
     def check_names(self, name: str, signals: Iterable[str]) -> None:
         """Checks that a message has these signals.
@@ -80,7 +141,7 @@ class Messages:
             if signal not in known:
                 raise UsageError(f"{name} has no signal {signal}; it has {', '.join(known)}")
 
-    def check(self, name: str, signals: dict[str, float]) -> None:
+    def check(self, name: str, signals: Mapping[str, float | str]) -> None:
         """Checks that a message has these signals, and that their values fit.
 
         Raises:
@@ -88,20 +149,28 @@ class Messages:
         """
         self.check_names(name, signals)
         try:
-            self._encode(name, signals, strict=bool(signals))
-        except (CantoolsError, OverflowError) as error:
-            raise UsageError(f"{name}: {error}") from None
+            values = _values(self[name], signals)
+            for unused in signals.keys() - values.keys():
+                raise ValueError(f"its multiplexers do not select {unused}")
+            for signal in signals:
+                alone = _alone(self[name], self[name].get_signal_by_name(signal))
+                alone.encode({signal: values[signal]}, strict=True)
+            self[name].encode(values, strict=False)
+        except _UNENCODABLE as error:
+            raise UsageError(f"{name} cannot be encoded: {str(error) or type(error).__name__}") from None
 
-    def frame(self, name: str, signals: dict[str, float]) -> Frame:
-        """The next frame of a message; a signal that is not given has its GenSigStartValue, or 0."""
-        counter, told = self._guards[name].counter, dict(signals)
+    def frame(self, name: str, signals: Mapping[str, float | str]) -> Frame:
+        """The next frame of a message; a signal that is not given has its GenSigStartValue, or is nearest to 0."""
+        message = self[name]
+        data = bytes(message.encode(_values(message, signals), strict=False))
+        _, counter = self._guards[name].in_data(data)
         if counter is not None and counter.name not in signals:
-            count = self._counts.get(name, -1) + 1
-            told[counter.name] = self._counts[name] = count % self._span(counter)
-        return self._protected(name, self._encode(name, told))
+            self._counts[name] = (self._counts.get(name, -1) + 1) % self._span(counter)
+            data = counter.put(data, self._counts[name])
+        return self._protected(name, data)
 
     def decode(self, frame: Frame) -> tuple[str, dict[str, float]] | None:
-        """The message and the signal values in a frame; None if the file has no such message.
+        """The message and the signal values in a frame; None if the file has no such message, or it cannot be used.
 
         Raises:
             ValueError: It is damaged: its length or its CRC is wrong, or it cannot be read.
@@ -113,12 +182,12 @@ class Messages:
             raise ValueError("damaged")
         try:
             told = message.decode(frame.data, decode_choices=False)
-        except CantoolsError as error:
+        except _UNENCODABLE as error:
             raise ValueError("damaged") from error
         return message.name, {str(name): float(str(value)) for name, value in dict(told).items()}
 
     def senders_of(self, node: str) -> list[str]:
-        """The cyclic messages of all nodes but one.
+        """The cyclic messages of all nodes but one, without those that cannot be used.
 
         Raises:
             UsageError: No message has this node as its sender.
@@ -126,7 +195,8 @@ class Messages:
         if not any(node in message.senders for message in self._names.values()):
             nodes = sorted({sender for message in self._names.values() for sender in message.senders})
             raise UsageError(f"{self.file} has no message that {node} sends; senders are {', '.join(nodes)}")
-        return [name for name, message in self._names.items() if message.cycle_time and node not in message.senders]
+        others = [name for name, message in self._names.items() if message.cycle_time and node not in message.senders]
+        return [name for name in others if name not in self.refused]
 
     def forger(self, name: str) -> "Forger":
         """A sender of forged frames of a message; of all messages if the name is empty.
@@ -134,59 +204,160 @@ class Messages:
         Raises:
             UsageError: There is no such message.
         """
-        return Forger(self, [self[name].name] if name else list(self._names))
+        return Forger(self, [self[name].name] if name else [each for each in self._names if each not in self.refused])
 
     def forged(self, name: str, dice: Random, count: int) -> Frame:
         """A frame of a message with random content, a valid CRC and this counter."""
-        data, counter = dice.randbytes(self[name].length), self._guards[name].counter
+        data = dice.randbytes(self[name].length)
+        _, counter = self._guards[name].in_data(data)
         if counter is not None:
-            word, mask = int.from_bytes(data, "little"), (1 << counter.length) - 1
-            word = word & ~(mask << counter.start) | (count % self._span(counter)) << counter.start
-            data = word.to_bytes(len(data), "little")
+            data = counter.put(data, count % self._span(counter))
         return self._protected(name, data)
 
     def count_in(self, frame: Frame) -> tuple[str, int]:
         """The message and the counter of a frame; an empty name if the file has no such message."""
         message = self._ids.get(frame.id)
-        return ("", 0) if message is None else (message.name, self._count(message.name, frame.data))
+        if message is None or len(frame.data) != message.length:
+            return "", 0
+        return message.name, self._count(message.name, frame.data)
 
-    def _guard(self, message: Message) -> _Guard:
-        named = [
-            next((signal for signal in message.signals if kind.fullmatch(signal.name)), None)
-            for kind in (_CRC, _COUNTER)
-        ]
-        told = {name: each.value for name, each in (message.dbc.attributes if message.dbc else {}).items()}
-        ids = [int(each) for each in str(told.get("DataIDList") or told.get("DataID") or message.frame_id).split(",")]
-        crc, bits = named[0], self._profile.bits if self._profile is not None else 0
-        if crc is not None and bits and (crc.length != bits or crc.start % 8):
-            raise UsageError(f"{message.name}.{crc.name} is no place for a CRC of {bits} bits")
-        return _Guard(crc, named[1], ids)
+    def _add(self, message: Message) -> None:
+        try:
+            self._admit(message)
+        except (CantoolsError, ValueError) as error:
+            self.refused[message.name] = str(error)
+        self._names.setdefault(message.name, message)
+
+    def _admit(self, message: Message) -> None:
+        if message.name in self._names:
+            raise ValueError("there are two messages of this name")
+        if message.length > _DATA_MAX:
+            raise ValueError(f"it has {message.length} bytes, and a frame of classic CAN at most {_DATA_MAX}")
+        frame_id = message.frame_id | (EXTENDED if message.is_extended_frame else 0)
+        if frame_id in self._ids:
+            raise ValueError(f"its identifier is that of {self._ids[frame_id].name}")
+        message.refresh(strict=True)
+        self._guards[message.name] = _Guard(message, self._profile)
+        self._ids[frame_id] = message
 
     def _count(self, name: str, data: bytes) -> int:
         """The counter in the data of a message; 0 if it has none."""
-        counter = self._guards[name].counter
-        return 0 if counter is None else int.from_bytes(data, "little") >> counter.start & (1 << counter.length) - 1
+        _, counter = self._guards[name].in_data(data)
+        return 0 if counter is None else counter.get(data)
 
-    def _span(self, counter: Signal) -> int:
-        room = 1 << counter.length
+    def _span(self, counter: _Field) -> int:
+        room = 1 << counter.bits
         return min(self._profile.counters or room, room) if self._profile is not None else room
 
-    def _encode(self, name: str, signals: dict[str, float], *, strict: bool = False) -> bytes:
-        message = self._names[name]
-        start = {signal.name: signal.initial or 0 for signal in message.signals}
-        return bytes(message.encode({**start, **signals}, strict=strict))
-
     def _protected(self, name: str, data: bytes) -> Frame:
-        guard, frame_id = self._guards[name], self._names[name].frame_id
-        if self._profile is None or guard.crc is None:
+        message, guard = self._names[name], self._guards[name]
+        frame_id = message.frame_id | (EXTENDED if message.is_extended_frame else 0)
+        crc, _ = guard.in_data(data)
+        if self._profile is None or crc is None:
             return Frame(frame_id, data)
-        first, last = guard.crc.start // 8, guard.crc.start // 8 + self._profile.bits // 8
-        crc = self._profile.crc(data[:first] + data[last:], guard.data_ids, self._count(name, data))
-        return Frame(frame_id, data[:first] + crc.to_bytes(last - first, "little") + data[last:])
+        rest = bytes(byte for i, byte in enumerate(data) if i not in crc.bytes)
+        return Frame(frame_id, crc.put(data, self._profile.crc(rest, guard.data_ids, self._count(name, data))))
+
+
+def _read(file: Path) -> list[Message]:
+    """The messages of a file: with `strict=False` also those that are odd, each of which is checked when used."""
+    try:
+        database = cantools.database.load_file(file, strict=False)
+    except OSError as error:
+        raise UsageError(f"cannot read {file}: {error.strerror}") from None
+    except (CantoolsError, ValueError, LookupError) as error:
+        raise UsageError(f"{file} is not a DBC file that cantools reads: {' '.join(str(error).split())}") from None
+    if not isinstance(database, Database) or not database.messages:
+        raise UsageError(f"{file} has no messages")
+    return database.messages
+
+
+def _data_ids(message: Message) -> list[int]:
+    told = {name: each.value for name, each in (message.dbc.attributes if message.dbc else {}).items()}
+    text = str(told.get("DataIDList") or told.get("DataID") or message.frame_id)
+    try:
+        return [int(each, 16 if each.strip().lower().startswith("0x") else 10) for each in text.split(",")]
+    except ValueError:
+        raise ValueError(f"its DataID is not a number: {text}") from None
+
+
+def _alone(message: Message, signal: Signal, **changed: Any) -> Message:
+    """A message that has this signal only, and always."""
+    only = copy.copy(signal)
+    for name, value in {**_NOT_MULTIPLEXED, **changed}.items():
+        setattr(only, name, value)
+    return Message(0, message.name, message.length, [only], strict=False)
+
+
+def _start(signal: Signal) -> float:
+    """What a signal has before anyone gives it a value: its GenSigStartValue, or the allowed value nearest to 0."""
+    if signal.raw_initial is not None:
+        raw: float = signal.raw_initial
+    else:
+        least, most = signal.minimum or 0, 0 if signal.maximum is None else signal.maximum
+        raw = signal.conversion.numeric_scaled_to_raw(max(least, min(0, most)))
+    if not signal.is_float:
+        room = 1 << signal.length
+        bottom = -room // 2 if signal.is_signed else 0
+        raw = min(max(raw, bottom), bottom + room - 1)
+    return float(str(signal.raw_to_scaled(raw, decode_choices=False)))
+
+
+def _numbers(message: Message, signals: Mapping[str, float | str]) -> dict[str, float]:
+    """The values of signals, with numbers in place of names that the file has for them."""
+    numbers = {}
+    for name, value in signals.items():
+        signal = message.get_signal_by_name(name)
+        numbers[name] = _named(signal, value) if isinstance(value, str) else value
+    return numbers
+
+
+def _named(signal: Signal, name: str) -> float:
+    raw = {str(text): number for number, text in (signal.choices or {}).items()}
+    if name not in raw:
+        raise ValueError(f"{signal.name} has no value {name!r}; it has {', '.join(raw) or 'none with a name'}")
+    return float(str(signal.raw_to_scaled(raw[name], decode_choices=False)))
+
+
+def _values(message: Message, signals: Mapping[str, float | str]) -> dict[str, float]:
+    """The value of each signal that the message then has: multiplexers select the signals that are given."""
+    given = _numbers(message, signals)
+    values: dict[str, float] = {}
+
+    def fill(tree: Any) -> None:
+        for node in tree:
+            if isinstance(node, str):
+                values[node] = given[node] if node in given else _start(message.get_signal_by_name(node))
+                continue
+            for name, branches in node.items():
+                selector = message.get_signal_by_name(name)
+                values[name] = given[name] if name in given else _selected(selector, branches, given)
+                fill(branches.get(values[name], []))
+
+    fill(message.signal_tree)
+    return values
+
+
+def _selected(selector: Signal, branches: Mapping[int, Any], given: Mapping[str, float]) -> int:
+    """The branch of a multiplexer with most of the signals that are given, and nearest to the selector's start."""
+    start = _start(selector)
+    return min(branches, key=lambda n: (-len(given.keys() & {*_within(branches[n])}), abs(n - start)))
+
+
+def _within(tree: Any) -> Iterator[str]:
+    """The names of all signals in a tree of cantools."""
+    for node in tree:
+        if isinstance(node, str):
+            yield node
+        else:
+            for name, branches in node.items():
+                yield name
+                for branch in branches.values():
+                    yield from _within(branch)
 
 
 class Forger:
-    """As in `host_sim.faults.bus_faults`: listens, and continues the counters of the real sender."""
+    """As in `host_sim.transport.bus_faults`: listens, and continues the counters of the real sender."""
 
     def __init__(self, messages: Messages, names: list[str]) -> None:
         self._messages, self._names, self._counts = messages, names, dict[str, int]()

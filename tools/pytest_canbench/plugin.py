@@ -1,13 +1,13 @@
 """The plug-in: options, the fixture `can_bench`, the marker `can_faults`, and reports of failures."""
 
+import warnings
 from collections.abc import Generator, Iterator
 from pathlib import Path
 
 import pytest
 
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.faults.rule import Rule
-from host_sim.faults.shrink import fewer, narrower
+from host_sim.transport.rule import Rule, fewer, narrower
 
 from .bench import Bench, Setup
 from .devices import open_device
@@ -56,6 +56,8 @@ def _setup(request: pytest.FixtureRequest) -> Setup:
         raise UsageError(f"--can-seed is a number, not {seed!r}")
     rules = [rule for mark in request.node.iter_markers("can_faults") for rule in mark.args]
     messages = Messages(dbc_folder / dbc, _told(config, "crc")[0])
+    if odd := messages.odd():
+        warnings.warn(pytest.PytestWarning(odd), stacklevel=1)
     return Setup(
         messages, lambda: open_device(device, device_folder, bus), rules, int(seed), _told(config, "node")[0]
     )

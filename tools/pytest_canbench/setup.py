@@ -9,12 +9,9 @@ from setuptools.command.build_py import build_py
 HERE = Path(__file__).resolve().parent
 HOST_SIM = HERE.parents[1] / "host_sim"
 TAKEN = (
-    *("base/errors", "base/frame", "base/near_word", "base/regular_file", "base/system"),
-    *(f"faults/{name}" for name in ("bus_faults", "faulty_link", "rule", "schedule", "shrink")),
-    *(
-        f"transport/{name}"
-        for name in ("bus_link", "bus_process", "clock", "line_stats", "link", "socket_pair", "socket_pair_bus")
-    ),
+    *("base/errors", "base/files", "base/system"),
+    *(f"transport/{name}" for name in ("bus_faults", "bus_link", "bus_process", "clock", "faulty_link", "link")),
+    *("transport/rule", "transport/socket_pair", "transport/socket_pair_bus"),
 )
 
 
@@ -31,7 +28,7 @@ class BuildPy(build_py):
             (file.parent / "__init__.py").touch()
             file.write_text((HOST_SIM / f"{name}.py").read_text())
         for file in top.rglob("*.py"):
-            file.write_text(re.sub(r"\bhost_sim(?=\.(base|faults|transport))", "pytest_canbench", file.read_text()))
+            file.write_text(re.sub(r"\bhost_sim(?=\.(base|transport))", "pytest_canbench", file.read_text()))
         (top / "setup.py").unlink()
 
 

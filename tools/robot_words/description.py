@@ -51,7 +51,7 @@ class Description:
         meanings: The meanings of some words, by enumeration.
         parameters: By rising number, from 0 without a gap.
         body_parameters: Parameters of a body on pins, numbered after the robot's.
-        profiles: Names by number, from 0 without a gap.
+        profiles: Names by number, from 0 without a gap; the last one, `own`, is for a user's behaviour.
         memory: The kind of memory of each profile, from the enum `memory_kind`.
         patterns: Names by number.
         feel: Names of the proximity sensors, from bit 0 on.

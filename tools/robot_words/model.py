@@ -19,6 +19,7 @@ _UNITS_PER_MM = {"0.1 mm": 10, "mm": 1}
 _SUFFIXES = {"mm": "_mm", "mm/s": "_mm_s"}
 _UNSAID = ("crc", "counter")
 _BODY = "body_"
+_OWN = "own"
 
 
 def read(dbc: Path, words: Path) -> Description:
@@ -65,6 +66,8 @@ def _describe(database: Database, words: Mapping[str, Any]) -> Description:
         "body_fault": {name: number for number, name in enumerate(words["body_faults"])},
     }
     profiles = _listed(_same_choices(signal("COMMAND.profile"), signal("HEARTBEAT.profile")), "profile")
+    if profiles[-1] != _OWN:
+        raise DescriptionError(f"the last profile is {profiles[-1]}, not {_OWN}, which is for a user's behaviour")
     meanings = {name: words.get(name, {}) for name in enums}
     _check_meanings(enums, meanings)
     hashed = layout_hash(database)

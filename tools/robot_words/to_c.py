@@ -68,13 +68,15 @@ def _parameters(whose: str, parameters: Sequence[Parameter], end: str) -> str:
 
 
 def _profiles(robot: Description) -> str:
-    names = "\n".join(f"    {c_name('profile', name)}," for name in robot.profiles)
+    *every, own = robot.profiles
+    names = "\n".join(f"    {c_name('profile', name)}," for name in every)
     rows = " \\\n".join(
         f"    X({c_name('profile', name)}, {name}, {c_name('memory_kind', robot.memory[name])})"
         for name in robot.profiles
     )
     return (
-        f"enum profile {{\n{names}\n    PROFILE_COUNT\n}};\n\n"
+        f"enum profile {{\n{names}\n    PROFILE_COUNT,   /* of those in each robot */\n"
+        f"    {c_name('profile', own)} = PROFILE_COUNT\n}};\n\n"
         "/* X(profile, name, memory_kind) for each: the behaviour of that name. */\n"
         f"#define ROBOT_BEHAVIOURS(X) \\\n{rows}\n"
     )

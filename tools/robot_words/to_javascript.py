@@ -24,7 +24,7 @@ def module(robot: Description) -> str:
     exports["PATTERNS"] = list(robot.patterns)
     exports["FEEL"] = {c_name(name): 1 << bit for bit, name in enumerate(robot.feel)}
     exports["EDITS"] = {name: list(names) for name, names in robot.edits.items()}
-    exports["PROFILES"] = list(robot.profiles)
+    exports["PROFILES"] = list(robot.profiles[:-1])
     exports["PARAMETERS"] = {
         p.name: {"min": p.minimum, "max": p.maximum, "default": p.default, "unit": p.unit, "meaning": p.comment}
         for p in robot.parameters

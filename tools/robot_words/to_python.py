@@ -95,7 +95,8 @@ def _enum(name: str, words: Mapping[str, int]) -> str:
 def _constants(robot: Description) -> dict[str, str]:
     same = sorted({robot.layout_hash, *robot.same_layout})
     return {
-        "\nPROFILES: dict[str, int]": repr({name: number for number, name in enumerate(robot.profiles)}),
+        "\nPROFILES: dict[str, int]": repr({name: number for number, name in enumerate(robot.profiles[:-1])}),
+        "OWN_PROFILE": str(len(robot.profiles) - 1),
         "MEMORY_KINDS: dict[str, MemoryKind]": _memory_kinds(robot),
         "AVOIDING: tuple[Reason, ...]": f"({', '.join(f'Reason.{c_name(name)}' for name in robot.avoiding)},)",
         "PATTERNS: tuple[str, ...]": repr(tuple(robot.patterns)),

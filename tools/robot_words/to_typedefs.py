@@ -3,12 +3,12 @@
 from types import NoneType, UnionType
 from typing import Any, get_args, get_origin, get_type_hints
 
-from host_sim.view.state_types import EnvironmentScene, Lesson, Measures, State, Trial
-from host_sim.world.params import SimParams
+from host_sim.recording.state_types import EnvironmentScene, Lesson, Measures, State, Trial
+from host_sim.world.geometry import SimParams
 
 _NAMES: dict[object, str] = {int: "number", float: "number", NoneType: "null"}
 _TYPES: tuple[Any, ...] = (Measures, EnvironmentScene, Trial, Lesson, State, SimParams)
-_SOURCES = "host_sim/view/state_types.py and host_sim/world/params.py"
+_SOURCES = "host_sim/recording/state_types.py and host_sim/world/geometry.py"
 _HEAD = f"// @ts-check\n/* Made by tools/generate; {_SOURCES} document the fields. */\n\n"
 
 

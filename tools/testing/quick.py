@@ -1,12 +1,15 @@
 """tools/test --quick: the tests that uncommitted changes concern, and a summary of those left out."""
 
 import argparse
+import re
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 
-from tools.testing import concerned, places
+from tools.testing import affected, stage_paths
 from tools.testing.stages import C_BUILD, ROOT, Stage, c_stage, pytest_stage, run_stages, set_up
+
+_CODE = re.compile(r"\.(py|c|h|S|ld|dbc|js|ts|json|html|css|toml|cmake)$|^tools/[^.]+$")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -19,17 +22,21 @@ def run(arguments: argparse.Namespace) -> int:
     if not changed:
         print("nothing has changed since the last commit")
         return 0
-    tests, farther = python_tests(ROOT, changed)
-    own = {name: {test for test in tests if places.is_of(name, test)} for name in places.QUICK}
-    own["python"] = {test for test in tests if not test.startswith(tuple(places.named()))}
+    found, farther = python_tests(ROOT, changed)
+    tests = set().union(*found.values())
+    own = {name: {test for test in tests if stage_paths.is_of(name, test)} for name in stage_paths.QUICK}
+    own["python"] = {test for test in tests if not test.startswith(tuple(stage_paths.named()))}
     deeper = sorted(tests.difference(*own.values()))
     python = (pytest_stage(name, sorted(paths), arguments.allow_missing) for name, paths in own.items() if paths)
-    stages = [*_checks(changed), *_c_stage(changed), *python]
-    code = run_stages(stages, arguments)
+    c_stages, c_sources = _c_stage(changed)
+    code = run_stages([*_checks(changed), *c_stages, *python], arguments)
     left = [f"{farther} more test files that import the change, directly or not"] if farther else []
     left += [f"of tools/prove {', '.join(deeper)}"] if deeper else []
     print(f"left out: {'; '.join([*left, 'what needs vcan0'])}. tools/test and tools/prove run all")
-    return code
+    lonely = untested(found, c_sources)
+    for path in lonely:
+        print(f"no test is known for {path}")
+    return 1 if lonely else code
 
 
 def changed_files(root: Path) -> list[str]:
@@ -39,18 +46,41 @@ def changed_files(root: Path) -> list[str]:
     return [path for path in named.split("\0") if (root / path).is_file()]
 
 
-def python_tests(root: Path, changed: Sequence[str]) -> tuple[set[str], int]:
-    """The Python test files that the changes concern, and the number of those farther away in the import graph."""
-    files = (path for top in ("host_sim", "tests", "tools") for path in (root / top).rglob("*.py"))
-    sources = [path.relative_to(root).as_posix() for path in files]
-    tests = [path for path in sources if concerned.is_test(path)]
-    graph = concerned.importers(root, sources)
-    found, farther = {path for path in changed if concerned.is_test(path)}, 0
+def python_tests(root: Path, changed: Sequence[str]) -> tuple[dict[str, set[str]], int]:
+    """The Python test files that each change affects, and the number of those farther away in the import graph."""
+    sources = _files(root, ("host_sim", "tests", "tools"), (".py",))
+    tests = [path for path in sources if affected.is_test(path)]
+    graph = affected.importers(root, sources)
+    named = affected.mentions(root, _files(root, ("host_sim", "tests"), (".py", *affected.PAGES)))
+    found, farther = {}, 0
     for path in changed:
-        nearest, others = concerned.by_imports(graph, path) if path.endswith(".py") else (set(), 0)
-        found |= nearest | concerned.by_name(root, path, tests)
+        users = affected.page_users(named, path) if path.endswith(affected.PAGES) else {path}
+        nearest, others = _by_imports(graph, sorted(users))
+        near = nearest | set(filter(affected.is_test, users))
+        if path.endswith(affected.PAGES):
+            near = {it for it in near if it.startswith("tests/web/")} or near
+        found[path] = near | affected.by_name(root, path, tests) | _of_documents(path, tests)
         farther = max(farther, others)
     return found, farther
+
+
+def untested(found: Mapping[str, Collection[str]], c_sources: Collection[str]) -> list[str]:
+    """The changed files of code that no test is known for, in Python or in C."""
+    return [path for path, tests in found.items() if _CODE.search(path) and not tests and path not in c_sources]
+
+
+def _files(root: Path, tops: Sequence[str], ends: Sequence[str]) -> list[str]:
+    paths = (path for top in tops for path in (root / top).rglob("*") if path.suffix in ends and path.is_file())
+    return [path.relative_to(root).as_posix() for path in paths]
+
+
+def _by_imports(graph: affected.Graph, modules: Sequence[str]) -> tuple[set[str], int]:
+    each = [affected.by_imports(graph, module) for module in modules]
+    return set().union(*(tests for tests, _ in each)), max((others for _, others in each), default=0)
+
+
+def _of_documents(path: str, tests: Sequence[str]) -> set[str]:
+    return {test for test in tests if test.startswith("tests/docs/")} if path.endswith(".md") else set()
 
 
 def _checks(changed: Sequence[str]) -> list[Stage]:
@@ -66,13 +96,15 @@ def _checks(changed: Sequence[str]) -> list[Stage]:
     ]
 
 
-def _c_stage(changed: Sequence[str]) -> list[Stage]:
-    """The stage of the C tests that depend on changed files."""
+def _c_stage(changed: Sequence[str]) -> tuple[list[Stage], set[str]]:
+    """The stage of the C tests that depend on changed files, and those of the files that some depend on."""
     sources = [path for path in changed if path.endswith((".c", ".h", ".dbc", "robot.toml"))]
     if not sources or not set_up([c_stage()]):
-        return [c_stage()] if sources else []
-    names = concerned.c_tests(ROOT / "build" / C_BUILD, sources)
-    return [c_stage("-LE", "vcan", "-R", selection(names))] if names else []
+        return [c_stage()] if sources else [], set(sources)
+    each = {path: affected.c_tests(ROOT / "build" / C_BUILD, [path]) for path in sources}
+    names = sorted(set().union(*each.values()))
+    stages = [c_stage("-LE", "vcan", "-R", selection(names))] if names else []
+    return stages, {path for path, tests in each.items() if tests}
 
 
 def selection(programs: Sequence[str]) -> str:

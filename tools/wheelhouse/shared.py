@@ -15,9 +15,9 @@ from typing import Any
 
 import shtab
 
-from host_sim.backends.images import BOARDS
 from host_sim.base import c_interface, paths
 from host_sim.cli.parsing import Parser
+from host_sim.sim.access import BOARDS
 
 MADE = paths.BUILD / "wheel"
 TREE = MADE / "tree" / "build"
@@ -29,10 +29,6 @@ SHELLS = {
 """Where each shell looks for a completion, in share/ of a prefix."""
 
 
-SLOTS = ("-a", "-b")
-"""The ends of the names of the images that an update sends."""
-
-
 def copy_page_and_images() -> None:
     """Copies the files for pages and boards, and strips the images of their debugging information."""
     page = TREE / paths.PAGE_WASM.relative_to(paths.BUILD)
@@ -41,20 +37,17 @@ def copy_page_and_images() -> None:
     for image in sorted(it for board in BOARDS for it in paths.BUILD.glob(f"{board}/octet-*.elf")):
         stripped = TREE / image.relative_to(paths.BUILD)
         stripped.parent.mkdir(exist_ok=True)
-        if image.with_suffix(".bin").exists() and image.stem.endswith(SLOTS):
-            shutil.copyfile(image.with_suffix(".bin"), stripped.with_suffix(".bin"))
-        else:
-            subprocess.run(["arm-none-eabi-strip", "--strip-debug", "-o", stripped, image], check=True)
+        subprocess.run(["arm-none-eabi-strip", "--strip-debug", "-o", stripped, image], check=True)
 
 
 def read_interfaces() -> None:
     """Lets each module that uses C read its declarations, which are then stored as Python modules."""
     c_interface.FOLDER = TREE / "cffi"
-    from host_sim.backends.in_process_link import InProcessLink  # noqa: PLC0415 - some read them when they are imported
     from host_sim.emulator.c_models import c_models  # noqa: PLC0415
     from host_sim.emulator.core import unicorn_calls  # noqa: PLC0415
     from host_sim.lab.gymnasium_envs import told_worlds  # noqa: PLC0415
     from host_sim.sim import native_fleet, native_loop  # noqa: PLC0415
+    from host_sim.sim.in_process_link import InProcessLink  # noqa: PLC0415 - some read them when they are imported
     from host_sim.world.world_library import world_library  # noqa: PLC0415
 
     InProcessLink().close()
@@ -77,7 +70,7 @@ def write_man_page(folder: Path, name: str, summary: str, parser: Parser) -> Non
         program.with_suffix(".txt").write_text(parser.format_help(), encoding="utf-8")
         program.write_text(f"#!/bin/sh\ncat '{program}.txt'\n", encoding="utf-8")
         program.chmod(0o755)
-        how = ("--no-info", "--version-string=1.0", f"--name={summary}", f"--output={folder / name}.1")
+        how = ("--no-info", f"--version-string={paths.version()}", f"--name={summary}", f"--output={folder / name}.1")
         subprocess.run(["help2man", *how, program], check=True)
 
 

@@ -3,7 +3,7 @@
 #include <stdint.h>
 #include <string.h>
 
-typedef uint32_t word __attribute__((may_alias, aligned(1)));   /* these cores support unaligned word writes */
+typedef uint32_t word __attribute__((may_alias, aligned(1)));   /* by bytes where a core has no unaligned writes */
 
 void *memcpy(void *restrict to, const void *restrict from, size_t count)
 {

@@ -5,7 +5,6 @@
 #include "hal/flash_store/flash_store.h"
 #include "hal/port/cortex_m/core.h"
 #include "hal/port/cortex_m/crash.h"
-#include "hal/port/cortex_m/loader.h"
 #include "hal/port/cortex_m/mcu.h"
 #include "hal/port/cortex_m/systick.h"
 
@@ -25,12 +24,12 @@ int port_open(struct port *port, int argc, char *const argv[])
     (void)argc;
     (void)argv;
     *port = (struct port){
-        .node = loader_node(OCTET_NODE),
+        .link = "",
+        .node = OCTET_NODE,
         .reset_cause = crash_reset_cause(mcu_reset_cause()),
         .crash = crash_last(),
         .clock_exact = mcu_clock_is_exact(),
     };
-    port->link = loader_link();
     mcu_light(true);
     return 0;
 }
@@ -49,18 +48,7 @@ uint32_t port_clock_ms(void)
 void port_alive(bool outage)
 {
     mcu_feed();
-    loader_alive(outage);
     mcu_light(machine_ms() >> (outage ? BLINK_FAST : BLINK_SLOWLY) & 1u);
-}
-
-uint16_t port_id(void)
-{
-    return loader_id();
-}
-
-bool port_frame(const struct frame *frame, bool at_rest, struct frame *answer)
-{
-    return loader_frame(frame, at_rest, answer);
 }
 
 int port_load(uint8_t memory[CELL_COUNT])

@@ -5,6 +5,7 @@
 #include "hal/port/cortex_m/core.h"
 
 enum {
+    ARMV6_M = 12,        /* architecture in CPUID: a core without fault registers */
     KEPT = 0x4B455054,   /* unlikely to be in RAM at power-up */
     FRESH = 0x46524553
 };
@@ -24,10 +25,12 @@ void crash_keep(uint32_t cause, const uint32_t *frame, const uint32_t *lowest, c
 
     note.crash = (struct crash){.cause = (uint8_t)cause, .count = CRASH_REGISTER_COUNT};
     registers[CRASH_SP] = (uint32_t)(uintptr_t)frame;
-    registers[CRASH_CFSR] = SCB.cfsr;
-    registers[CRASH_HFSR] = SCB.hfsr;
-    registers[CRASH_MMFAR] = SCB.mmfar;
-    registers[CRASH_BFAR] = SCB.bfar;
+    if ((SCB.cpuid >> 16 & 15u) != ARMV6_M) {
+        registers[CRASH_CFSR] = SCB.cfsr;
+        registers[CRASH_HFSR] = SCB.hfsr;
+        registers[CRASH_MMFAR] = SCB.mmfar;
+        registers[CRASH_BFAR] = SCB.bfar;
+    }
     if (frame >= lowest && frame <= end - CRASH_FRAME_WORDS)   /* no addition to a wild pointer: it could wrap */
         for (unsigned i = 0; i < CRASH_FRAME_WORDS; i++)
             registers[pushed[i]] = frame[i];

@@ -10,6 +10,10 @@
 uint32_t mcu_start(void);
         /* Starts watchdog, clocks and pins, in this order, and returns the core clock in Hz. Each wait is bounded. */
 
+uint32_t mcu_systick_divisor(void);
+        /* 1: SysTick counts the core clock, as every Cortex-M can. Else it counts the chip's reference, which is the
+           core clock divided by this: 8 on an STM32. */
+
 bool mcu_clock_is_exact(void);
         /* Whether the clock that mcu_start found comes from a crystal: the bus needs it. */
 
@@ -18,10 +22,6 @@ enum reset_cause mcu_reset_cause(void);
 
 void mcu_feed(void);
         /* Feeds the watchdog, which otherwise resets the chip after 1 to 4 s. */
-
-void mcu_be_patient(void);
-        /* Makes the watchdog's timeout four times as long, until mcu_start: longer than any flash erase, during which
-           the core stalls. */
 
 void mcu_light(bool on);
         /* Switches the board's LED. */

@@ -8,6 +8,10 @@
 #include "hal/port/cortex_m/mcu.h"
 #include "hal/port/cortex_m/systick.h"
 
+#ifndef OCTET_INTERRUPTS
+#define OCTET_INTERRUPTS "32"   /* as many as a Cortex-M0+ can have; a chip says how many it has */
+#endif
+
 enum {
     ICSR_VECTOR = 0x1FF       /* number of the active exception */
 };
@@ -17,7 +21,9 @@ extern uint32_t stack_bottom[], stack_top[], data_start[], data_end[], data_imag
 
 int main(int argc, char *argv[]);
 void startup_reset(void);
+void startup_begin(void);
 void startup_crash(void);
+void startup_interrupts(void);
 void startup_nmi(void) __attribute__((weak, alias("startup_crash")));   /* a chip may have its own */
 void startup_crashed(const uint32_t *frame);
 
@@ -26,7 +32,7 @@ struct vectors {              /* PM0214 2.3.4, PM0056 2.3.4 */
     void (*handlers[15])(void);
 };
 
-/* No interrupt is ever taken: the table has only the core's 15 exceptions. */
+/* The core's 15 exceptions. */
 __attribute__((section(".vectors"), used))
 static const struct vectors vectors = {
     stack_top,
@@ -36,18 +42,30 @@ static const struct vectors vectors = {
     },
 };
 
-/* With PRIMASK set, a pending interrupt ends the wait and is not taken. */
-void core_sleep(void)
+/* Behind them, the chip's interrupts: none is ever taken, and one that were would be a crash. */
+__attribute__((naked, section(".vectors.interrupts"), used)) void startup_interrupts(void)
 {
-    __asm__ volatile("cpsid i\n\tdsb\n\twfi" ::: "memory");
+    __asm__ volatile(".rept " OCTET_INTERRUPTS "\n\t.word startup_crash\n\t.endr");
 }
 
-void startup_reset(void)
+/* With PRIMASK set, as it is from the start, a pending interrupt ends the wait and is not taken. */
+void core_sleep(void)
 {
-    SCB.vtor = (uint32_t)(uintptr_t)&vectors;   /* a boot loader's may be in force */
+    __asm__ volatile("dsb\n\twfi" ::: "memory");
+}
+
+/* No interrupt may come before PRIMASK is set. */
+__attribute__((naked)) void startup_reset(void)
+{
+    __asm__ volatile("cpsid i\n\tbl startup_begin");
+}
+
+__attribute__((used)) void startup_begin(void)   /* called by the assembly above, which the linker cannot see */
+{
+    SCB.vtor = (uint32_t)(uintptr_t)&vectors;   /* that of the chip's ROM may be in force */
     memcpy(data_start, data_image, (size_t)((char *)data_end - (char *)data_start));
     memset(bss_start, 0, (size_t)((char *)bss_end - (char *)bss_start));
-    systick_start(mcu_start());
+    systick_start(mcu_start(), mcu_systick_divisor());
     (void)main(0, NULL);
     leave_by_reset();   /* main returns if its body cannot be opened: restart */
 }
@@ -58,14 +76,16 @@ __attribute__((naked)) void startup_crash(void)
     __asm__ volatile("mrs r0, msp\n\t"
                      "ldr r1, =stack_middle\n\t"
                      "cmp r0, r1\n\t"
-                     "it lo\n\t"
-                     "ldrlo r1, =stack_top\n\t"
+                     "bhs 1f\n\t"
+                     "ldr r1, =stack_top\n"
+                     "1:\n\t"
                      "msr msp, r1\n\t"
-                     "b startup_crashed");
+                     "ldr r1, =startup_crashed\n\t"
+                     "bx r1");   /* what every Cortex-M can do */
 }
 
 /* Called by the assembly above, which the linker cannot see. */
-__attribute__((used, weak)) void startup_crashed(const uint32_t *frame)   /* a boot loader has its own */
+__attribute__((used)) void startup_crashed(const uint32_t *frame)
 {
     crash_keep(SCB.icsr & ICSR_VECTOR, frame, stack_bottom, stack_top);
     leave_by_reset();

@@ -4,8 +4,8 @@
 
 enum {
     SPAN = 1 << 24,
-    ON = 1,         /* clocked by an eighth of the core clock, without interrupt */
-    DIVISOR = 8
+    ON = 1,         /* without interrupt */
+    BY_CORE = 4     /* clocked by the core clock, else by the chip's reference */
 };
 
 static struct {
@@ -14,13 +14,13 @@ static struct {
     uint32_t ms;
 } timer;                /* the only timer; its callers have no place for its state */
 
-void systick_start(uint32_t core_hz)
+void systick_start(uint32_t core_hz, uint32_t divisor)
 {
-    timer.per_ms = core_hz / DIVISOR / 1000u;
+    timer.per_ms = core_hz / divisor / 1000u;
     timer.seen = 0;
     SYSTICK.load = SPAN - 1;
     SYSTICK.val = 0;
-    SYSTICK.ctrl = ON;
+    SYSTICK.ctrl = divisor == 1 ? ON | BY_CORE : ON;
 }
 
 uint32_t machine_ms(void)

@@ -111,19 +111,6 @@ void port_alive(bool outage)
     (void)outage;
 }
 
-uint16_t port_id(void)
-{
-    return 0;
-}
-
-bool port_frame(const struct frame *frame, bool at_rest, struct frame *answer)
-{
-    (void)frame;
-    (void)at_rest;
-    (void)answer;
-    return false;
-}
-
 int port_load(uint8_t memory[CELL_COUNT])
 {
     return memory_path ? file_store_load(memory_path, memory) : 0;

@@ -22,14 +22,14 @@ set(OCTET_RIGHT_ENCODER_A PB6)
 set(OCTET_RIGHT_ENCODER_B PB7)
 set(OCTET_LEFT_PWM PB14)
 set(OCTET_RIGHT_PWM PB15)
-set(OCTET_LEFT_BACK PB0)        # low: the bridge drives forward
-set(OCTET_RIGHT_BACK PB1)
+set(OCTET_LEFT_BACK PA8)        # the PWM of driving forward; the other one is of driving backward
+set(OCTET_RIGHT_BACK PA11)
 set(OCTET_BRIDGE_AWAKE PB5)     # nSLEEP
 set(OCTET_BRIDGE_FAULT PB12)    # nFAULT
 set(OCTET_BEACON PA15)
 set(OCTET_BUMPER_LEFT PB10)     # to ground when pressed
 set(OCTET_BUMPER_RIGHT PB11)
-set(OCTET_BUTTON PA8)           # to ground when pressed
+set(OCTET_BUTTON PB0)           # to ground when pressed
 
 # What is printed beside its headers, seen from above, from the end with B12 on.
 set(OCTET_HEADER_1 "B12 B13 B14 B15 A8 A9 A10 A11 A12 A15 B3 B4 B5 B6 B7 B8 B9 5V G 3.3")

@@ -1,6 +1,6 @@
 /* No telemetry: a robot with a body on pins, without bus or serial line. */
 #include "hal/pins_body/telemetry.h"
-#include "hal/stm32/line.h"
+#include "hal/port/cortex_m/uart.h"
 
 int telemetry_open(const struct port *port)
 {

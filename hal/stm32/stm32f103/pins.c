@@ -16,6 +16,7 @@ void pins_start(void)
 {
     RCC.apb2enr |= AFIO_ON | GPIO_A_TO_C | USART1_ON;
     RCC.apb1enr |= CAN1_ON | PWR_ON;
+    (void)RCC.apb1enr;   /* a peripheral may be accessed two cycles after its clock is on */
     PWR.cr |= BELOW_2_9_V;
     AFIO.mapr = (uint32_t)BOARD_REMAP | MAPR_NO_JTAG;
     gpio_start();

@@ -19,6 +19,7 @@ const struct clock_table CLOCK_TABLE = {
     .cr = &RCC.cr, .cfgr = &RCC.cfgr, .pll = &RCC.pllcfgr, .csr = &RCC.csr, .acr = &FLASH.acr,
     .on_after_reset = 1u << 0,   /* HSION */
     .forget = 1u << 24,
+    .brown_out = 1u << 25,
     .buses = CFGR_APB1_BY_4 | CFGR_APB2_BY_2,
     .switch_to_pll = 2,
     .from_pll = 2u << 2,

@@ -1,16 +1,14 @@
-/* Sectors 1 and 2 are for the store (RM0090 3.6); longer ones begin at multiples of their length. */
+/* Sectors 1 and 2 are for the store (RM0090 3.6). */
 #include "hal/stm32/flash_table.h"
 #include "hal/stm32/stm32f405/registers.h"
 
 enum {
     SECTOR_SIZE = 16384,
     FIRST_SECTOR = 1,
-    SMALL_SECTORS = 4,          /* followed by one of 4 pages, then those of 8 */
-    LONG_PAGES = 8,
     CR_WORDS = 2 << 8           /* four bytes at once, for 2.7 V and above */
 };
 
-extern volatile uint32_t PAGES[][SECTOR_SIZE / 4];
+extern volatile uint32_t STORE[][SECTOR_SIZE / 4];
 
 const struct flash_table FLASH_TABLE = {
     .keyr = &FLASH.keyr, .sr = &FLASH.sr, .cr = &FLASH.cr, .supply = &PWR.csr,
@@ -18,7 +16,7 @@ const struct flash_table FLASH_TABLE = {
     .page_size = SECTOR_SIZE,
     .unit = 4,
     .at_once = 4,
-    .erase_ms = 4000,           /* a long one takes 2 s */
+    .erase_ms = 1000,
     .busy = 1u << 16,
     .errors = 0xF2,
     .done = 1u << 0,
@@ -29,14 +27,9 @@ const struct flash_table FLASH_TABLE = {
     .start = 1u << 16,
 };
 
-static uint32_t place_of(unsigned page)
-{
-    return page < FLASH_PAGES ? FIRST_SECTOR + page : page - FLASH_PAGES;
-}
-
 __attribute__((noinline)) volatile void *flash_place(unsigned page, uint32_t offset)   /* not inlined, to save code */
 {
-    return &PAGES[place_of(page)][offset / 4];
+    return &STORE[page][offset / 4];
 }
 
 int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
@@ -55,9 +48,7 @@ void flash_begin(unsigned page, uint32_t offset, const uint32_t words[])
 
 uint32_t flash_number(unsigned page)
 {
-    uint32_t place = place_of(page);
-
-    return place < SMALL_SECTORS ? place : SMALL_SECTORS + place / LONG_PAGES;
+    return FIRST_SECTOR + page;
 }
 
 bool flash_has(unsigned page, uint32_t offset, const uint32_t words[])

@@ -15,6 +15,7 @@ void pins_start(void)
     RCC.ahb1enr |= GPIO_A_TO_C;
     RCC.apb1enr |= CAN1_ON | PWR_ON;
     RCC.apb2enr |= USART1_ON;
+    (void)RCC.apb1enr;   /* a peripheral may be accessed two cycles after its clock is on */
     PWR.cr |= BELOW_2_9_V;
     gpio_start();
 }

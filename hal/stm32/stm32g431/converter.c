@@ -13,11 +13,12 @@ enum {
     ADC_ON = 1u << 0, BEGIN = 1u << 2, REGULATOR_ON = 1u << 28,   /* in cr */
     READY = 1u << 0,                               /* in isr */
     ROUND_BY_DMA = 3u << 0, KEEP_LAST = 1u << 12, CONTINUOUS = 1u << 13,   /* in cfgr */
-    LONGEST_SAMPLE = 7,                            /* 640.5 cycles of 20 MHz */
-    PLACES_1 = 4,                                  /* of the sequence in sqr[0] */
+    LONGEST_0_TO_9 = 0x3FFFFFFF, LONGEST_10_TO_18 = 0x07FFFFFF,   /* in smpr: 640.5 cycles of 20 MHz */
     WAIT_MAX = 20000,                              /* polls; calibration takes 116 ADC cycles */
     PAUSE = 2000                                   /* polls: more than the regulator's 20 us */
 };
+
+const uint32_t BREAK_FILTER = 15u << 16;   /* pulses under 256 clocks, 3.2 us, are noise */
 
 const volatile uint32_t *converter_power(void)
 {
@@ -40,19 +41,17 @@ static void set(uint32_t bit)
 void converter_start(const uint8_t channels[CONVERTER_SAMPLES])
 {
     const uint32_t calibrate = 1u << 31;   /* in cr */
-    uint32_t order[2] = {CONVERTER_SAMPLES - 1, 0};
 
-    for (unsigned i = 0; i < CONVERTER_SAMPLES; i++) {
-        order[i >= PLACES_1] |= (uint32_t)channels[i] << 6 * (i >= PLACES_1 ? i - PLACES_1 : i + 1);
-        ADC1.smpr[0] |= (uint32_t)LONGEST_SAMPLE << 3 * channels[i];
-    }
+    ADC1.smpr[0] = LONGEST_0_TO_9;
+    ADC1.smpr[1] = LONGEST_10_TO_18;
     ADC1.common.ccr = CORE_BY_4;
     set(0);
     set(calibrate);
     for (unsigned i = 0; i < WAIT_MAX && (ADC1.cr & calibrate); i++)
         continue;
-    ADC1.sqr[0] = order[0];
-    ADC1.sqr[1] = order[1];
+    ADC1.sqr[0] = (CONVERTER_SAMPLES - 1u) | (uint32_t)channels[0] << 6 | (uint32_t)channels[1] << 12
+                | (uint32_t)channels[2] << 18 | (uint32_t)channels[3] << 24;
+    ADC1.sqr[1] = channels[4] | (uint32_t)channels[5] << 6;
     ADC1.cfgr = CONTINUOUS | KEEP_LAST | ROUND_BY_DMA;
     set(ADC_ON);
     for (unsigned i = 0; i < WAIT_MAX && !(ADC1.isr & READY); i++)

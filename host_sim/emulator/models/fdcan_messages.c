@@ -171,6 +171,8 @@ void fdcan_end(struct can_node *node, enum node_outcome outcome)
 
 uint32_t fdcan_read_queue(const struct fdcan *can)
 {
+    if (!(can->txbc & BY_IDENTIFIER))
+        return FDCAN_BUFFERS;
     for (unsigned n = 0; n < FDCAN_BUFFERS; n++)
         if (!(can->pending >> n & 1u))
             return n << 16;

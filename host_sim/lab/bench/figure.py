@@ -1,7 +1,8 @@
-"""One measured figure, with its target and its reference."""
+"""A figure beside its reference, both measured in turn in the same run."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from host_sim.lab.table import aligned
 
@@ -9,75 +10,59 @@ ROUNDS = 3
 """Number of measurements of each figure. The best counts: the others were disturbed by other load."""
 
 
+class Value(NamedTuple):
+    """A measured quantity: its name, its value, and how to measure it again in the next round."""
+
+    name: str
+    measure: Callable[[], float]
+
+
 @dataclass(frozen=True)
 class Figure:
-    """One measured figure.
+    """One row: our value, that of the reference, and their ratio.
 
     Attributes:
         name: The measured quantity.
         value: Measured value.
-        unit: Unit of the value.
-        bar: Target for the value, such as ">= 5000"; empty if there is none.
-        reached: Whether value and ratio reach their targets.
-        bound: The limiting factor.
-        reference: Name and value of the reference; empty if there is none.
-        ratio: Value divided by that of the reference; None without one.
-        ratio_bar: Target for the ratio; empty if there is none.
+        unit: Unit of both values.
+        reference: Name of the reference.
+        reference_value: Its value.
+        ratio: Value divided by that of the reference.
+        bar: Target for the ratio, such as ">= 0.7".
+        reached: Whether the ratio reaches it.
     """
 
     name: str
     value: float
     unit: str
+    reference: str
+    reference_value: float
+    ratio: float
     bar: str
     reached: bool
-    bound: str
-    reference: str = ""
-    ratio: float | None = None
-    ratio_bar: str = ""
 
 
-@dataclass(frozen=True)
-class Rate:
-    """A rate per second and its target; 0 for no target."""
-
-    name: str
-    per_second: float
-    at_least: float = 0.0
-
-
-def rate_figure(ours: Rate, reference: Rate, bound: str) -> Figure:
-    """A figure in ticks per second, beside a reference; `reference.at_least` is the target for the ratio."""
-    ratio = ours.per_second / reference.per_second
-    return Figure(
-        name=ours.name,
-        value=round(ours.per_second),
-        unit="ticks/s",
-        bar=f">= {ours.at_least:.0f}" if ours.at_least else "",
-        reached=ours.per_second >= ours.at_least and ratio >= reference.at_least,
-        bound=bound,
-        reference=f"{reference.name}: {reference.per_second:.0f}/s",
-        ratio=round(ratio, 2),
-        ratio_bar=f">= {reference.at_least}" if reference.at_least else "",
-    )
+def rate(ours: Value, reference: Value, at_least: float, unit: str = "ticks/s") -> Figure:
+    """A figure of which more is better."""
+    rounds = [(ours.measure(), reference.measure()) for _ in range(ROUNDS)]
+    mine, other = (max(column) for column in zip(*rounds, strict=True))
+    ratio = mine / other
+    return Figure(ours.name, mine, unit, reference.name, other, ratio, f">= {at_least:g}", ratio >= at_least)
 
 
-def most_figure(name: str, value: float, unit: str, at_most: float, bound: str) -> Figure:
-    """A figure whose target is to stay below a limit."""
-    return Figure(name, round(value, 2), unit, f"< {at_most:g}", value < at_most, bound)
-
-
-def best(measure: Callable[[], float]) -> float:
-    """The greatest of `ROUNDS` measurements."""
-    return max(measure() for _ in range(ROUNDS))
+def cost(ours: Value, reference: Value, at_most: float, unit: str = "ms") -> Figure:
+    """A figure of which less is better."""
+    rounds = [(ours.measure(), reference.measure()) for _ in range(ROUNDS)]
+    mine, other = (min(column) for column in zip(*rounds, strict=True))
+    ratio = mine / other
+    return Figure(ours.name, mine, unit, reference.name, other, ratio, f"<= {at_most:g}", ratio <= at_most)
 
 
 def table(figures: Sequence[Figure]) -> str:
     """The figures as a table."""
-    rows = [("figure", "measured", "bar", "reference", "ratio", "bar", "", "bounded by")]
-    for figure in figures:
-        ratio = "" if figure.ratio is None else f"{figure.ratio:.2f}"
-        measured, verdict = f"{figure.value:g} {figure.unit}", "reached" if figure.reached else "MISSED"
-        rows.append(
-            (figure.name, measured, figure.bar, figure.reference, ratio, figure.ratio_bar, verdict, figure.bound)
-        )
+    rows = [("figure", "measured", "reference", "measured", "ratio", "bar", "")]
+    for it in figures:
+        values = [f"{value:.{0 if value >= 100 else 2}f} {it.unit}" for value in (it.value, it.reference_value)]  # noqa: PLR2004
+        verdict = "reached" if it.reached else "MISSED"
+        rows.append((it.name, values[0], it.reference, values[1], f"{it.ratio:.2f}", it.bar, verdict))
     return "\n".join(aligned(rows))

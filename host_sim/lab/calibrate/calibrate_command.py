@@ -68,7 +68,7 @@ def _check(arguments: argparse.Namespace) -> None:
 
 
 def _setting(text: str) -> tuple[str, int]:
-    from host_sim.base.near_word import meant
+    from host_sim.base.errors import meant
     from host_sim.lab.calibrate.calibration import TRAITS
 
     name, _, value = text.partition("=")
@@ -97,10 +97,9 @@ def _calibrate(arguments: argparse.Namespace) -> int:
 def _reached(stack: ExitStack, arguments: argparse.Namespace) -> "tuple[Calibration, Places | None]":
     import time
 
-    from host_sim.backends.bus_lines import BusLines
     from host_sim.client.frame_log import NoLog
     from host_sim.lab.calibrate.calibration import Calibration
-    from host_sim.sim.make import connected
+    from host_sim.sim.connect import Connector
     from host_sim.sim.run_config import RunConfig
 
     emulated = arguments.robot == "emulated"
@@ -110,8 +109,7 @@ def _reached(stack: ExitStack, arguments: argparse.Namespace) -> "tuple[Calibrat
     )
     log = NoLog()
     stack.callback(log.close)
-    lines = BusLines(config.bus, config.nodes, config.bitrate, config.reconnect_s, "", "")
-    client = connected(stack, config, config.node, lines, log)
+    client = Connector(stack, config.access).client(config.node, log)
     if not emulated:
         return Calibration(client, time.sleep), None
     from host_sim.emulator.pins_board import PinsBoard

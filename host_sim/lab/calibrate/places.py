@@ -9,9 +9,8 @@ from host_sim.protocol.words import SENSORS
 from host_sim.world.arena import Arena
 from host_sim.world.body_kinds import body_kind
 from host_sim.world.edits import Edit
-from host_sim.world.geometry import Pose
+from host_sim.world.geometry import Pose, SimParams
 from host_sim.world.layouts import Layout
-from host_sim.world.params import SimParams
 
 _TICK_S = 0.02
 _WALL_MM, _BEHIND_MM = 60, 20

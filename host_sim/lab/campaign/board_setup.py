@@ -7,9 +7,9 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.emulator.board import EmulatedBoard
 from host_sim.emulator.can import CanFrame
 from host_sim.emulator.clock import NEVER, SECOND, Clock
-from host_sim.faults.faulty_link import FaultyLink
 from host_sim.lab.campaign.setup import Setup
 from host_sim.sim.run_config import RunConfig
+from host_sim.transport.faulty_link import FaultyLink
 
 MS = SECOND // 1000
 _NOWHERE = 0x60000000

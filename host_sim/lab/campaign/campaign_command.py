@@ -6,14 +6,15 @@ from collections.abc import Iterable, Iterator, Sequence
 from operator import itemgetter
 from typing import TYPE_CHECKING
 
-from host_sim.backends.images import BOARDS
 from host_sim.base.errors import UsageError
 from host_sim.cli.parsing import Subparsers, add_command, check_outputs, file_path, number, output_of
 from host_sim.protocol.words import PROFILES
+from host_sim.sim.access import BOARDS
 
 if TYPE_CHECKING:
     from host_sim.lab.campaign.cell import Cell
     from host_sim.lab.campaign.outcome import Outcome
+    from host_sim.lab.campaign.running import Group
 
 _LINKS = ("none", "fd", "external", "slcan", "vcan", *BOARDS, "pins")
 _EXAMPLES = """\
@@ -21,6 +22,7 @@ examples:
   tools/octet campaign out/campaign.html                     every behaviour in lockstep, within this process
   tools/octet campaign out/real.html --links fd slcan feather_stm32f405 --real-time --profiles article adaptive
   tools/with-vcan tools/octet campaign out/vcan.html --links vcan
+  tools/octet campaign --walk 40 --links none fd slcan --limit-s 8
   tools/octet campaign --repeat 'article fd lockstep seed=12 limit=8 event=hang:300@100'
   tools/octet campaign --shrink 'article none lockstep seed=12 limit=30 fault=drop:30% fault=forge:stop@300/to'
 
@@ -72,13 +74,21 @@ def add(commands: Subparsers) -> None:
         help="robot time of each run, 1..600 s (default: 60, in real time 10); longer for faults that show later",
     )
     add("--jobs", type=number(1, 64), default=1, metavar="N", help="processes at once (default: %(default)d)")
+    add(
+        "--walk",
+        type=number(1, 100_000),
+        default=0,
+        metavar="N",
+        help="instead of each fault by itself, N random schedules of 1 to 6 faults; those that fail are shrunk",
+    )
+    add("--seed", type=number(0, 2**32 - 1), default=1, help="seed of these schedules (default: %(default)d)")
     add("--repeat", metavar="CELL", help="rerun one run of a report and print its outcome")
     add("--shrink", metavar="CELL", help="find the smallest schedule of faults with the same outcome")
 
 
 def _check(arguments: argparse.Namespace) -> None:
-    if arguments.html is None and not (arguments.repeat or arguments.shrink):
-        raise UsageError("campaign needs FILE.html for the report, or --repeat or --shrink")
+    if arguments.html is None and not (arguments.repeat or arguments.shrink or arguments.walk):
+        raise UsageError("campaign needs FILE.html for the report, or --walk, --repeat or --shrink")
     check_outputs(
         "campaign", None, {"FILE.html": arguments.html, "--json": arguments.json, "--junit": arguments.junit}
     )
@@ -98,20 +108,14 @@ def _campaign(arguments: argparse.Namespace) -> int:
     if arguments.repeat or arguments.shrink:
         act = _repeat if arguments.repeat else _shrink
         return act(arguments.repeat or arguments.shrink, arguments.robot_command)
-    from host_sim.base.atomic_file import write_bytes
+    from host_sim.base.files import write_bytes
     from host_sim.base.result_files import Case, write_results
     from host_sim.lab.campaign.html_report import page, summary, verdict
     from host_sim.lab.campaign.outcome import unreached
 
-    found = []
-    for group, some in _outcomes(arguments):
-        for outcome in some:
-            found.append((group, outcome))
-            if outcome.problems:
-                cell = outcome.cell
-                print(f"{verdict(outcome)}: {outcome.end or cell.fault}: {cell.command()}", file=sys.stderr)
-    outcomes = [outcome for _, outcome in sorted(found, key=itemgetter(0))]
-    write_bytes(arguments.html, page(outcomes).encode())
+    outcomes = _all_outcomes(arguments)
+    if arguments.html is not None:
+        write_bytes(arguments.html, page(outcomes).encode())
     cases = [
         Case(
             f"{it.cell.configuration}: {it.cell.fault or 'no fault'}",
@@ -122,32 +126,70 @@ def _campaign(arguments: argparse.Namespace) -> int:
     ]
     write_results("campaign", cases, arguments.json, arguments.junit)
     print(summary(outcomes))
-    print(f"wrote {arguments.html}")
-    return int(any(outcome.problems for outcome in outcomes) or bool(unreached(outcomes, ("never came",))))
+    if arguments.html is not None:
+        print(f"wrote {arguments.html}")
+    is_idle = not arguments.walk and bool(unreached(outcomes, ("never came",)))
+    return int(any(outcome.problems for outcome in outcomes) or is_idle)
 
 
-def _outcomes(arguments: argparse.Namespace) -> "Iterator[tuple[int, Iterable[Outcome]]]":
-    """Yields the outcomes of each configuration with its number; in any order if several run at once."""
-    from concurrent.futures import ProcessPoolExecutor
+def _all_outcomes(arguments: argparse.Namespace) -> "list[Outcome]":
+    """Runs everything, with a progress line, and prints the problems."""
+    from host_sim.base.progress_line import ProgressLine
+
+    found, every = [], _groups(arguments)
+    with ProgressLine(sum(len(group.cells) for group in every)) as line:
+        for number, some in _outcomes(every, arguments.jobs):
+            for outcome in some:
+                found.append((number, outcome))
+                if outcome.problems:
+                    line.clear()
+                    _print_problem(outcome, is_shrunk=bool(arguments.walk))
+                if line.is_due():
+                    line.show("runs", len(found))
+    return [outcome for _, outcome in sorted(found, key=itemgetter(0))]
+
+
+def _print_problem(outcome: "Outcome", *, is_shrunk: bool) -> None:
+    from host_sim.lab.campaign.html_report import verdict
+
+    cell = outcome.cell
+    print(f"{verdict(outcome)}: {outcome.end or cell.fault}: {cell.command()}", file=sys.stderr)
+    if is_shrunk:
+        *_, shortest = _shrunk(cell)
+        print(f"  shortest: {shortest.cell.command()}", file=sys.stderr)
+
+
+def _groups(arguments: argparse.Namespace) -> "list[Group]":
+    """The cells of each configuration."""
     from dataclasses import replace
-    from multiprocessing import get_context
 
     from host_sim.lab.campaign.cell import PACES
     from host_sim.lab.campaign.matrix import default_limit_s, groups
-    from host_sim.lab.campaign.running import Group, run_group
-    from host_sim.lab.campaign.running import run_all as run_cells
-    from host_sim.lab.workers import Workers, run_all
+    from host_sim.lab.campaign.running import Group
+    from host_sim.lab.campaign.walk import walk
 
     paces = PACES if arguments.real_time else PACES[:1]
-    cells = groups(
-        arguments.profiles, arguments.links, paces, lambda pace: arguments.limit_s or default_limit_s(pace)
-    )
+    limits_s = {pace: arguments.limit_s or default_limit_s(pace) for pace in paces}
+    where = arguments.links, arguments.profiles, limits_s[PACES[0]]
+    drawn = walk(arguments.walk, arguments.seed, *where)
+    cells = drawn or groups(arguments.profiles, arguments.links, paces, lambda pace: limits_s[pace])
     cells = ([replace(cell, command_of_own=arguments.robot_command) for cell in some] for some in cells)
-    every = [Group(number, some) for number, some in enumerate(cells)]
-    if arguments.jobs == 1:
+    return [Group(number, some) for number, some in enumerate(cells)]
+
+
+def _outcomes(every: "Sequence[Group]", jobs: int) -> "Iterator[tuple[int, Iterable[Outcome]]]":
+    """Yields the outcomes of each configuration with its number; in any order if several run at once."""
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
+    from host_sim.lab.campaign.running import run_all as run_cells
+    from host_sim.lab.campaign.running import run_group
+    from host_sim.lab.workers import Workers, run_all
+
+    if jobs == 1:
         yield from ((number, run_cells(some)) for number, some in every)
     else:
-        pool = Workers(lambda: ProcessPoolExecutor(arguments.jobs, mp_context=get_context("spawn")))
+        pool = Workers(lambda: ProcessPoolExecutor(jobs, mp_context=get_context("spawn")))
         yield from run_all(run_group, every, pool)
 
 
@@ -168,6 +210,14 @@ def _shrink(text: str, program: str) -> int:
     from dataclasses import replace
 
     from host_sim.lab.campaign.cell import Cell
+
+    for outcome in _shrunk(replace(Cell.parse(text), command_of_own=program)):
+        print(f"{outcome.kind}: {outcome.cell}", flush=True)
+    return 0
+
+
+def _shrunk(cell: "Cell") -> "Iterator[Outcome]":
+    """The outcomes of ever smaller cells of the same kind."""
     from host_sim.lab.campaign.running import run_all
     from host_sim.lab.campaign.shrink import shrink
 
@@ -175,6 +225,4 @@ def _shrink(text: str, program: str) -> int:
         (outcome,) = run_all([smaller])
         return outcome
 
-    for outcome in shrink(replace(Cell.parse(text), command_of_own=program), attempt):
-        print(f"{outcome.kind}: {outcome.cell}", flush=True)
-    return 0
+    return shrink(cell, attempt)

@@ -5,10 +5,9 @@ from dataclasses import dataclass, field, replace
 from shlex import quote
 
 from host_sim.base.errors import UsageError
-from host_sim.faults.event import Event
-from host_sim.faults.rule import Rule
 from host_sim.protocol.generated import PROFILES
 from host_sim.sim.run_config import RunConfig
+from host_sim.transport.rule import Event, Rule
 from host_sim.world.changes import Change
 
 SEED = 12
@@ -22,6 +21,9 @@ PIN_EVENTS = (
     *("adc-stuck", "bounce"),
 )
 """Body faults that are possible on that link."""
+
+KILL_EVENTS = ("kill-simulator", "kill-saving")
+"""Events that end the process of the run; another one goes on with its memory."""
 
 PROCESS_LINKS = ("none", "fd")
 """Links where the run itself starts the robot, named as for `tools/run --bus`."""
@@ -122,6 +124,11 @@ class Cell:
         """Whether only the body is faulty."""
         on_pins = bool(self.events) and all(event.name in PIN_EVENTS for event in self.events)
         return not self.faults and (on_pins or (bool(self.changes) and not self.events))
+
+    @property
+    def may_differ(self) -> bool:
+        """Whether its course may be another than without faults: of another body, or a killed simulator."""
+        return bool(self.changes) or any(event.name in (*PIN_EVENTS, *KILL_EVENTS) for event in self.events)
 
     @property
     def config(self) -> RunConfig:

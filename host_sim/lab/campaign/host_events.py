@@ -37,10 +37,9 @@ def hang(pid: int, span_ms: int) -> None:
 
 
 def hold_up(span_ms: int) -> None:
-    """Sends SIGSTOP to this process; a helper process, which is not its robot, continues it."""
-    pid = os.getpid()
-    with subprocess.Popen(["/bin/sh", "-c", f"sleep {span_ms / 1000}; kill -CONT {pid}"]):
-        os.kill(pid, signal.SIGSTOP)
+    """A helper process sends this one SIGSTOP, and SIGCONT after a span: in this order, however busy the host is."""
+    stopped = f"kill -STOP {os.getpid()}; sleep {span_ms / 1000}; kill -CONT {os.getpid()}"
+    subprocess.run(["/bin/sh", "-c", stopped], check=True)
 
 
 CLOCK_EVENTS = frozenset({"clock-ahead", "clock-back"})

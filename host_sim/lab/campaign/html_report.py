@@ -32,6 +32,7 @@ _DOUBTS_MAX = 3
 
 _HEAD = (
     '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">"
     '<meta name="viewport" content="width=device-width, initial-scale=1"><title>Octet: fault campaign</title>'
     f"<style>{_STYLE}</style></head><body><main>\n<h1>Fault campaign</h1>\n"
 )

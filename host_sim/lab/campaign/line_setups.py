@@ -8,12 +8,12 @@ from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from host_sim.backends.robot_process import RobotProcess
 from host_sim.base.errors import UsageError
-from host_sim.faults.cable import Cable, Socket
 from host_sim.lab.campaign.host_events import process_events
 from host_sim.lab.campaign.setup import Happen, Setup
+from host_sim.sim.robot_process import RobotProcess
 from host_sim.sim.run_config import RunConfig
+from host_sim.transport.cable import Cable, Socket
 
 _BUS = "vcan0"
 
@@ -26,6 +26,7 @@ class OnLine(Setup):
         self.robot = RobotProcess(link, 1)
         own: Mapping[str, Happen] = {"reset": lambda _: self._restart()}
         self.events = {**process_events(lambda: self.robot.pid), **own, **events}
+        self.of_opener = {*self.events} - {"hold-up"}  # it has the line's threads, and is the robot's parent
 
     def configured(self, config: RunConfig) -> RunConfig:
         """As in `Setup`."""

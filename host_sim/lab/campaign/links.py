@@ -3,11 +3,11 @@
 from collections.abc import Collection
 from contextlib import AbstractContextManager, nullcontext
 
-from host_sim.backends.images import BOARDS
 from host_sim.base.errors import UsageError
-from host_sim.faults.event import Event
 from host_sim.lab.campaign.cell import PINS_LINK
 from host_sim.lab.campaign.setup import Setup
+from host_sim.sim.access import BOARDS
+from host_sim.transport.rule import Event
 
 LINKS = ("none", "fd", "external", "slcan", "vcan", *BOARDS, PINS_LINK)
 """In this process, on a socket pair, a custom robot on one, on a serial line, on vcan0, on a board, on its pins."""

@@ -4,11 +4,11 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from random import Random
 
-from host_sim.backends.images import BOARDS
-from host_sim.faults.event import Event
 from host_sim.lab.campaign.cell import LOCKSTEP, PACES, PINS_LINK, REAL_TIME, Cell
 from host_sim.protocol.generated import MESSAGES, Opcode
 from host_sim.protocol.words import SENSORS
+from host_sim.sim.access import BOARDS
+from host_sim.transport.rule import Event
 
 _LINES, _PROCESSES = ("external", "slcan", "vcan"), ("fd", "external", "slcan", "vcan")
 _COMPARED = (LOCKSTEP,)

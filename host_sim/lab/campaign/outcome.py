@@ -4,9 +4,9 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from host_sim.client.pacing import HOLD_TICKS
-from host_sim.faults.event import Event
 from host_sim.lab.campaign.cell import Cell
 from host_sim.protocol.generated import PARAMETERS
+from host_sim.transport.rule import Event
 
 _TICK_MS = PARAMETERS["tick_ms"].default
 _FRESH_TICKS = 25
@@ -34,7 +34,8 @@ class Outcome:
         doubts: Reasons why its result is doubtful.
         wrong: Patterns for which a wrong turn was learned.
         digest: SHA-256 of its log, in hexadecimal.
-        course: SHA-256 of the robot's senses and drives, tick by tick.
+        course: SHA-256 of the robot's senses, tick by tick, in which what it did before shows.
+        memory: What the robot knows in the end.
         broke: Whether it ended with an error that is not about the robot, its line, or damaged files.
         lost: Data missing from its files without a warning, in words; empty if they are complete.
         strikes: Number of faults applied to frames.
@@ -43,7 +44,7 @@ class Outcome:
         waiting: Events that have not occurred.
         moved: Tick after which the robot last answered in time.
         ticks: Number of ticks.
-        differs: Whether, in lockstep, its course differs from that without the fault.
+        differs: Whether, in lockstep, its course or memory differs from that without the fault.
     """
 
     cell: Cell
@@ -54,6 +55,7 @@ class Outcome:
     wrong: tuple[int, ...] = ()
     digest: str = ""
     course: str = ""
+    memory: tuple[int, ...] = ()
     broke: bool = False
     lost: str = ""
     strikes: int = 0
@@ -72,6 +74,7 @@ class Outcome:
         found = {
             "unsafe": self.oldest > HOLD_TICKS,
             "unseen": bool(cell.fault) and not self._is_seen and (self.differs or not cell.harmless),
+            "differs without a warning": self.differs and not (self.end or self.doubts or cell.may_differ),
             "did not happen": bool(self.waiting) and not self.end,
             "wrong without a warning": bool(is_misled),
             "lost without a warning": bool(self.lost),
@@ -115,4 +118,5 @@ class Outcome:
         """Compares with the run without a fault, and notes the differences."""
         if self.cell.is_of_body and not self.seen and self.digest != clean.digest:
             self.seen = "what it does"
-        self.differs = self.course != clean.course and not self.cell.is_real_time
+        result, without = (self.course, self.memory), (clean.course, clean.memory)
+        self.differs = result != without and not self.cell.is_real_time

@@ -12,15 +12,15 @@ from tempfile import TemporaryDirectory
 
 from host_sim.base.errors import OctetError
 from host_sim.client.frame_log import FrameLog, digest_of
-from host_sim.faults.event import Event
 from host_sim.lab.campaign.killed import Tell, kill_at
 from host_sim.lab.campaign.setup import Happen
 from host_sim.protocol.codec import Protocol
 from host_sim.recording.memory_file import MemorySaver, load_memory
+from host_sim.transport.rule import Event
 from host_sim.world.memory_kinds import Memory
 
 _NODE = 1
-_OF_COURSE = tuple(f" {Protocol(_NODE).id_of(name):03X}#".encode() for name in ("SENSES", "DRIVE"))
+_OF_COURSE = f" {Protocol(_NODE).id_of('SENSES'):03X}#".encode()
 
 
 class CourseLog(FrameLog):
@@ -37,7 +37,7 @@ class CourseLog(FrameLog):
 
     def _write(self, block: bytes) -> None:
         for line in block.splitlines():
-            if any(name in line for name in _OF_COURSE):
+            if _OF_COURSE in line:
                 self._course.update(line)
         super()._write(block)
 
@@ -205,9 +205,6 @@ _EVENTS: Mapping[str, Callable[[RunFiles, int], None]] = {
     "kill-simulator": lambda _, number: kill_at(number),
     "kill-saving": lambda files, number: setattr(files, "killed_in_save", number),
 }
-
-KILL_EVENTS = frozenset({"kill-simulator", "kill-saving"})
-"""File faults that end the process of the run."""
 
 FILE_EVENTS = frozenset(_EVENTS)
 """The faults that can affect a run's files, by name."""

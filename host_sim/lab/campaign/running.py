@@ -3,24 +3,25 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
 from host_sim.base.errors import OctetError, RobotError, UsageError
 from host_sim.client.commands import stop
 from host_sim.client.robot_client import RobotClient
-from host_sim.faults.event import Event
-from host_sim.faults.faulty_link import FaultyLink
-from host_sim.lab.campaign.cell import Cell
+from host_sim.lab.campaign.cell import KILL_EVENTS, Cell
 from host_sim.lab.campaign.host_events import CLOCK_EVENTS, clock_events
-from host_sim.lab.campaign.killed import Tell, run_to_be_killed
+from host_sim.lab.campaign.killed import ASK, Tell, run_to_be_killed
 from host_sim.lab.campaign.links import check_events, open_setup
 from host_sim.lab.campaign.outcome import Outcome
-from host_sim.lab.campaign.run_files import FILE_EVENTS, KILL_EVENTS, NoFiles, is_memory_held, make_folder, open_files
+from host_sim.lab.campaign.run_files import FILE_EVENTS, NoFiles, is_memory_held, make_folder, open_files
 from host_sim.lab.campaign.setup import Happen, Setup
 from host_sim.protocol.generated import TICK_SPAN, Side
 from host_sim.sim.make import make
 from host_sim.sim.simulation import Simulation
+from host_sim.transport.faulty_link import FaultyLink
+from host_sim.transport.rule import Event
 from host_sim.world.memory_kinds import sides_of
 
 _PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
@@ -101,14 +102,15 @@ def _run_killed(outcome: Outcome, setup: Setup, folder: Path | None) -> bool:
     def run(tell: Tell) -> None:
         with ExitStack() as stack:
             files = open_files(folder, stack, tell)
-            _run(outcome, setup, files, {**setup.events, **files.events, **clock_events(stack)})
+            elsewhere = {name: partial(tell, ASK, name) for name in setup.of_opener}
+            _run(outcome, setup, files, {**setup.events, **elsewhere, **files.events, **clock_events(stack)})
 
-    was_killed, told = run_to_be_killed(run)
-    of = {kind: [each[1] for each in told if each[0] == kind] for kind in ("oldest", "saving", "end")}
+    was_killed, told = run_to_be_killed(run, lambda name, size: setup.events[name](size))
+    of = {kind: [each[1] for each in told if each[0] == kind] for kind in ("oldest", "saving", "ended", "broke")}
     outcome.oldest = max(of["oldest"], default=0)
-    outcome.end = next(iter(of["end"]), "")
+    outcome.end = outcome.seen = next(iter(of["broke"] + of["ended"]), "")
     outcome.lost = "" if is_memory_held(folder, of["saving"]) else "the memory"
-    outcome.broke = bool(outcome.end)
+    outcome.broke = bool(of["broke"])
     if was_killed:
         outcome.waiting = ()
     return was_killed
@@ -182,6 +184,7 @@ def _note(outcome: Outcome, client: RobotClient) -> None:
     outcome.seen = ", ".join(f"{count} {name}" for name, count in counts.items() if count)
     outcome.doubts = tuple(map(str, client.incidents))
     outcome.seen = outcome.seen or ", ".join(outcome.doubts)
+    outcome.memory = tuple(client.memory)
     outcome.wrong = tuple(pattern for pattern, side in _PROPER.items() if sides[pattern] not in (0, side))
     robots = sum(client.faults.get(kind, 0) for kind in _REFUSING)
     outcome.refusals = frames.refused + robots

@@ -1,6 +1,6 @@
 """The setup of a robot, into which a campaign injects faults."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 
 from host_sim.client.robot_client import RobotClient
@@ -15,9 +15,11 @@ class Setup:
 
     Attributes:
         events: The possible events by name.
+        of_opener: Those of them that only the process that opened this setup can trigger.
     """
 
     events: Mapping[str, Happen] = {}
+    of_opener: Collection[str] = ()
 
     def configured(self, config: RunConfig) -> RunConfig:
         """The configuration of a run with this robot."""

@@ -3,10 +3,9 @@
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
-from host_sim.faults.rule import Rule
-from host_sim.faults.shrink import fewer, in_ranges
 from host_sim.lab.campaign.cell import Cell
 from host_sim.lab.campaign.outcome import Outcome
+from host_sim.transport.rule import Rule, fewer, in_ranges
 
 Attempt = Callable[[Cell], Outcome]
 """Runs a cell."""

@@ -2,9 +2,9 @@
 
 from collections.abc import Callable, Mapping
 
-from host_sim.base.frame import Frame
 from host_sim.lab.check.talk import BrokenError, Talk
 from host_sim.protocol.generated import Fault, Reason
+from host_sim.transport.link import Frame
 
 Check = Callable[[Talk], None]
 

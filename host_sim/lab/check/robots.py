@@ -13,8 +13,7 @@ from host_sim.protocol.generated import Opcode
 from host_sim.transport.bus_process import BusProcess, start_on_socket_pair
 from host_sim.transport.buses import open_bus_link
 from host_sim.transport.clock import WallClock
-from host_sim.transport.line_stats import LineStats
-from host_sim.transport.link import Link
+from host_sim.transport.link import LineStats, Link
 
 Robots = Callable[[], AbstractContextManager[Talk]]
 

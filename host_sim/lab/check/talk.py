@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple, NoReturn
 
-from host_sim.base.frame import Frame
 from host_sim.protocol.codec import COUNTERS, MessageLayout, Protocol
 from host_sim.protocol.generated import (
     MESSAGES,
@@ -16,7 +15,7 @@ from host_sim.protocol.generated import (
     Senses,
 )
 from host_sim.transport.clock import Clock
-from host_sim.transport.link import Link
+from host_sim.transport.link import Frame, Link
 
 ANSWER_S = 0.9
 """Maximum time of an answer, even on a busy machine; after a second, a HEARTBEAT may come unrequested."""

@@ -1,30 +1,105 @@
-"""`tools/octet export`: writes a recorded log in the formats of other programs."""
+"""`tools/octet export`: writes a recorded log in the formats of other programs, by python-can and pyarrow."""
 
 import argparse
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from datetime import datetime, timezone
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from host_sim.base.errors import UsageError
+from host_sim.base.errors import OctetError, UsageError
 from host_sim.cli.parsing import Subparsers, add_command, check_outputs, file_path
+from host_sim.cli.run_options import add_channel
 
 if TYPE_CHECKING:
+    from can.io.generic import MessageWriter
+
     from host_sim.recording.log_text import Recorded
 
-_FORMATS = {
-    "csv": "a table with a row for each frame and a column for each signal",
-    "parquet": "the same table as Parquet",
-    "asc": "frames in Vector's ASC format",
-    "blf": "frames in Vector's BLF format",
-    "mf4": "frames as the bus logging of ASAM MDF 4",
-    "mcap": "messages as JSON in MCAP, for Foxglove and ROS 2",
+_YEAR_9999_S = 253_370_764_800
+_NANOSECONDS_S = 2**64 // 10**9 - 1
+
+
+class Format(NamedTuple):
+    """A format that can be written.
+
+    Attributes:
+        what: Its description in the help text.
+        write: Writes frames to a file.
+        last_s: Latest time, s since 1970: limited by years of four digits, or by nanoseconds in 64 bits.
+        library: A library that not every command needs.
+    """
+
+    what: str
+    write: "Callable[[Path, Iterable[Recorded]], None]"
+    last_s: float = float("inf")
+    library: str = ""
+
+
+def _csv(path: Path, frames: "Iterable[Recorded]") -> None:
+    from host_sim.recording.frame_table import write_csv
+
+    write_csv(path, frames)
+
+
+def _parquet(path: Path, frames: "Iterable[Recorded]") -> None:
+    from host_sim.recording.frame_table import write_parquet
+
+    write_parquet(path, frames)
+
+
+def _asc(path: Path, frames: "Iterable[Recorded]") -> None:
+    from can import ASCWriter
+
+    _write(ASCWriter(path), frames)
+
+
+def _blf(path: Path, frames: "Iterable[Recorded]") -> None:
+    from can import BLFWriter
+
+    _write(BLFWriter(path), frames)
+
+
+def _trc(path: Path, frames: "Iterable[Recorded]") -> None:
+    from can import TRCWriter
+
+    _write(TRCWriter(path), frames)
+
+
+def _mf4(path: Path, frames: "Iterable[Recorded]") -> None:
+    from host_sim.recording.log_files import mf4_module
+
+    every = iter(frames)
+    first = next(every)
+    writer = mf4_module().MF4Writer(path)
+    # python-can has the file begin when it is written, and the frames before its beginning.
+    writer._start_time = writer.last_timestamp = first.time_us / 1e6
+    writer._mdf.header.start_time = datetime.fromtimestamp(first.time_us / 1e6, timezone.utc)
+    _write(writer, (frame for part in ([first], every) for frame in part))
+
+
+def _write(writer: "MessageWriter", frames: "Iterable[Recorded]") -> None:
+    from can import Message
+
+    with writer:
+        for time_us, (frame_id, data) in frames:
+            writer.on_message_received(
+                Message(time_us / 1e6, frame_id, data=data, is_extended_id=False, channel=0, check=False)
+            )
+
+
+FORMATS = {
+    "csv": Format("a table with a row for each frame and a column for each signal", _csv),
+    "parquet": Format("the same table as Parquet", _parquet, library="pyarrow"),
+    "asc": Format("frames in Vector's ASC format", _asc, _YEAR_9999_S),
+    "blf": Format("frames in Vector's BLF format", _blf, _YEAR_9999_S),
+    "trc": Format("frames in PEAK's TRC format", _trc, _YEAR_9999_S),
+    "mf4": Format("frames as the bus logging of ASAM MDF 4", _mf4, _NANOSECONDS_S, "asammdf"),
 }
-_LIBRARIES = {"parquet": "pyarrow", "mf4": "asammdf", "mcap": "mcap"}
 _EXAMPLES = """\
 examples:
   tools/octet export out/run.log --csv out/run.csv --blf out/run.blf
-  tools/octet export out/run.log --mf4 out/run.mf4 --mcap out/run.mcap --parquet out/run.parquet
+  tools/octet export out/run.log --mf4 out/run.mf4 --trc out/run.trc --parquet out/run.parquet
 """
 
 
@@ -34,57 +109,62 @@ def add(commands: Subparsers) -> None:
         commands,
         "export",
         _export,
-        summary="write a recorded log as CSV, Parquet, ASC, BLF, MF4 or MCAP",
+        summary="write a recorded log as CSV, Parquet, ASC, BLF, TRC or MF4",
         description="Writes the robots' frames of a log in the formats of other programs.",
         epilog=_EXAMPLES,
         check=_check,
-        stages=lambda arguments: ["export" if _wanted(arguments).keys() & _LIBRARIES else "run"],
+        stages=lambda arguments: ["export" if any(FORMATS[it].library for it in _wanted(arguments)) else "run"],
     )
-    parser.add_argument(
-        "log", type=file_path, metavar="LOG", help="log of a run, of candump, of python-can; ASC or BLF"
-    )
-    for name, what in _FORMATS.items():
-        parser.add_argument(f"--{name}", type=file_path, metavar="FILE", help=f"write {what}")
+    parser.add_argument("log", type=file_path, metavar="LOG", help="log of a run, of candump or of python-can")
+    add_channel(parser)
+    for name, it in FORMATS.items():
+        parser.add_argument(f"--{name}", type=file_path, metavar="FILE", help=f"write {it.what}")
 
 
 def _wanted(arguments: argparse.Namespace) -> dict[str, Path]:
     """The file to write for each requested format."""
-    return {name: getattr(arguments, name) for name in _FORMATS if getattr(arguments, name) is not None}
+    return {name: getattr(arguments, name) for name in FORMATS if getattr(arguments, name) is not None}
 
 
 def _check(arguments: argparse.Namespace) -> None:
     wanted = _wanted(arguments)
     if not wanted:
-        raise UsageError(f"give {', '.join(f'--{name} FILE' for name in _FORMATS)}, or several of them")
+        raise UsageError(f"give {', '.join(f'--{name} FILE' for name in FORMATS)}, or several of them")
     check_outputs("export", arguments.log, {f"--{name}": path for name, path in wanted.items()})
 
 
 def _export(arguments: argparse.Namespace) -> int:
-    from host_sim.base.atomic_file import replacing
     from host_sim.base.extra_library import library
-    from host_sim.lab.export import frames, mcap_file
-    from host_sim.recording import frame_table
+    from host_sim.base.files import replacing
     from host_sim.recording.log_reader import read_log
 
     wanted = _wanted(arguments)
     for name in wanted:
-        if name in _LIBRARIES:
-            library(_LIBRARIES[name], "export")
-    log = read_log(arguments.log)
+        if FORMATS[name].library:
+            library(FORMATS[name].library, "export")
+    log = read_log(arguments.log, arguments.channel)
     if next(iter(log), None) is None:
         raise UsageError(f"{log.note()}: there is no frame of a robot")
-    writers: dict[str, Callable[[Path, Iterable[Recorded]], None]] = {
-        "csv": frame_table.write_csv,
-        "parquet": frame_table.write_parquet,
-        "asc": frames.write_asc,
-        "blf": frames.write_blf,
-        "mf4": frames.write_mf4,
-        "mcap": mcap_file.write_mcap,
-    }
     for name, path in wanted.items():
         with replacing(path) as part:
-            writers[name](part, frames.within_limits(log, name))
+            FORMATS[name].write(part, _within_limits(log, name))
     if note := log.note():
         print(f"octet: {note}", file=sys.stderr)
     print(f"wrote     {', '.join(map(str, wanted.values()))}")
     return 0
+
+
+def _within_limits(frames: "Iterable[Recorded]", name: str) -> "Iterator[Recorded]":
+    """Yields the frames, in order.
+
+    Raises:
+        OctetError: A frame's time exceeds the limit of the named format.
+    """
+    last_s = FORMATS[name].last_s
+    for recorded in frames:
+        if recorded.time_us > last_s * 1_000_000:
+            raise OctetError(
+                f"a frame at {recorded.time_us / 1e6:.0f} s is too late for {name.upper()}, which ends at {last_s} s:"
+                " is that log in seconds?"
+            )
+        yield recorded

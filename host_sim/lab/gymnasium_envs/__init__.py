@@ -1,6 +1,6 @@
 """The robot and its world as environments of Gymnasium and PettingZoo, for learning algorithms.
 
-Importing this module registers the environments with Gymnasium; docs/gymnasium.md describes them.
+Importing this module registers the environments with Gymnasium; docs/python.md shows how.
 
 >>> import gymnasium
 >>> import host_sim.lab.gymnasium_envs
@@ -14,4 +14,3 @@ gymnasium.register(
     entry_point=f"{__name__}.arena_env:ArenaEnv",
     vector_entry_point=f"{__name__}.arena_vector_env:ArenaVectorEnv",
 )
-gymnasium.register(id="octet/Brain-v0", entry_point=f"{__name__}.brain_env:BrainEnv")

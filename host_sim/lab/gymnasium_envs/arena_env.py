@@ -7,7 +7,7 @@ import numpy as np
 from gymnasium import error
 from numpy.typing import NDArray
 
-from host_sim.lab.gymnasium_envs import rules
+from host_sim.lab.gymnasium_envs import rendering, rules
 
 
 class ArenaEnv(gymnasium.Env[Any, Any]):
@@ -53,7 +53,7 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
     {'robot_s': 0.06, 'food_left': 3}
     """
 
-    metadata = {"render_modes": []}  # noqa: RUF012 - as Gymnasium has it
+    metadata = {"render_modes": [*rendering.MODES], "render_fps": rendering.FPS}  # noqa: RUF012 - as Gymnasium has it
 
     def __init__(
         self,
@@ -61,6 +61,8 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
         step_ticks: int | None = None,
         rewards: rules.Rewards | None = None,
         body: str = "ideal",
+        *,
+        render_mode: str | None = None,
     ) -> None:
         """Creates the environment.
 
@@ -69,15 +71,17 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
             step_ticks: Maximum number of control ticks of a step; None for as many as its actions need.
             rewards: Rewards of a step.
             body: The robots' bodies: ideal, kit, or a file as in docs/bodies.md; each episode draws its own.
+            render_mode: "rgb_array" for `render`, "human" to show each step in a window, or None.
 
         Raises:
-            gymnasium.error.Error: The limit is out of its range.
+            gymnasium.error.Error: The limit is out of its range, or there is no such mode.
             gymnasium.error.DependencyNotInstalled: The C code cannot be used.
         """
         self._rewards = rewards or rules.Rewards()
         self._worlds = rules.told_worlds(1, 1, limit_s, step_ticks, body)
         self.observation_space, self.action_space = rules.senses_space(), rules.deed_space()
-        self._runs = False
+        self._view, self.render_mode = rendering.View(render_mode, self._worlds), render_mode
+        self._runs = self._closed = False
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -87,10 +91,12 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
         Raises:
             gymnasium.error.Error: Seed or options are invalid.
         """
+        rules.check_open(self._closed)
         super().reset(seed=seed)
         chosen = rules.chosen_layout(options, 1)
         self._worlds.enter(0, *(chosen or rules.draw_environment(self.np_random, 1)))
         self._runs = True
+        self._view.follow()
         return self._senses(), self._worlds.info(0)
 
     def step(self, action: int) -> tuple[NDArray[np.int32], float, bool, bool, dict[str, Any]]:
@@ -99,13 +105,25 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
         Raises:
             gymnasium.error.ResetNeeded: No episode has begun, or the last one has ended.
             gymnasium.error.InvalidAction: The action is not in the action space.
+            gymnasium.error.ClosedEnvironmentError: The environment was closed.
         """
+        rules.check_open(self._closed)
         if not self._runs:
             raise error.ResetNeeded("no episode has begun, or it has ended: call reset")
-        reward = self._rewards.of_step(self._worlds, rules.checked_deeds(action, ()))
+        reward = self._rewards.of_step(self._worlds, rules.checked_actions(action, ()))
         terminated, truncated = (bool(ended) for (ended,) in self._worlds.ended())
         self._runs = not (terminated or truncated)
+        self._view.follow()
         return self._senses(), float(reward[0, 0]), terminated, truncated, self._worlds.info(0)
+
+    def render(self) -> rendering.Frame | None:
+        """The picture of the arena, shape (height, width, 3), with render_mode "rgb_array"; else None."""
+        return self._view.render()
+
+    def close(self) -> None:
+        """Ends the use of the environment."""
+        self._closed = True
+        self._view.close()
 
     def _senses(self) -> NDArray[np.int32]:
         return np.array(self._worlds.senses[0, 0])

@@ -10,7 +10,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from host_sim.lab.gymnasium_envs import rules
+from host_sim.lab.gymnasium_envs import rendering, rules
 
 _Batch = tuple[NDArray[np.int32], dict[str, Any]]
 _Stepped = tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]
@@ -23,15 +23,21 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
     (`AutoresetMode.NEXT_STEP`). Arena i of `reset(seed=s)` does what `ArenaEnv` does after `reset(seed=s + i)`.
     """
 
-    metadata = {"autoreset_mode": AutoresetMode.NEXT_STEP}  # noqa: RUF012 - as Gymnasium has it
+    metadata = {  # noqa: RUF012 - as Gymnasium has it
+        "autoreset_mode": AutoresetMode.NEXT_STEP,
+        "render_modes": [*rendering.MODES],
+        "render_fps": rendering.FPS,
+    }
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - each is given by name
         self,
         num_envs: int = 1,
         limit_s: float = 600.0,
         step_ticks: int | None = None,
         rewards: rules.Rewards | None = None,
         body: str = "ideal",
+        *,
+        render_mode: str | None = None,
     ) -> None:
         """Creates `num_envs` arenas; the other arguments are those of `ArenaEnv`.
 
@@ -47,6 +53,7 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
         self.single_observation_space, self.single_action_space = rules.senses_space(), rules.deed_space()
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
+        self._view, self.render_mode = rendering.View(render_mode, self._worlds), render_mode
         self._draws: list[np.random.Generator] = []
         self._ended = np.zeros(num_envs, np.bool_)
 
@@ -57,16 +64,18 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
 
         Args:
             seed: Seed of the first arena, the next number for each other one; or a seed for each.
-            options: As in `ArenaEnv`, for all arenas.
+            options: As in `ArenaEnv`, for all arenas; or `{"environments": [(seed, number), ...]}`, one for each.
 
         Raises:
             gymnasium.error.Error: Seeds or options are invalid.
         """
+        rules.check_open(self.closed)
         self._take_seeds(seed)
-        chosen = rules.chosen_layout(options, 1)
+        chosen = rules.chosen_layouts(options, self.num_envs)
         for i, draws in enumerate(self._draws):
-            self._worlds.enter(i, *(chosen or rules.draw_environment(draws, 1)))
+            self._worlds.enter(i, *(chosen[i] or rules.draw_environment(draws, 1)))
         self._ended[:] = False
+        self._view.follow()
         return self._senses(), self._infos()
 
     def step(self, actions: NDArray[np.int64]) -> _Stepped:
@@ -75,17 +84,29 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
         Raises:
             gymnasium.error.ResetNeeded: No episode has begun.
             gymnasium.error.InvalidAction: The actions are not in the action space.
+            gymnasium.error.ClosedEnvironmentError: The environment was closed.
         """
+        rules.check_open(self.closed)
         if not self._draws:
             raise error.ResetNeeded("no episode has begun: call reset")
-        worlds, deeds, anew = self._worlds, rules.checked_deeds(actions, (self.num_envs,)), self._ended
+        worlds, deeds, anew = self._worlds, rules.checked_actions(actions, (self.num_envs,)), self._ended
         rewards = self._rewards.of_step(worlds, deeds)[:, 0]  # nothing happens where an episode has ended
         for i in np.flatnonzero(anew):
             worlds.enter(int(i), *rules.draw_environment(self._draws[i], 1))
         rewards = np.where(anew, 0.0, rewards)
         terminated, truncated = (~anew & ended for ended in worlds.ended())
         self._ended = terminated | truncated
+        self._view.follow()
         return self._senses(), rewards, terminated, truncated, self._infos()
+
+    def render(self) -> tuple[rendering.Frame, ...] | None:
+        """The picture of each arena with render_mode "rgb_array"; else None."""
+        frames = (self._view.render(i) for i in range(self.num_envs))
+        return tuple(it for it in frames if it is not None) or None
+
+    def close_extras(self, **_: Any) -> None:
+        """Closes the window."""
+        self._view.close()
 
     def _take_seeds(self, seed: int | Sequence[int | None] | None) -> None:
         """Sets each arena's random generator; without a seed, an existing one continues."""

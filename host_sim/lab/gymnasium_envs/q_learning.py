@@ -4,6 +4,7 @@
 """
 
 import argparse
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,7 @@ from host_sim.sim.run_config import RunConfig
 
 STEPS, ARENAS, SECONDS = 8000, 200, 60.0
 _STATES, _DEEDS = 16, 6
-_DISCOUNT, _CURVE = 0.95, 500
+_DISCOUNT, _EXPLORES, _CURVE = 0.95, 0.02, 500
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,7 @@ def learn(seed: int, steps: int = STEPS) -> Learned:
     for step in range(steps):
         part = step / steps
         best = (values.reshape(-1, _DEEDS)[state] + 1e-9 * draws.random((ARENAS, _DEEDS))).argmax(-1)
-        explores = draws.random(ARENAS) < max(0.02, 0.5 - 1.33 * part)
+        explores = draws.random(ARENAS) < max(_EXPLORES, 0.5 - 1.33 * part)
         deeds = np.where(explores, draws.integers(_DEEDS, size=ARENAS), best)
         senses, reward, ended, truncated, _ = env.step(deeds)
         after, goes_on = _states(senses, deeds), ~(ended | truncated)
@@ -69,6 +70,19 @@ def learn(seed: int, steps: int = STEPS) -> Learned:
         food[over], state = 0, after
     ends, many = np.array(eaten).reshape(-1, 2).T
     return Learned(values.reshape(-1, _DEEDS), many, ends)
+
+
+def policy(table: NDArray[np.float64], seed: int, arenas: int) -> Callable[[NDArray[np.int32]], NDArray[np.int64]]:
+    """What a learned table does in new arenas: its best action, or seldom any, as in the end of its training."""
+    draws, last = np.random.default_rng(seed), np.zeros(arenas, np.int64)
+
+    def act(senses: NDArray[np.int32]) -> NDArray[np.int64]:
+        nonlocal last
+        explores = draws.random(arenas) < _EXPLORES
+        last = np.where(explores, draws.integers(_DEEDS, size=arenas), table[_states(senses, last)].argmax(-1))
+        return last
+
+    return act
 
 
 def food_of(profile: str) -> float:

@@ -1,6 +1,7 @@
 """Common rules of all arenas: senses, actions, rewards, and the checks of actions."""
 
 import operator
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
@@ -13,8 +14,8 @@ from host_sim.base.errors import OctetError, UsageError
 from host_sim.lab.gymnasium_envs.told_worlds import ToldWorlds, deed_count
 from host_sim.protocol.generated import FEEL, NODE_MAX
 from host_sim.world.body_kinds import body_kind
+from host_sim.world.geometry import SimParams
 from host_sim.world.layouts import Layout, NoRoomError, generate
-from host_sim.world.params import SimParams
 
 PARAMS = SimParams()
 """The dimensions of the arenas."""
@@ -54,12 +55,12 @@ class Rewards:
 
 
 def senses_space() -> spaces.Box:
-    """The space of a robot's senses; see the table in docs/gymnasium.md."""
+    """The space of a robot's senses, as `ArenaEnv` documents them."""
     return spaces.Box(np.zeros(len(_HIGHEST), np.int32), np.array(_HIGHEST, np.int32), dtype=np.int32)
 
 
 def deed_space() -> spaces.Discrete:
-    """The space of a robot's actions; see the table in docs/gymnasium.md."""
+    """The space of a robot's actions, as `ArenaEnv` documents them."""
     return spaces.Discrete(deed_count())
 
 
@@ -82,6 +83,12 @@ def told_worlds(worlds: int, robots: int, limit_s: float, step_ticks: int | None
         raise error.Error(str(fault)) from None
     except OctetError as fault:
         raise error.DependencyNotInstalled(str(fault)) from None
+
+
+def check_open(closed: bool) -> None:
+    """Raises error.ClosedEnvironmentError if an environment was closed."""
+    if closed:
+        raise error.ClosedEnvironmentError("the environment was closed: make a new one")
 
 
 def check_seconds(seconds: float) -> None:
@@ -139,19 +146,21 @@ def chosen_layout(options: dict[str, Any] | None, robots: int) -> tuple[Layout, 
         raise error.Error(f"{robots} robots are too many: {fault}") from None
 
 
-def checked_numbers(action: Any, space: spaces.MultiDiscrete) -> NDArray[np.int64]:
-    """Checks an action of several integers.
+def chosen_layouts(options: dict[str, Any] | None, arenas: int) -> Sequence[tuple[Layout, int] | None]:
+    """What `chosen_layout` returns, for each of several arenas: `{"environments": [(seed, number), ...]}`.
 
     Raises:
-        error.InvalidAction: The action is not in the space.
+        error.Error: There are no such environments, or not as many as arenas.
     """
-    given = _as_array(action)
-    if given.dtype.kind not in "iu" or not space.contains(given.astype(np.int64)):
-        raise error.InvalidAction(f"{action!r} is not an action of {space}")
-    return given.astype(np.int64)
+    if not options or "environments" not in options:
+        return [chosen_layout(options, 1)] * arenas
+    each = options["environments"]
+    if not isinstance(each, Sequence) or len(each) != arenas:
+        raise error.Error(f"environments is {each!r}: give a list of {arenas}, a seed and a number each")
+    return [chosen_layout({"environment": one}, 1) for one in each]
 
 
-def checked_deeds(actions: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
+def checked_actions(actions: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
     """Checks the actions of all robots.
 
     Raises:

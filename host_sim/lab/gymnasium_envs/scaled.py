@@ -21,7 +21,7 @@ class ScaledSenses(gymnasium.ObservationWrapper[Any, Any, Any], gymnasium.utils.
     | 7     | how near that food is: 1 at the body's centre, 0 from five metres on, or if none is |
 
     >>> import gymnasium
-    >>> env = ScaledSenses(gymnasium.make("octet:octet/Arena-v0"))
+    >>> env = ScaledSenses(gymnasium.make("octet_robot:octet/Arena-v0"))
     >>> senses, info = env.reset(seed=1)
     >>> senses in env.observation_space, senses.shape
     (True, (8,))

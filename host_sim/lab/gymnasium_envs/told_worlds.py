@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 from host_sim.base.paths import BUILD, PACKAGE
 from host_sim.world.arena import Arena
 from host_sim.world.body_kinds import BodyKind
+from host_sim.world.geometry import SimParams
 from host_sim.world.layouts import Layout
-from host_sim.world.native_library import load_native
-from host_sim.world.params import SimParams
-from host_sim.world.world_library import WORLD_HEADERS
+from host_sim.world.world_library import WORLD_HEADERS, load_native
 
 LIBRARY = BUILD / "host" / "host_sim" / "lab" / "gymnasium_envs" / "native" / "liboctet_told.so"
 HEADERS = (*WORLD_HEADERS, PACKAGE / "lab" / "gymnasium_envs" / "native" / "told.h")
@@ -28,6 +27,7 @@ class ToldWorlds:
         ticks: Shape (worlds,): control ticks since the world was entered.
         food_left: Shape (worlds,): pieces of food left.
         limit_ticks: Control ticks after which a world stops.
+        arenas: The worlds in Python; None: not entered yet.
     """
 
     def __init__(
@@ -46,8 +46,12 @@ class ToldWorlds:
             NoNativeError: The library cannot be used.
         """
         self._ffi, self._library = loaded()
+        self._given = worlds, robots, limit_ticks, step_ticks, kind
         self._kind, self.limit_ticks = kind, limit_ticks
-        self._arenas: list[Arena | None] = [None] * worlds
+        self.arenas: list[Arena | None] = [None] * worlds
+        self._entered: list[tuple[int, Layout, int] | None] = [None] * worlds
+        self._deeds: list[bytes] = []
+        self._forgotten = 0
         ffi, motion_size = self._ffi, self._library.told_motion_size()
         self._motions: Any = ffi.new("char[]", worlds * robots * motion_size)
         self._robots: Any = ffi.new("struct told_robot[]", worlds * robots)
@@ -77,14 +81,36 @@ class ToldWorlds:
         else:
             for body in arena.inside.bodies:
                 body.kit = arena.inside.ffi.NULL  # this body stays ideal
-        self._arenas[world] = arena
+        self.arenas[world] = arena
+        self._entered[world] = self._forgotten + len(self._deeds), layout, seed
         self._all[world].world = self._ffi.cast("struct world *", arena.inside.address)
         self._library.told_begin(self._ffi.addressof(self._all, world))
 
     def step(self, deeds: NDArray[np.uint8]) -> None:
         """Carries out each robot's deed, an `enum told_deed`: shape (worlds, robots), contiguous."""
+        self._deeds.append(deeds.tobytes())
         told = self._ffi.from_buffer("uint8_t[]", deeds)
-        self._library.told_step(self._all, len(self._arenas), told)
+        self._library.told_step(self._all, len(self.arenas), told)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The deeds since each world was entered: a copy repeats them, and is then equal, bit for bit."""
+        first = min((it[0] for it in self._entered if it is not None), default=0)
+        self._deeds, self._forgotten = self._deeds[first - self._forgotten :], first
+        return {"given": self._given, "entered": self._entered, "deeds": list(self._deeds), "first": first}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__init__(*state["given"])  # type: ignore[misc]
+        self._forgotten = state["first"]
+        shape = state["given"][:2]
+        for world, it in enumerate(state["entered"]):
+            if it is not None:
+                self.enter(world, *it[1:])  # each needs a world from the first step on
+        for step in range(state["first"], state["first"] + len(state["deeds"]) + 1):
+            for world, it in enumerate(state["entered"]):
+                if it is not None and it[0] == step:
+                    self.enter(world, *it[1:])
+            if step < state["first"] + len(state["deeds"]):
+                self.step(np.frombuffer(state["deeds"][step - state["first"]], np.uint8).reshape(shape))
 
     def ended(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """For each world, whether all food is eaten; and if it is not, whether its time is up."""

@@ -6,10 +6,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.base.counted import counted
-from host_sim.base.errors import UsageError
+from host_sim.base.errors import UsageError, counted
 from host_sim.cli.parsing import DEFAULT, Subparsers, add_command, file_path, number, settings
-from host_sim.lab.study.study_command import add_workers, with_progress, worker_stages, workers_of
+from host_sim.lab.study.study_command import add_workers, rehearse_all, with_progress, worker_stages, workers_of
 from host_sim.protocol.words import PROFILES
 
 if TYPE_CHECKING:
@@ -24,16 +23,17 @@ examples:
   tools/octet compare out/studies/learned --plots out/plots         the same, and plots
   tools/octet compare studies/bodies.toml                           run a study as fleets: behaviours on real bodies
   tools/octet compare article fixed never --seeds 40                the value of learning and remembering
+  tools/octet compare article mine.c                                your own behaviour
   tools/octet compare article --seeds 2 --robot emulated            the flash image, on an emulated board
   tools/octet compare article searcher --body kit                   with real motors and sensors
   tools/octet compare article forgetful --change swap-motors@env1      with the motors' plugs exchanged
 
 Exit code 1 if the study has goals and misses one.
 """
-_OF_RUNS = ("seeds", "first", "environments", "set", "body", "change", "robot", "jobs", "dask", "chunk")
+_OF_RUNS = ("seeds", "first", "environments", "set", "body", "change", "robot", "jobs", "cluster", "chunk")
 """The options that select the runs to make; the runs of a study exist already."""
 
-_SET_HELP = "change a parameter, as tools/run --help lists them; may be repeated"
+_SET_HELP = "change a parameter, as tools/run --help-all lists them; may be repeated"
 
 
 def add(commands: Subparsers) -> None:
@@ -49,7 +49,9 @@ def add(commands: Subparsers) -> None:
         stages=_stages,
     )
     add = parser.add_argument
-    words = f"folder of a study; its file, to run it as fleets, without logs; or profiles, of {', '.join(PROFILES)}"
+    words = (
+        f"folder of a study; its file, to run it as fleets, without logs; or profiles: {', '.join(PROFILES)}, MINE.C"
+    )
     add("what", nargs="+", metavar="STUDY|PROFILE", help=words)
     add(
         "--difference",
@@ -78,7 +80,7 @@ def add(commands: Subparsers) -> None:
 
 
 def _check(arguments: argparse.Namespace) -> None:
-    from host_sim.base.near_word import meant
+    from host_sim.sim.run_config import profile_error
     from host_sim.world.body_kinds import body_kind
 
     folder = Path(arguments.what[0])
@@ -90,8 +92,8 @@ def _check(arguments: argparse.Namespace) -> None:
     if arguments.coverage:
         raise UsageError("--coverage draws from the seeds of a study: name its folder")
     for word in arguments.what:
-        if word not in PROFILES:
-            raise UsageError(f"{word!r} is neither a profile nor the folder of a study; {meant(word, PROFILES)}")
+        if wrong := profile_error(word):
+            raise UsageError(f"{word!r} is neither a profile nor the folder of a study: {wrong}")
     if find_spec("_cffi_backend"):  # the plain python3 that checks a command line cannot call C
         body_kind(arguments.body)
     if len(arguments.change) > 1:
@@ -107,6 +109,7 @@ def _stages(arguments: argparse.Namespace) -> "Sequence[str]":
 def _compare(arguments: argparse.Namespace) -> int:
     from host_sim.lab.study.goals import judge
     from host_sim.lab.study.table import coverage_table, table
+    from host_sim.lab.study.used_seeds import notes
 
     folder = Path(arguments.what[0])
     if folder.suffix == ".toml":
@@ -119,7 +122,7 @@ def _compare(arguments: argparse.Namespace) -> int:
     if arguments.coverage:
         print(coverage_table(samples, arguments.coverage))
         return 0
-    print(table(samples, arguments.difference / 100))
+    print("\n".join([table(samples, arguments.difference / 100), *notes(*plan.seeds_used)]))
     if arguments.plots:
         from host_sim.lab.study.plots import draw_plots
 
@@ -146,10 +149,16 @@ def of_fleets(path: Path) -> "tuple[Plan, Sequence[Sample]]":
         UsageError: The file is not a plan, or not one for fleets.
     """
     from host_sim.lab.study.fleets import samples_of_fleets
-    from host_sim.lab.study.plan_file import read_plan
+    from host_sim.lab.study.plan import read_plan
 
-    plan = read_plan(path)
+    plan = _no_atlas(read_plan(path))
     return plan, samples_of_fleets(plan)
+
+
+def _no_atlas(plan: "Plan") -> "Plan":
+    if plan.is_atlas:
+        raise UsageError("an atlas is not compared: tools/octet study with its file prints what it shows")
+    return plan
 
 
 def of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
@@ -159,11 +168,11 @@ def of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
         UsageError: There is no study, or it has nothing to compare yet.
     """
     from host_sim.lab.study.folder import PLAN_FILE, StudyFolder
-    from host_sim.lab.study.plan_file import read_plan
+    from host_sim.lab.study.plan import read_plan
     from host_sim.lab.study.sample import samples_of
 
     folder = StudyFolder(path)
-    plan = read_plan(path / PLAN_FILE)
+    plan = _no_atlas(read_plan(path / PLAN_FILE))
     seeds = range(plan.first_seed, plan.first_seed + plan.seeds)
     samples = samples_of(folder.tables(), [it.condition for it in plan.conditions], seeds)
     if not len(samples[0].seeds):
@@ -176,7 +185,7 @@ def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]
     from host_sim.lab.study.sample import samples_of
     from host_sim.lab.study.tables import tables_of
     from host_sim.lab.study.trial import Trial
-    from host_sim.sim.run_config import RunConfig
+    from host_sim.sim.run_config import C_FILE, RunConfig
     from host_sim.world.changes import Change
 
     a = arguments
@@ -187,6 +196,10 @@ def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]
         environments=a.environments, settings=chosen, body=a.body, changes=tuple(a.change), robot=a.robot
     )
     names = list(dict.fromkeys(a.what))
-    plan = Plan(" ".join(names), [Trial(replace(shared, profile=name), name) for name in names], a.first, a.seeds)
+    configs = [
+        replace(shared, profile=name, fast=name.endswith(C_FILE) and a.robot == RunConfig.robot) for name in names
+    ]
+    plan = Plan(" ".join(names), list(map(Trial, configs, names)), a.first, a.seeds)
+    rehearse_all(plan, a.cluster)
     runs = [run for some in with_progress(plan.trials(), workers_of(a), a.chunk) for run in some]
     return plan, samples_of(tables_of(runs), names)

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from host_sim.protocol.generated import AVOIDING, ROW, Reason
+from host_sim.recording.history import pattern_of
 from host_sim.sim.native_loop import NativeLoop
 from host_sim.sim.simulation import Simulation
-from host_sim.view.history import pattern_of
 from host_sim.world.memory_kinds import Memory, sides_of
 
 _COLUMNS = [ROW.index(name) for name in ("feel", "reason", "action")]

@@ -15,8 +15,8 @@ from pathlib import Path
 
 import numpy as np
 
-from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import OctetError
+from host_sim.base.files import write_bytes
 from host_sim.lab.study.figures import FIGURES, Figure
 from host_sim.lab.study.intervals import compare, estimate
 from host_sim.lab.study.sample import Sample
@@ -28,7 +28,12 @@ _COMPARED = {
     f"{name}_compared": Figure(it.heading, "", " points" if it.counted else "", 1 if it.counted else 2, it.of)
     for name, it in FIGURES.items()
 }
-_ALL = {**FIGURES, **_COMPARED}
+_OF_MAPS = {
+    "explained": Figure("variance explained", "", " %", 0, FIGURES["finished"].of),
+    "alike": Figure("alike", "", "", 2, FIGURES["by_tour"].of),
+    "turned": Figure("alike, turned over", "", "", 2, FIGURES["by_tour"].of),
+}
+_ALL = {**FIGURES, **_COMPARED, **_OF_MAPS}
 _COLUMNS = ("condition", "figure", "value", "low", "high")
 _LINK = re.compile(rf"\[[^\]]*\]\(({TABLES}/[\w-]+\.csv)#([^),]+),(\w+)(,interval)?\)")
 _BLOCK = re.compile(r"(<!-- table ([\w-]+\.csv): ([\w ]+?) -->\n)(?:\|[^\n]*\n)*")
@@ -39,15 +44,28 @@ Rows = dict[tuple[str, str], tuple[float, float, float]]
 
 def write_table(samples: Sequence[Sample], path: Path) -> None:
     """Writes every figure of every condition, with its interval, as comma-separated values."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(_COLUMNS)
+    write_rows(rows_of(samples), path)
+
+
+def rows_of(samples: Sequence[Sample]) -> Rows:
+    """Every figure of every condition."""
+    rows: Rows = {}
     for sample in samples:
         for name, figure in FIGURES.items():
             found = {name: estimate(figure, sample), f"{name}_compared": compare(figure, sample, samples[0])}
             for key, it in found.items():
                 if not np.isnan(it.value) and not (sample is samples[0] and key != name):
-                    writer.writerow([sample.name, key, *(f"{end:.6g}" for end in (it.value, it.low, it.high))])
+                    rows[sample.name, key] = it.value, it.low, it.high
+    return rows
+
+
+def write_rows(rows: Rows, path: Path) -> None:
+    """Writes figures as comma-separated values."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(_COLUMNS)
+    for key, values in rows.items():
+        writer.writerow([*key, *(f"{it:.6g}" for it in values)])
     path.parent.mkdir(parents=True, exist_ok=True)
     write_bytes(path, text.getvalue().encode())
 
@@ -78,7 +96,8 @@ def fill(text: str, folder: Path) -> str:
 
         def cell(condition: str, figure: str) -> str:
             value, interval = (look_up(table, condition, figure, kind) for kind in ("", "interval"))
-            return value if interval == f"{value}..{value}" else f"{value} ({interval})"
+            bounds = interval.removesuffix(_ALL[figure].unit)
+            return value if interval == f"{value}..{value}" else f"{value} ({bounds})"
 
         return found[1] + _markdown(list(conditions), figures, cell)
 
@@ -86,9 +105,10 @@ def fill(text: str, folder: Path) -> str:
 
 
 def _markdown(conditions: Sequence[str], figures: Sequence[str], cell: Callable[[str, str], str]) -> str:
-    rows = [["", *(_ALL[figure].heading for figure in figures)], ["---"] * (len(figures) + 1)]
+    rows = [["", *(_ALL[figure].heading for figure in figures)]]
     rows += [[f"`{condition}`", *(cell(condition, figure) for figure in figures)] for condition in conditions]
-    return "".join(f"| {' | '.join(row)} |\n" for row in rows)
+    lines = [f"| {' | '.join(row)} |\n" for row in rows]
+    return "".join([lines[0], f"|{'---|' * (len(figures) + 1)}\n", *lines[1:]])
 
 
 def _read(path: Path) -> Rows:

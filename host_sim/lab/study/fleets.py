@@ -1,6 +1,6 @@
 """A study without logs: the robots of each condition are a fleet, which is several times as fast."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -12,22 +12,20 @@ from host_sim.lab.study.plan import Plan
 from host_sim.lab.study.sample import CURVE, TRAPPED_S, Floats, Sample
 from host_sim.lab.study.trial import knows_wrong, tour_s
 from host_sim.protocol.generated import AVOIDING
-from host_sim.sim.fleet import FleetResult, run_fleet
+from host_sim.sim.fleet import FleetResult, Frozen, run_fleet
 from host_sim.sim.run_config import RunConfig
-from host_sim.world.memory_kinds import sides_of
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import SimParams
+from host_sim.world.memory_kinds import Memory, sides_of
 
 
 def samples_of_fleets(plan: Plan) -> list[Sample]:
     """Runs each condition as a fleet; the robots behave as in runs of their own.
 
     Raises:
-        UsageError: A condition has several robots in a world, or changes.
+        UsageError: A condition has several robots in a world, or changes during its runs.
     """
-    if any(it.config.changes or (it.config.robots > 1 and not it.config.is_fleet) for it in plan.conditions):
-        raise UsageError(
-            "a fleet has neither several robots in a world nor changes: make the study with tools/octet study"
-        )
+    if any(it.config.robots > 1 and not it.config.is_fleet for it in plan.conditions):
+        raise UsageError("a fleet has no several robots in a world: make the study with tools/octet study")
     return [
         _with_tours(sample_of(it.condition, it.config, plan.first_seed, plan.seeds), it.config)
         for it in plan.conditions
@@ -42,15 +40,25 @@ def _with_tours(sample: Sample, config: RunConfig) -> Sample:
     return replace(sample, tour_s=tours.reshape(sample.robot_s.shape))
 
 
-def sample_of(name: str, config: RunConfig, first_seed: int, seeds: int) -> Sample:
+def sample_of(name: str, config: RunConfig, first_seed: int, seeds: int, memories: Sequence[Memory] = ()) -> Sample:
     """Runs robots in worlds of their own, with consecutive seeds, in this process; without tours.
 
     Several robots form a company: consecutive robots hear each other. The unit of the sample is then the company, not
     the seed.
+
+    Args:
+        name: The condition.
+        config: The run; its seed does not matter.
+        first_seed: The first seed.
+        seeds: Number of seeds.
+        memories: For each seed the memory of a robot that learns no more; by default robots learn.
     """
     each_company = config.robots
     config = replace(config, seed=first_seed, robots=seeds * each_company, worlds="own")
-    results = sorted(run_fleet(config, company=each_company), key=lambda result: (result.robot, result.environment))
+    frozen = [Frozen(seed, memory) for seed, memory in enumerate(memories, first_seed)]
+    results = sorted(
+        run_fleet(config, company=each_company, frozen=frozen), key=lambda result: (result.robot, result.environment)
+    )
     never = np.full((seeds, CURVE), np.nan)
 
     def each(of: Callable[[FleetResult], Any]) -> Floats:

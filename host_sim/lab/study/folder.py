@@ -10,10 +10,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from host_sim.base.atomic_file import replacing, write_bytes
 from host_sim.base.errors import UsageError
 from host_sim.base.extra_library import library
-from host_sim.base.regular_file import read_bytes
+from host_sim.base.files import read_bytes, replacing, write_bytes
 from host_sim.lab.study.plan import Plan
 from host_sim.lab.study.tables import COLUMNS, Row, Tables, rows_of
 from host_sim.lab.study.trial import Run
@@ -91,6 +90,8 @@ def open_study(path: Path, plan: Plan) -> Iterator[StudyFolder]:
     with run_folder(path):
         commands = {it.condition: it.config.command() for it in plan.conditions}
         about = {"format": FORMAT, "code": code_version(), "title": plan.title, "conditions": commands}
+        if own := {it.config.profile: it.config.own.source.sha256 for it in plan.conditions if it.config.own}:
+            about["sources"] = own
         if not (path / STUDY_FILE).exists():
             _make(path, about)
         folder = StudyFolder(path)

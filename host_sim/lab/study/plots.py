@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from host_sim.base.atomic_file import replacing
 from host_sim.base.extra_library import library
+from host_sim.base.files import replacing
 from host_sim.lab.study.figures import FIGURES
 from host_sim.lab.study.heiserman import CLASSES, scores
 from host_sim.lab.study.intervals import estimate

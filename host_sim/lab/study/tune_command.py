@@ -55,8 +55,8 @@ def add(commands: Subparsers) -> None:
 
 
 def _tune(arguments: argparse.Namespace) -> int:
-    from host_sim.base.atomic_file import write_bytes
-    from host_sim.cli.progress_line import ProgressLine
+    from host_sim.base.files import write_bytes
+    from host_sim.base.progress_line import ProgressLine
     from host_sim.lab.study.tuning import OF_THE_BODY, Search, Wanted, samples_of
     from host_sim.lab.workers import run_all
     from host_sim.recording.run_folder import run_folder

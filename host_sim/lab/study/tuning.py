@@ -15,10 +15,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import UsageError
 from host_sim.base.extra_library import library
-from host_sim.base.regular_file import read_text
+from host_sim.base.files import read_text, write_bytes
 from host_sim.lab.study.figures import FIGURES
 from host_sim.lab.study.fleets import sample_of
 from host_sim.lab.study.sample import Sample, joined

@@ -9,7 +9,7 @@ FORMAT = 1
 """Version number of the layout of a study's folder and tables."""
 
 _FOLDERS = ("firmware", "hal", *(f"host_sim/{name}" for name in ("client", "protocol", "sim", "world")))
-_FILES = tuple(f"host_sim/lab/study/{name}.py" for name in ("contacts", "trial"))
+_FILES = tuple(f"host_sim/lab/study/{name}.py" for name in ("atlas", "contacts", "trial"))
 _KINDS = (".c", ".h", ".dbc", ".toml", ".py")
 
 

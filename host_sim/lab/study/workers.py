@@ -1,11 +1,15 @@
 """Makes the runs of a study in other processes, all with the same version of robot and world."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from typing import TypeVar
 
 from host_sim.base.errors import OctetError
 from host_sim.lab import workers as of_lab
+from host_sim.lab.study.atlas import SeedMap, map_of
 from host_sim.lab.study.trial import Run, Trial, run_trial
 from host_sim.lab.study.version import code_version
+
+Made = TypeVar("Made")
 
 
 def run_chunk(trials: Sequence[Trial]) -> tuple[list[Run], str]:
@@ -13,13 +17,29 @@ def run_chunk(trials: Sequence[Trial]) -> tuple[list[Run], str]:
     return [run_trial(trial) for trial in trials], code_version()
 
 
-def run_all(trials: Sequence[Trial], workers: of_lab.Workers, chunk: int = 0) -> Iterator[Sequence[Run]]:
-    """Makes runs; arguments and errors are those of `host_sim.lab.workers.run_all`.
+def map_chunk(trials: Sequence[Trial]) -> tuple[list[SeedMap], str]:
+    """Makes the runs of all memories in this process; otherwise as `run_chunk`."""
+    return [map_of(trial) for trial in trials], code_version()
+
+
+def run_all(
+    work: Callable[[Sequence[Trial]], tuple[list[Made], str]],
+    trials: Sequence[Trial],
+    workers: of_lab.Workers,
+    chunk: int = 0,
+) -> Iterator[Sequence[Made]]:
+    """Makes runs; the other arguments and errors are those of `host_sim.lab.workers.run_all`.
+
+    Args:
+        work: `run_chunk` or `map_chunk`.
+        trials: The runs to make.
+        workers: The workers.
+        chunk: Number of runs to hand over at once.
 
     Raises:
         OctetError: A worker is of another version.
     """
-    for runs, code in of_lab.run_all(run_chunk, trials, workers, chunk):
+    for runs, code in of_lab.run_all(work, trials, workers, chunk):
         if code != code_version():
             raise OctetError("a worker has another version of robot or world; finished runs are kept")
         yield runs

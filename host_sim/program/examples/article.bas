@@ -74,6 +74,7 @@ return
 Initialization:
 Dist = 2.4 // a step of 12 mm
 Deg = 10
+RepeatCount = 0
 TurnLeft = 1
 TurnRight = 2
 dim Mem[8] // the robot's eight bytes, with what it has learned before

@@ -13,7 +13,8 @@ static struct block *open(struct compiler *compiler, const struct token *word, e
         compiler_fail_at(compiler, word, EXPECTED_PLAIN);   /* the next block overwrites this one */
     else
         compiler->block_count++;
-    *block = (struct block){.kind = kind, .word = *word, .otherwise = NO_PLACE, .ends = NO_PLACE};
+    *block = (struct block){.kind = kind, .word = *word, .otherwise = NO_PLACE, .ends = NO_PLACE,
+                            .goes_on = NO_PLACE};
     return block;
 }
 
@@ -28,18 +29,23 @@ static void patch(struct compiler *compiler, uint16_t jump)
         compiler->program->code[jump].operand = here(compiler);
 }
 
+/* Lets each jump of a linked list come here. */
+static void patch_all(struct compiler *compiler, uint16_t last)
+{
+    while (last != NO_PLACE) {
+        uint16_t before = compiler->program->code[last].operand;
+
+        patch(compiler, last);
+        last = before;
+    }
+}
+
 static void close(struct compiler *compiler)
 {
     struct block *block = opened(compiler);
-    struct instruction *code = compiler->program->code;
 
     patch(compiler, block->otherwise);
-    for (uint16_t jump = block->ends; jump != NO_PLACE;) {
-        uint16_t before = code[jump].operand;
-
-        patch(compiler, jump);
-        jump = before;
-    }
+    patch_all(compiler, block->ends);
     compiler->block_count--;
 }
 
@@ -47,7 +53,7 @@ void compile_unclosed(struct compiler *compiler)
 {
     static const enum program_expected ends[] = {
         [BLOCK_IF] = EXPECTED_ENDIF, [BLOCK_IF_LINE] = EXPECTED_LINE_END, [BLOCK_WHILE] = EXPECTED_WEND,
-        [BLOCK_FOR] = EXPECTED_NEXT,
+        [BLOCK_FOR] = EXPECTED_NEXT, [BLOCK_REPEAT] = EXPECTED_UNTIL,
     };
     const struct block *block = opened(compiler);
 
@@ -161,6 +167,27 @@ static void compile_for(struct compiler *compiler, const struct token *word)
     block->otherwise = compiler_emit(compiler, OP_JUMP_IF_NOT, NO_PLACE, 0);
 }
 
+static void compile_repeat(struct compiler *compiler, const struct token *word)
+{
+    open(compiler, word, BLOCK_REPEAT)->top = here(compiler);
+}
+
+/* Compiles BREAK and CONTINUE, which leave the ifs inside their loop. */
+static void compile_leave(struct compiler *compiler, const struct token *word, bool goes_on)
+{
+    struct block *block = opened(compiler);
+    uint16_t *jumps;
+
+    while (block && (block->kind == BLOCK_IF || block->kind == BLOCK_IF_LINE))
+        block = block > compiler->blocks ? block - 1 : NULL;
+    if (!block) {
+        compiler_fail_at(compiler, word, EXPECTED_LOOP);
+        return;
+    }
+    jumps = goes_on ? &block->goes_on : &block->ends;
+    *jumps = compiler_emit(compiler, OP_JUMP, *jumps, 0);
+}
+
 static void end_for(struct compiler *compiler, const struct block *block)
 {
     if (compiler->token.kind == TOKEN_WORD && !compiler_ends_statement(compiler))
@@ -181,9 +208,14 @@ static void compile_end(struct compiler *compiler, const struct token *word, enu
         compiler_fail_at(compiler, word, otherwise);
         return;
     }
+    patch_all(compiler, block->goes_on);
     if (kind == BLOCK_FOR)
         end_for(compiler, block);
-    if (kind != BLOCK_IF)
+    if (kind == BLOCK_REPEAT) {
+        (void)compiler_emit(compiler, OP_LINE, word->line, 0);
+        compile_expression(compiler);
+        (void)compiler_emit(compiler, OP_JUMP_IF_NOT, block->top, 0);
+    } else if (kind != BLOCK_IF)
         (void)compiler_emit(compiler, OP_JUMP, block->top, 0);
     close(compiler);
 }
@@ -209,6 +241,16 @@ void compile_block(struct compiler *compiler, const struct token *word, int keyw
         break;
     case KEY_FOR:
         compile_for(compiler, word);
+        break;
+    case KEY_REPEAT:
+        compile_repeat(compiler, word);
+        break;
+    case KEY_UNTIL:
+        compile_end(compiler, word, BLOCK_REPEAT, EXPECTED_REPEAT);
+        break;
+    case KEY_BREAK:
+    case KEY_CONTINUE:
+        compile_leave(compiler, word, keyword == KEY_CONTINUE);
         break;
     default:
         compile_end(compiler, word, BLOCK_FOR, EXPECTED_FOR);

@@ -11,6 +11,7 @@ bool programmed_brain_start(struct brain *brain, uint8_t profile, uint32_t seed)
     if (profile != PROFILE_ARTICLE || !brain_start(brain, profile, seed))
         return false;
     program_begin(programmed_program(brain));
+    brain->wants_ranges = programmed_program(brain)->measures;
     return true;
 }
 

@@ -8,6 +8,12 @@ static void step(struct program *program, int cell, double number)
         program->trace[program->trace_count++] = (struct program_step){program->line, (int16_t)cell, number};
 }
 
+static void give(struct program *program, unsigned cell, double number)
+{
+    program->cells[cell] = number;
+    program->written[cell] = true;
+}
+
 static void learn(struct machine *machine, unsigned cell, double number)
 {
     unsigned pattern = cell - machine->program->memory;
@@ -31,7 +37,7 @@ void machine_put(struct machine *machine, unsigned cell, double number)
         learn(machine, cell, number);
     if (remembered && machine->brain->frozen)
         return;
-    program->cells[cell] = number;
+    give(program, cell, number);
     step(program, (int)cell, number);
 }
 
@@ -40,7 +46,7 @@ void machine_take_memory(struct machine *machine)
     struct program *program = machine->program;
 
     for (unsigned p = 0; program->learns && p < CELL_COUNT; p++)
-        program->cells[program->memory + p] = machine->brain->memory.cell[p];
+        give(program, program->memory + p, machine->brain->memory.cell[p]);
 }
 
 /* The cell of an array that the index on the stack selects; negative if there is no such cell. */
@@ -57,7 +63,9 @@ static int cell_of(struct machine *machine, uint16_t name)
 
 static void load(struct machine *machine, int cell)
 {
-    if (cell >= 0)
+    if (cell >= 0 && !machine->program->written[cell])
+        machine_fail_unwritten(machine, (unsigned)cell);
+    else if (cell >= 0)
         machine_push(machine, machine->program->cells[cell], cell);
 }
 
@@ -97,7 +105,7 @@ void machine_clear(struct machine *machine, const struct program_name *array)
 {
     for (unsigned i = 0; i < array->size; i++)
         if (!machine->program->learns || array->place != machine->program->memory)
-            machine->program->cells[array->place + i] = 0;
+            give(machine->program, array->place + i, 0);
 }
 
 static void begin_line(struct program *program, uint16_t line)

@@ -1,9 +1,10 @@
-#include "host_sim/program/native/code.h"
+#include "host_sim/program/native/machine.h"
 
 const struct known_word CODE_FUNCTIONS[] = {
     [DO_RANDOM] = {"random", 1, 1}, [DO_FEEL] = {"rfeel", 0, 0}, [DO_LOOK] = {"rlook", 0, 1},
     [DO_BEACON] = {"rbeacon", 1, 1}, [DO_GPS_X] = {"rgpsx", 0, 0}, [DO_GPS_Y] = {"rgpsy", 0, 0},
-    [DO_COMPASS] = {"rcompass", 0, 0}, [DO_BUMPER] = {"rbumper", 0, 0}, [DO_ABS] = {"abs", 1, 1},
+    [DO_COMPASS] = {"rcompass", 0, 0}, [DO_BUMPER] = {"rbumper", 0, 0}, [DO_RANGE] = {"rrange", 0, 1},
+    [DO_ABS] = {"abs", 1, 1},
     [DO_INT] = {"int", 1, 1},
 };
 const unsigned CODE_FUNCTION_COUNT = sizeof CODE_FUNCTIONS / sizeof *CODE_FUNCTIONS;
@@ -21,6 +22,21 @@ static const struct {
     {"black", 0}, {"blue", 1}, {"green", COLOUR_GREEN}, {"red", 4}, {"yellow", 14}, {"white", COLOUR_WHITE},
     {"true", 1}, {"false", 0},
 };
+
+const struct foreign_word CODE_FOREIGN[] = {
+    {"line", EXPECTED_NO_DRAWING}, {"lineto", EXPECTED_NO_DRAWING}, {"linewidth", EXPECTED_NO_DRAWING},
+    {"gotoxy", EXPECTED_NO_DRAWING}, {"rectangle", EXPECTED_NO_DRAWING}, {"rectanglewh", EXPECTED_NO_DRAWING},
+    {"circle", EXPECTED_NO_DRAWING}, {"circlewh", EXPECTED_NO_DRAWING}, {"arc", EXPECTED_NO_DRAWING},
+    {"setpixel", EXPECTED_NO_DRAWING}, {"setcolor", EXPECTED_NO_DRAWING}, {"floodfill", EXPECTED_NO_DRAWING},
+    {"clearscr", EXPECTED_NO_DRAWING}, {"drawshape", EXPECTED_NO_DRAWING}, {"rpen", EXPECTED_NO_DRAWING},
+    {"getkey", EXPECTED_NO_KEYS}, {"waitkey", EXPECTED_NO_KEYS}, {"waitnokey", EXPECTED_NO_KEYS},
+    {"keydown", EXPECTED_NO_KEYS}, {"inkey", EXPECTED_NO_KEYS}, {"input", EXPECTED_NO_KEYS},
+    {"readmouse", EXPECTED_NO_KEYS}, {"rsense", EXPECTED_NO_SENSOR}, {"rground", EXPECTED_NO_SENSOR},
+    {"rdfeel", EXPECTED_NO_SENSOR}, {"rchargelevel", EXPECTED_NO_SENSOR}, {"rinvisible", EXPECTED_NO_SETTING},
+    {"rspeed", EXPECTED_NO_SETTING}, {"rslip", EXPECTED_NO_SETTING}, {"rcommport", EXPECTED_NO_SETTING},
+    {"rcommand", EXPECTED_NO_SETTING},
+};
+const unsigned CODE_FOREIGN_COUNT = sizeof CODE_FOREIGN / sizeof *CODE_FOREIGN;
 
 static char small(char letter)
 {

@@ -5,7 +5,9 @@
 static const struct known_word keywords[] = {
     [KEY_IF] = {"if", 0, 0}, [KEY_ELSEIF] = {"elseif", 0, 0}, [KEY_ELSE] = {"else", 0, 0},
     [KEY_ENDIF] = {"endif", 0, 0}, [KEY_WHILE] = {"while", 0, 0}, [KEY_WEND] = {"wend", 0, 0},
-    [KEY_FOR] = {"for", 0, 0}, [KEY_NEXT] = {"next", 0, 0}, [KEY_GOSUB] = {"gosub", 0, 0},
+    [KEY_FOR] = {"for", 0, 0}, [KEY_NEXT] = {"next", 0, 0}, [KEY_REPEAT] = {"repeat", 0, 0},
+    [KEY_UNTIL] = {"until", 0, 0}, [KEY_BREAK] = {"break", 0, 0}, [KEY_CONTINUE] = {"continue", 0, 0},
+    [KEY_GOTO] = {"goto", 0, 0}, [KEY_PRINT] = {"print", 0, 0}, [KEY_GOSUB] = {"gosub", 0, 0},
     [KEY_RETURN] = {"return", 0, 0}, [KEY_CALL] = {"call", 0, 0}, [KEY_SUB] = {"sub", 0, 0},
     [KEY_END] = {"end", 0, 0}, [KEY_DIM] = {"dim", 0, 0}, [KEY_THEN] = {"then", 0, 0}, [KEY_TO] = {"to", 0, 0},
     [KEY_STEP] = {"step", 0, 0}, [KEY_AND] = {"and", 0, 0}, [KEY_OR] = {"or", 0, 0}, [KEY_NOT] = {"not", 0, 0},
@@ -146,6 +148,15 @@ uint16_t compiler_name(struct compiler *compiler, const struct token *word, enum
         made->given = program->learns = true;
     }
     return program->name_count++;
+}
+
+enum program_expected compiler_foreign(const struct compiler *compiler, const struct token *word,
+                                       enum program_expected otherwise)
+{
+    for (unsigned i = 0; i < CODE_FOREIGN_COUNT; i++)
+        if (code_same(compiler->program->text + word->at, word->len, CODE_FOREIGN[i].name))
+            return CODE_FOREIGN[i].instead;
+    return otherwise;
 }
 
 bool compiler_ends_statement(const struct compiler *compiler)

@@ -6,11 +6,11 @@ static const struct {
     enum operation operation;
     unsigned strength;
 } operators[] = {
-    {"or", DO_OR, 1}, {"and", DO_AND, 2}, {"=", DO_EQUAL, 4}, {"==", DO_EQUAL, 4}, {"<>", DO_UNEQUAL, 4},
-    {"!=", DO_UNEQUAL, 4}, {"<", DO_LESS, 4}, {"<=", DO_LESS_EQUAL, 4}, {">", DO_GREATER, 4},
-    {">=", DO_GREATER_EQUAL, 4}, {"|", DO_BIT_OR, 5}, {"&", DO_BIT_AND, 6}, {"<<", DO_SHIFT_LEFT, 7},
-    {">>", DO_SHIFT_RIGHT, 7}, {"+", DO_ADD, 8}, {"-", DO_SUBTRACT, 8}, {"*", DO_MULTIPLY, 9}, {"/", DO_DIVIDE, 9},
-    {"%", DO_MODULO, 9}, {"mod", DO_MODULO, 9},
+    {"or", DO_OR, 1}, {"||", DO_OR, 1}, {"and", DO_AND, 2}, {"&&", DO_AND, 2}, {"=", DO_EQUAL, 4},
+    {"==", DO_EQUAL, 4}, {"<>", DO_UNEQUAL, 4}, {"!=", DO_UNEQUAL, 4}, {"<", DO_LESS, 4}, {"<=", DO_LESS_EQUAL, 4},
+    {">", DO_GREATER, 4}, {">=", DO_GREATER_EQUAL, 4}, {"|", DO_BIT_OR, 5}, {"&", DO_BIT_AND, 6},
+    {"<<", DO_SHIFT_LEFT, 7}, {">>", DO_SHIFT_RIGHT, 7}, {"+", DO_ADD, 8}, {"-", DO_SUBTRACT, 8},
+    {"*", DO_MULTIPLY, 9}, {"/", DO_DIVIDE, 9}, {"%", DO_MODULO, 9}, {"mod", DO_MODULO, 9},
 };
 
 enum { ANY = 1, NOT = 3, SIGNED = 10 };   /* precedences; NOT: of the operand of NOT */
@@ -71,8 +71,11 @@ static enum program_expected expected_values(const struct known_word *known)
 unsigned compile_values(struct compiler *compiler, const struct token *word, const struct known_word *known,
                         const char *close)
 {
-    unsigned count = !close || compiler_takes(compiler, "(") ? compile_arguments(compiler, close) : 0;
+    unsigned count;
 
+    if (close)
+        compiler_expect(compiler, "(", EXPECTED_BRACKETS);
+    count = compile_arguments(compiler, close);
     if (count < known->least || count > known->most)
         compiler_fail_at(compiler, word, expected_values(known));
     return count;
@@ -82,6 +85,7 @@ static void function(struct compiler *compiler, const struct token *word, int nu
 {
     unsigned count = compile_values(compiler, word, &CODE_FUNCTIONS[number], ")");
 
+    compiler->program->measures = compiler->program->measures || number == DO_RANGE;
     (void)compiler_emit(compiler, OP_FUNCTION, (unsigned)number, count);
 }
 
@@ -124,7 +128,7 @@ struct instruction compile_place(struct compiler *compiler, const struct token *
     if (place >= 0)
         return (struct instruction){.op = gives ? OP_STORE_PARAMETER : OP_LOAD_PARAMETER, .operand = (uint16_t)place};
     if (token_is(compiler->program->text, &compiler->token, "("))
-        compiler_fail_at(compiler, word, EXPECTED_VALUE);
+        compiler_fail_at(compiler, word, compiler_foreign(compiler, word, EXPECTED_VALUE));
     name = &compiler->program->names[compiler_name(compiler, word, NAME_VARIABLE)];
     name->given = name->given || gives;
     return (struct instruction){.op = gives ? OP_STORE : OP_LOAD, .operand = name->place};
@@ -162,7 +166,7 @@ static void value(struct compiler *compiler)
     } else if (compiler->token.kind == TOKEN_WORD) {
         word_value(compiler);
     } else {
-        compiler_fail(compiler, EXPECTED_VALUE);
+        compiler_fail(compiler, compiler->token.kind == TOKEN_TEXT ? EXPECTED_NO_TEXT : EXPECTED_VALUE);
     }
 }
 
@@ -171,6 +175,9 @@ static void signed_value(struct compiler *compiler)
     if (compiler_takes(compiler, "-")) {
         expression(compiler, SIGNED);
         (void)compiler_emit(compiler, OP_UNARY, DO_NEGATE, 0);
+    } else if (compiler_takes(compiler, "!")) {
+        expression(compiler, SIGNED);
+        (void)compiler_emit(compiler, OP_UNARY, DO_NOT, 0);
     } else if (compiler_is_word(compiler, "not")) {
         compiler_advance(compiler);
         expression(compiler, NOT);

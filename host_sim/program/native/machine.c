@@ -13,6 +13,15 @@ static void binary(struct machine *machine, enum operation operation)
     machine_push(machine, machine_operate(machine, operation, a, b), NO_CELL);
 }
 
+/* Twice the value on top. */
+static void copy(struct machine *machine)
+{
+    double value = machine_pop(machine);
+
+    machine_push(machine, value, NO_CELL);
+    machine_push(machine, value, NO_CELL);
+}
+
 static void loop_on(struct machine *machine)
 {
     double by = machine_pop(machine), limit = machine_pop(machine), at = machine_pop(machine);
@@ -70,6 +79,9 @@ static bool leads(struct machine *machine, const struct instruction *it)
     case OP_FOR:
         loop_on(machine);
         return true;
+    case OP_GOTO:
+        program->at = program->names[it->operand].place;
+        return true;
     case OP_GOSUB:
     case OP_CALL:
         call(machine, it);
@@ -88,18 +100,43 @@ static bool leads(struct machine *machine, const struct instruction *it)
     }
 }
 
+/* Executes what shows or prints. Returns false for any other instruction. */
+static bool tells(struct machine *machine, const struct instruction *it)
+{
+    const char *text = machine->program->text + it->operand;
+    char character = (char)it->operand;
+
+    switch (it->op) {
+    case OP_SHOW_NUMBER:
+        machine_show_number(machine, machine_pop(machine));
+        return true;
+    case OP_SHOW_TEXT:
+        machine_show_text(machine, text, it->count);
+        return true;
+    case OP_PRINT_NUMBER:
+        machine_print_number(machine, machine_pop(machine));
+        return true;
+    case OP_PRINT_TEXT:
+        machine_print_text(machine, text, it->count);
+        return true;
+    case OP_PRINT_CHARACTER:
+        machine_print_text(machine, &character, 1);
+        return true;
+    default:
+        return false;
+    }
+}
+
 static void execute(struct machine *machine, const struct instruction *it)
 {
-    if (machine_moves(machine, it) || leads(machine, it))
+    if (machine_moves(machine, it) || leads(machine, it) || tells(machine, it))
         return;
     if (it->op == OP_FUNCTION)
         machine_function(machine, (enum function)it->operand, it->count);
     else if (it->op == OP_COMMAND)
         machine_command(machine, (enum deed)it->operand, it->count);
-    else if (it->op == OP_SHOW_NUMBER)
-        machine_show_number(machine, machine_pop(machine));
-    else if (it->op == OP_SHOW_TEXT)
-        machine_show_text(machine, machine->program->text + it->operand, it->count);
+    else if (it->op == OP_COPY)
+        copy(machine);
     else if (it->op == OP_DIM)
         machine_clear(machine, &machine->program->names[it->operand]);
     else

@@ -47,6 +47,18 @@ static const char *const expected_words[] = {
     [EXPECTED_ONE_VALUE] = "exactly one value with it, such as 2.5",
     [EXPECTED_NO_VALUE] = "no value with it",
     [EXPECTED_PLACE] = "two or three values with it: x, y and a heading",
+    [EXPECTED_UNTIL] = "an until for it",
+    [EXPECTED_REPEAT] = "a repeat before it",
+    [EXPECTED_LOOP] = "a while, repeat or for around it",
+    [EXPECTED_NO_GOTO] = "return: goto does not leave a sub",
+    [EXPECTED_BRACKETS] = "brackets after the function, as in rFeel()",
+    [EXPECTED_WRITTEN] = "a value for it before it is read",
+    [EXPECTED_ANGLE] = "-90 to 90 degrees for rRange",
+    [EXPECTED_NO_TEXT] = "a number: RobotBASIC has texts as values, this language only in print and xyString",
+    [EXPECTED_NO_DRAWING] = "another command: RobotBASIC draws with this one; print and xyString show values here",
+    [EXPECTED_NO_KEYS] = "another command: RobotBASIC reads keys with this one; a program here has only sensors",
+    [EXPECTED_NO_SENSOR] = "rFeel(), rBumper() or rRange(0): this robot has no such sensor of RobotBASIC",
+    [EXPECTED_NO_SETTING] = "another command: RobotBASIC sets up its simulator with this one; a run has options",
 };
 
 const char *program_expected(uint8_t expected)

@@ -1,4 +1,4 @@
-/* program.h: a robot's brain in the language of the article's listing. docs/language.md has the language.
+/* program.h: a robot's brain in the language of the article's listing. docs/article.md has the language.
  *
  * A program is compiled into instructions for a machine with a stack. The machine runs until the program gives the
  * robot an action, and continues from there when the action has ended: it never waits, and needs no thread. The
@@ -23,6 +23,7 @@ enum {
     PROGRAM_TRACE_MAX = 256,     /* steps of the last decision that are kept */
     PROGRAM_SHOWN_MAX = 16,      /* places of the screen with a text */
     PROGRAM_SHOWN_TEXT = 48,     /* bytes of such a text, with a 0 after it */
+    PROGRAM_PRINTED_MAX = 4096,  /* bytes that are printed, with a 0 after them */
     PROGRAM_WORD_MAX = 32        /* bytes of a word in a mistake, with a 0 after it */
 };
 
@@ -34,7 +35,9 @@ enum program_expected {
     EXPECTED_DIM, EXPECTED_NEW_NAME, EXPECTED_SIZE, EXPECTED_PLAIN, EXPECTED_SHORTER, EXPECTED_END, EXPECTED_INDEX,
     EXPECTED_SIDE, EXPECTED_ACTION, EXPECTED_RETURN, EXPECTED_GOSUB, EXPECTED_ARGUMENTS, EXPECTED_DIVISOR,
     EXPECTED_DEGREES, EXPECTED_WAY, EXPECTED_DELAY, EXPECTED_CHOICES, EXPECTED_AHEAD, EXPECTED_OPEN,
-    EXPECTED_ONE_VALUE, EXPECTED_NO_VALUE, EXPECTED_PLACE, EXPECTED_COUNT
+    EXPECTED_ONE_VALUE, EXPECTED_NO_VALUE, EXPECTED_PLACE, EXPECTED_UNTIL, EXPECTED_REPEAT, EXPECTED_LOOP,
+    EXPECTED_NO_GOTO, EXPECTED_BRACKETS, EXPECTED_WRITTEN, EXPECTED_ANGLE, EXPECTED_NO_TEXT, EXPECTED_NO_DRAWING,
+    EXPECTED_NO_KEYS, EXPECTED_NO_SENSOR, EXPECTED_NO_SETTING, EXPECTED_COUNT
 };
 
 struct program_mistake {
@@ -44,7 +47,7 @@ struct program_mistake {
 };
 
 struct instruction {
-    uint8_t op;         /* an enum op of code.h */
+    uint8_t op;         /* an enum op of machine.h */
     uint8_t count;      /* of arguments */
     uint16_t operand;
 };
@@ -94,6 +97,7 @@ struct program {
     uint16_t code_count, number_count, name_count, cell_count;
     uint16_t memory;                       /* the first cell of Mem, */
     bool learns;                           /* if the program has it */
+    bool measures;                         /* the program asks for distances */
     struct program_mistake mistake;
 
     /* program_begin resets everything from here on. */
@@ -104,6 +108,9 @@ struct program {
     struct program_value stack[PROGRAM_STACK_MAX];
     struct program_call calls[PROGRAM_CALLS_MAX];
     struct program_shown shown[PROGRAM_SHOWN_MAX];
+    bool written[PROGRAM_CELLS_MAX];       /* the cell has had a value */
+    char printed[PROGRAM_PRINTED_MAX];     /* the first bytes of what PRINT has printed */
+    uint16_t printed_len;
     struct program_step trace[PROGRAM_TRACE_MAX];
     uint16_t trace_count;
     double before[PROGRAM_CELLS_MAX];      /* the cells when the last decision began */

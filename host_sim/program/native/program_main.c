@@ -1,5 +1,6 @@
 /* The robot as a process, its brain a program: octet-program FILE, then the arguments of octet-robot. */
 #include <stdio.h>
+#include <string.h>
 
 #include "host_sim/program/native/programmed.h"
 
@@ -40,10 +41,28 @@ struct program *programmed_program(struct brain *brain)
     return &program;
 }
 
+/* Hands on what has been printed since the last call, each line after a > and a blank. */
+static void hand_on(const char *printed)
+{
+    static size_t known;
+    const char *end;
+
+    known = known <= strlen(printed) ? known : 0;   /* the program has begun anew */
+    end = strrchr(printed + known, '\n');
+    for (const char *line = printed + known; end && line <= end; line = strchr(line, '\n') + 1)
+        printf("> %.*s\n", (int)(strchr(line, '\n') - line), line);
+    if (end) {
+        known = (size_t)(end + 1 - printed);
+        (void)fflush(stdout);
+    }
+}
+
 /* Says once that it has stopped. */
 void programmed_decided(const struct program *decided)
 {
     static uint8_t known = PROGRAM_RUNS;
+
+    hand_on(programmed_printed(decided));
 
     if (decided->state != known && decided->state != PROGRAM_RUNS)
         tell("the program");

@@ -22,6 +22,9 @@ enum { PROGRAMMED_TOLD_MAX = 1024 };
 void programmed_tell(const struct program *program, char told[PROGRAMMED_TOLD_MAX]);
         /* The state of a program in one line for people: its mistake, that it has ended, what it shows. */
 
+const char *programmed_printed(const struct program *program);
+        /* The first bytes of what it has printed, in lines. */
+
 struct program *programmed_program(struct brain *brain);
         /* The program that is this brain. Exactly one implementation is linked in. */
 

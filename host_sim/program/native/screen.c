@@ -32,9 +32,8 @@ static size_t put_parts(char *to, uint32_t parts)
     return count;
 }
 
-void machine_show_number(struct machine *machine, double number)
+static size_t put_number(char text[DIGITS], double number)
 {
-    char text[DIGITS];
     size_t len = 0;
     double size = number < 0 ? -number : number;
     uint32_t whole = (uint32_t)machine_whole(size);
@@ -47,8 +46,32 @@ void machine_show_number(struct machine *machine, double number)
     if (number < 0 && (whole > 0 || parts > 0))
         text[len++] = '-';
     len += put_whole(text + len, whole);
-    len += put_parts(text + len, parts);
-    machine_show_text(machine, text, len);
+    return len + put_parts(text + len, parts);
+}
+
+void machine_show_number(struct machine *machine, double number)
+{
+    char text[DIGITS];
+
+    machine_show_text(machine, text, put_number(text, number));
+}
+
+void machine_print_number(struct machine *machine, double number)
+{
+    char text[DIGITS];
+
+    machine_print_text(machine, text, put_number(text, number));
+}
+
+void machine_print_text(struct machine *machine, const char *text, size_t len)
+{
+    struct program *program = machine->program;
+    size_t room = PROGRAM_PRINTED_MAX - 1u - program->printed_len;
+
+    len = len < room ? len : room;
+    memcpy(program->printed + program->printed_len, text, len);
+    program->printed_len = (uint16_t)(program->printed_len + len);
+    program->printed[program->printed_len] = '\0';
 }
 
 void machine_show_text(struct machine *machine, const char *text, size_t len)

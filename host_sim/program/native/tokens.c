@@ -1,5 +1,6 @@
-#include "host_sim/program/native/tokens.h"
+#include "host_sim/program/native/compiler.h"
 
+#include <limits.h>
 #include <string.h>
 
 /* Typographic forms of quote, minus and space in printed listings. */
@@ -15,7 +16,8 @@ enum { ASCII_MAX = 0x7F };   /* letters of other alphabets have bytes above it *
 
 static const double FINEST = 1e9;   /* further decimals have no effect */
 
-static const char *const PAIRS[] = {"==", "<>", "!=", "<=", ">=", "<<", ">>", "++", "--"};
+static const char *const PAIRS[] = {"==", "<>", "!=", "<=", ">=", "<<", ">>", "++", "--", "+=", "-=", "*=", "/=",
+                                    "&&", "||"};
 
 /* The character here, and how many bytes it takes. */
 static char character(const char *text, size_t *bytes)
@@ -46,7 +48,7 @@ static const char *skip_blanks(const char *at)
     for (;;) {
         char c = character(at, &bytes);
 
-        if (c == '/' && at[1] == '/')
+        if ((c == '/' && at[1] == '/') || c == '\'')
             bytes = strcspn(at, "\n");
         else if (c != ' ' && c != '\t' && c != '\r')
             return at;
@@ -54,11 +56,34 @@ static const char *skip_blanks(const char *at)
     }
 }
 
+static int digit(char c)
+{
+    if (is_digit(c))
+        return c - '0';
+    c = (char)(c | 0x20);   /* a small letter */
+    return c >= 'a' && c <= 'f' ? c - 'a' + 10 : INT_MAX;
+}
+
+/* 0x1F and 0%1110. Returns 0 if it is neither. */
+static size_t read_based(const char *at, double *number)
+{
+    int base = at[0] != '0' ? 0 : at[1] == 'x' || at[1] == 'X' ? 16 : at[1] == '%' ? 2 : 0;
+    size_t len = 2;
+
+    if (base == 0 || digit(at[len]) >= base)
+        return 0;
+    for (*number = 0; digit(at[len]) < base; len++)
+        *number = *number * base + digit(at[len]);
+    return len;
+}
+
 static size_t read_number(const char *at, double *number)
 {
     double value = 0, parts = 1;
-    size_t len = 0;
+    size_t len = read_based(at, number);
 
+    if (len > 0)
+        return len;
     for (; is_digit(at[len]); len++)
         value = value * 10 + (at[len] - '0');
     if (at[len] == '.' && is_digit(at[len + 1]))

@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-#include "firmware/memory/memory_kind.h"
+#include "firmware/memory/memory.h"
+#include "firmware/pattern.h"
 #include "firmware/robot.h"
 
 struct fleet_core {
@@ -81,6 +82,17 @@ static void note_contact(struct fleet_robot *robot, enum reason reason)
         robot->blocked_longest = robot->blocked_now;
 }
 
+static void note_met(struct fleet_robot *robot)
+{
+    uint32_t pattern = pattern_of(robot->core->robot.brain.tried_feel);
+    unsigned bit = 0;
+
+    for (; robot->met >> bit & 0xFu; bit += 4)
+        if ((robot->met >> bit & 0xFu) == pattern)
+            return;
+    robot->met |= pattern << bit;
+}
+
 /* Has the core decide by its senses, and carries out its decision in the world. */
 static void act(struct fleet_robot *robot)
 {
@@ -92,6 +104,7 @@ static void act(struct fleet_robot *robot)
     robot->action = out.drive.action;
     robot->denied += out.denied;
     note_contact(robot, out.drive.reason);
+    note_met(robot);
     if (robot->known_ticks == 0 && (out.store || robot->tick == 0))
         note_known(robot);
     if (out.drive.eat)

@@ -35,6 +35,8 @@ struct fleet_robot {
     uint32_t blocked_ticks;           /* ticks of all of them, of each at most FLEET_TRAPPED_TICKS, */
     uint32_t blocked_longest;         /* of the longest, */
     uint32_t blocked_now;             /* and of the one that goes on */
+    uint32_t met;                     /* patterns at which it was blocked, in the order in which it first was: four
+                                         bits each, from bit 0 on. No other cell of its memory made a difference */
 };
 
 size_t fleet_core_size(void);
@@ -56,5 +58,8 @@ size_t fleet_run_alone(struct fleet_robot robots[], size_t count, uint32_t ticks
 
 size_t fleet_run_together(struct fleet_robot robots[], size_t count, uint32_t ticks);
         /* The same for robots that share a world: they sense each other, tick by tick. */
+
+const char *own_failure(void);
+        /* Of robots that are linked with a user's behaviour, only: as in host_sim/program/own/guard.h. */
 
 #endif

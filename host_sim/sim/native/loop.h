@@ -20,6 +20,7 @@ enum {
     LOOP_ASK_LINES = 32,     /* of the log, in which ask asks one robot */
     LOOP_KINDS_MAX = 32,     /* of reports of one robot: an identifier, and which page of it */
     LOOP_REASONS = 16,
+    LOOP_HEARD = 16,         /* checks over senses that are kept */
     LOOP_POSE = 3
 };
 
@@ -29,8 +30,13 @@ struct loop_robot {
     uint32_t senses_id;
     uint32_t drive_id;
     uint32_t heartbeat_id;
+    uint32_t health_id;
     uint8_t senses_counter;           /* of the last SENSES */
-    struct frame senses;              /* the last SENSES to a robot in this process */
+    struct frame senses;              /* the last SENSES */
+    uint32_t commands;                /* the check in HEALTH's held over what it was told before the block, */
+    uint32_t heard[LOOP_HEARD];       /* and over the senses that it has answered; the last is at heard_count - 1, */
+    uint32_t heard_count;             /* modulo LOOP_HEARD. 1 at least */
+    uint8_t driven[8];                /* the last answer to them; zeros for none */
     bool halted;                      /* it has stopped by itself, and answers with drives at rest */
     uint8_t action;                   /* the last drive's */
     uint32_t begun[LOOP_REASONS];     /* actions begun, by reason */

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "hal/flash_store/crc32.h"
 #include "hal/protocol/e2e.h"
 #include "octet.h"
 
@@ -34,7 +35,26 @@ bool robot_wire_drive(const struct frame *frame, uint8_t tick, struct drive *out
         && octet_drive_reason_is_in_range(message.reason);
 }
 
-enum { KIND = 1, CONTENT = 2 };   /* bytes: counter (low half) and page (high half); first byte of the content */
+/* The check over the senses up to the last ones, and over the drives before them. */
+static uint32_t heard_now(const struct loop_robot *robot)
+{
+    uint8_t both[OCTET_SENSES_LENGTH];
+
+    for (unsigned i = 1; i < OCTET_SENSES_LENGTH; i++)
+        both[i] = robot->senses.data[i] ^ robot->driven[i];
+    return crc32_more(robot->heard[(robot->heard_count - 1) % LOOP_HEARD], &both[1], OCTET_SENSES_LENGTH - 1u);
+}
+
+void robot_wire_hear_answer(struct loop_robot *robot, const struct frame *drive)
+{
+    uint32_t heard = heard_now(robot);
+
+    robot->heard[robot->heard_count++ % LOOP_HEARD] = heard;
+    memcpy(robot->driven, drive->data, sizeof robot->driven);
+}
+
+enum { KIND = 1, CONTENT = 2, HELD = 6 };   /* bytes: counter (low half) and page (high half); first byte of the
+                                               content, and of HEALTH's held */
 
 static bool same_kind(const struct frame *a, const struct frame *b)
 {
@@ -50,16 +70,19 @@ static struct frame *known(struct loop_robot *robot, const struct frame *frame)
     return NULL;
 }
 
-static bool says_the_same(const struct frame *before, const struct frame *frame)
+/* HEALTH's held changes with each tick. */
+static bool says_the_same(const struct loop_robot *robot, const struct frame *before, const struct frame *frame)
 {
-    return memcmp(before->data + CONTENT, frame->data + CONTENT, sizeof frame->data - CONTENT) == 0;
+    size_t end = frame->id == robot->health_id ? HELD : sizeof frame->data;
+
+    return memcmp(before->data + CONTENT, frame->data + CONTENT, end - CONTENT) == 0;
 }
 
 static bool is_news(struct loop_robot *robot, const struct frame *frame)
 {
     struct frame *before = known(robot, frame);
 
-    if (before && says_the_same(before, frame))
+    if (before && says_the_same(robot, before, frame))
         return false;
     if (!before && robot->known_count < LOOP_KINDS_MAX)
         before = &robot->known[robot->known_count++];
@@ -86,6 +109,21 @@ static bool says_the_same_later(const struct frame *before, const struct frame *
     return a.profile == b.profile && a.owner == b.owner && a.layout == b.layout;
 }
 
+/* A HEALTH that comes after the drive of its tick is left to Python. */
+static bool is_held(const struct loop_robot *robot, const struct frame *frame)
+{
+    uint32_t held = robot->commands ^ heard_now(robot);
+
+    return frame->data[HELD] == (uint8_t)held && frame->data[HELD + 1] == (uint8_t)(held >> 8);
+}
+
+static bool says_nothing_new(const struct loop_robot *robot, const struct frame *before, const struct frame *frame)
+{
+    if (frame->id == robot->heartbeat_id)
+        return says_the_same_later(before, frame);
+    return says_the_same(robot, before, frame) && (frame->id != robot->health_id || is_held(robot, frame));
+}
+
 bool robot_wire_goes_on(struct loop_robot *robot, const struct frame *frame)
 {
     struct frame *before = known(robot, frame);
@@ -93,7 +131,7 @@ bool robot_wire_goes_on(struct loop_robot *robot, const struct frame *frame)
 
     if (!before || !e2e_is_whole(frame, before->len) || e2e_counter(frame) != e2e_next(e2e_counter(before)))
         return false;
-    same = frame->id == robot->heartbeat_id ? says_the_same_later(before, frame) : says_the_same(before, frame);
+    same = says_nothing_new(robot, before, frame);
     if (same) {
         *before = *frame;
         robot->told[before - robot->known] = robot->received + 1;

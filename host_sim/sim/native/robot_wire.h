@@ -18,6 +18,9 @@ bool robot_wire_goes_on(struct loop_robot *robot, const struct frame *frame);
         /* Whether a report continues the last one of its kind: valid, with the next counter, and nothing new except
            the time. Records it if so. */
 
+void robot_wire_hear_answer(struct loop_robot *robot, const struct frame *drive);
+        /* Notes that the robot has answered its last senses, with this DRIVE. */
+
 bool robot_wire_is_memory(const struct frame *frame);
         /* Whether the frame is half of a robot's memory. */
 

@@ -32,23 +32,26 @@ static void take_frame(struct loop *loop, struct loop_robot *robot, const struct
     log_lines_add(&loop->log, frame);
 }
 
-static bool has_driven(const struct loop_robot *robot, const struct frame *answers, uint8_t tick)
+/* The drive among a robot's answers, or null. */
+static const struct frame *driven(const struct loop_robot *robot, const struct frame *answers, uint8_t tick)
 {
     struct drive drive = {0};
 
     for (size_t i = 0; i < robot->answer_count; i++)
         if (answers[i].id == robot->drive_id && is_answer(robot, &answers[i], tick, &drive))
-            return true;
-    return false;
+            return &answers[i];
+    return NULL;
 }
 
 /* Takes all frames of a robot if its drive is among them, otherwise none. */
 static bool take_answers(struct loop *loop, struct loop_robot *robot, struct turn *turn)
 {
     const struct frame *answers = loop->answers(robot->octet);
+    const struct frame *drive = driven(robot, answers, turn->senses.tick);
 
-    if (!has_driven(robot, answers, turn->senses.tick))
+    if (!drive)
         return false;
+    robot_wire_hear_answer(robot, drive);
     robot->report_count = 0;
     robot->has_news = false;
     for (size_t i = 0; i < robot->waiting_count; i++)

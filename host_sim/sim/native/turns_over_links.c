@@ -9,12 +9,11 @@
 static bool send_senses(struct loop *loop, const struct senses *senses)
 {
     struct loop_robot *robot = &loop->robots[loop->sent];
-    struct frame frame = {0};
 
-    robot_wire_senses(robot, senses, &frame);
-    if (link_send(robot->link, &frame) != 0)
+    robot_wire_senses(robot, senses, &robot->senses);
+    if (link_send(robot->link, &robot->senses) != 0)
         return false;
-    log_lines_add(&loop->log, &frame);
+    log_lines_add(&loop->log, &robot->senses);
     return true;
 }
 
@@ -33,6 +32,12 @@ static bool is_answer(const struct loop_robot *robot, const struct frame *frame,
            e2e_counter(frame) == robot->senses_counter && robot_wire_drive(frame, tick, drive);
 }
 
+static void accept(struct loop_robot *robot, const struct frame *drive)
+{
+    robot->drive = *drive;
+    robot_wire_hear_answer(robot, drive);
+}
+
 /* Receives frames from the next robot that has not answered. True: they are routine, and end with its drive. */
 static bool take_drive(struct loop *loop, struct turn *turn)
 {
@@ -46,7 +51,7 @@ static bool take_drive(struct loop *loop, struct turn *turn)
             return false;
         driven = is_answer(robot, frame, turn->senses.tick, &turn->drive) && is_slow(loop, &turn->drive);
         if (driven)
-            robot->drive = *frame;
+            accept(robot, frame);
         else if (!robot_wire_goes_on(robot, frame))
             return false;
         robot->received++;

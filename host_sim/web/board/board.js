@@ -1,143 +1,141 @@
 // @ts-check
-/* The board of a class: how to join, the arena, and how each robot learns. */
+/* The board of a class: how to join, and who has reached which goals. */
 
-import { BoardCurves } from "./board_curves.js";
-import { BoardRobots } from "./board_robots.js";
-import { made } from "../core/building.js";
+import { buttonOf, made } from "../core/building.js";
 import { byId, contextOf, setText, typedById } from "../core/elements.js";
-import { ending } from "../core/endings.js";
-import { heard, inEachLanguage, say } from "../core/language.js";
-import { Toast } from "../core/toast.js";
-import { Renderer } from "../draw/renderer.js";
-import { Scene } from "../draw/scene.js";
-import { Connection } from "../live/connection.js";
-import { showMessage } from "../live/message_scene.js";
-import { showFacts } from "../panel/panel.js";
+import { hideToken } from "../core/kept.js";
+import { inEachLanguage, languageCode, robotWords, say, wordsOf } from "../core/language.js";
+import { SIDES } from "../generated.js";
 
 /**
- * What a board is told besides; see host_sim/live/board_feed.py.
- * @typedef {Object} Class
- * @property {{urls: string[], modules: string[]}} [join]
- * @property {[number, number]} ended
- * @property {{name: string, page: boolean}[] | null} robots
- * @property {import("./board_curves.js").NewSamples} curves
+ * A pupil; see host_sim/live/class_roster.py. `silent_s` is the time since the page was heard; null for a typed code.
+ * @typedef {{key: string, name: string, lesson: string, step: number, goals: Record<string, number[]>, memory: number[],
+ *   link: string, silent_s: number | null}} Pupil
  *
- * @typedef {Message & {board: Class}} BoardMessage
+ * @typedef {keyof import("../core/language.js").Texts["lessons"]["lessons"]} Lesson
+ *
+ * @typedef {{pupils: Pupil[], join: {urls: string[], modules: string[]}}} Class
  */
 
+const ASK_MS = 1000;
 const BORDER = 2;
+/** After this time, s, a page counts as closed. */
+const SILENT_S = 30;
+const ARROWS = ["·", "↰", "↱"];
 
-/** Shows the last message, at most once per screen frame. */
+/** Asks the server once a second, and shows its answer. */
 class Board {
   constructor() {
-    this.curves = new BoardCurves();
-    this.robots = new BoardRobots();
-    this.note = new Toast();
-    this.renderer = new Renderer(typedById("arena", HTMLCanvasElement));
-    this.speed = typedById("speed", HTMLSelectElement);
-    /** @type {Scene | undefined} */
-    this.scene = undefined;
-    /** @type {BoardMessage | undefined} */
-    this.message = undefined;
-    this.isNew = false;
-    this.connection = new Connection(`/board-live${location.search}`, (message) => this.accept(message));
-    this.bind();
-    setText(byId("status"), say("connecting"));
-    inEachLanguage(() => this.drawSoon());
+    /** @type {Class | undefined} */
+    this.class = undefined;
+    this.shown = "";
+    this.isLost = false;
+    hideToken();
+    byId("code-form").addEventListener("submit", (event) => this.takeCode(event));
+    byId("print").addEventListener("click", () => print());
+    inEachLanguage(() => this.show());
+    this.ask();
   }
 
-  bind() {
-    const on = (/** @type {string} */ id, /** @type {() => Command} */ command) =>
-      byId(id).addEventListener("click", () => this.connection.send(command()));
-    on("play", () => ({ do: this.runs ? "pause" : "play" }));
-    on("next", () => ({ do: "next" }));
-    on("again", () => ({ do: "seed", seed: this.scene?.environment.seed ?? 1, keep: 0 }));
-    this.speed.addEventListener("change", () => this.connection.send({ do: "speed", factor: Number(this.speed.value) }));
-    this.curves.select.addEventListener("change", () => this.drawSoon());
-    addEventListener("resize", () => this.drawSoon());
+  async ask() {
+    try {
+      const answer = await fetch("pupils");
+      this.isLost = !answer.ok;
+      if (answer.ok) this.class = await answer.json();
+    } catch {
+      this.isLost = true;
+    }
+    this.show();
+    setTimeout(() => this.ask(), ASK_MS);
   }
 
-  /** Whether time goes on. */
-  get runs() {
-    const play = this.message?.play;
-    return Boolean(play?.playing && !play.waits);
+  show() {
+    document.body.classList.toggle("lost", this.isLost);
+    if (!this.class) return setText(byId("status"), say(this.isLost ? "noConnection" : "connecting"));
+    const { pupils, join } = this.class;
+    const here = pupils.filter(({ silent_s }) => silent_s !== null && silent_s < SILENT_S).length;
+    setText(byId("status"), this.isLost ? say("noConnection") : say("presence", { open: here, all: pupils.length }));
+    const key = languageCode() + JSON.stringify([pupils.map((it) => ({ ...it, silent_s: isHere(it) })), join]);
+    if (key === this.shown || byId("class").contains(document.activeElement)) return;
+    this.shown = key;
+    document.body.style.setProperty("--rows", `${pupils.length + 3}`);
+    showJoin(join);
+    byId("class").replaceChildren(...(pupils.length ? [this.table(pupils)] : [made("p", [say("nobody")])]));
   }
 
-  /** @param {BoardMessage} message */
-  accept(message) {
-    const { measures, environment, states, board } = message;
-    if (measures && environment) this.scene ??= new Scene(measures, environment, states);
-    if (!this.scene) return;
-    showMessage(this.scene, message);
-    if (measures) document.body.style.setProperty("--ratio", `${(measures.width + 80) / (measures.height + 80)}`);
-    if (board.join) showJoin(board.join);
-    this.curves.add(board.curves);
-    this.message = message;
-    message.notes?.forEach((text) => this.note.show(heard(text)));
-    this.drawSoon();
-  }
-
-  /** Draws with the next frame of the screen. */
-  drawSoon() {
-    if (!this.isNew) requestAnimationFrame(() => this.draw());
-    this.isNew = true;
-  }
-
-  draw() {
-    const { message, scene, renderer } = this;
-    this.isNew = false;
-    if (!message || !scene) return;
-    const { play, board } = message;
-    renderer.useColours();
-    const rows = this.rowsOf(scene, board.robots);
-    scene.tags = rows.map(({ node, name, colour }) => ({ name: name || `${node}`, colour }));
-    renderer.draw(scene);
-    this.robots.show(rows);
-    this.curves.draw(scene, renderer.palette.robots);
-    showFacts(scene);
-    setText(byId("present"), board.robots ? presence(board.robots) : say("shared"));
-    setText(byId("result"), play.ended ? ending(play.ended, play.done).join(": ") : "");
-    setText(byId("fact-finished"), say("ofCount", { count: board.ended[0], all: board.ended[1] }));
-    this.showPlay(play, scene.environment);
-    this.connection.tell();
+  /** @param {Pupil[]} pupils */
+  table(pupils) {
+    const { lessons } = wordsOf("lessons");
+    const ids = /** @type {Lesson[]} */ (Object.keys(lessons));
+    const titles = ids.map((id, i) => made("th", [`${i + 1} ${lessons[id].title}`], { scope: "col" }));
+    const [pupil, goals, learned] = [say("pupil"), say("goalsOf"), say("learnedNow")].map((name) => made("th", [name], { scope: "col" }));
+    const head = made("tr", [pupil, ...titles, goals, learned, made("td", [])]);
+    return made("table", [made("thead", [head]), made("tbody", pupils.map((it) => this.row(it, ids)))]);
   }
 
   /**
-   * @param {Scene} scene
-   * @param {Class["robots"]} robots
-   * @returns {import("./board_robots.js").Row[]}
+   * @param {Pupil} pupil
+   * @param {Lesson[]} ids - Of the lessons.
    */
-  rowsOf({ states }, robots) {
-    const colours = this.renderer.palette.robots;
-    return states.map(({ node, memory }, i) => {
-      const { name, page } = robots?.[i] ?? { name: "", page: true };
-      return { node, name, page, memory, colour: colours[i % colours.length], meals: this.curves.last(i, "meals") };
+  row(pupil, ids) {
+    const { lessons } = wordsOf("lessons");
+    const cells = ids.map((id) => {
+      const reached = pupil.goals[id] ?? [];
+      const dots = lessons[id].goals.map((goal, i) => made("span", [reached.includes(i) ? "●" : "○"], { title: goal }));
+      const said = say("goalsReached", { reached: reached.length, all: dots.length });
+      /** @type {Record<string, string>} */
+      const now = pupil.lesson === id && isHere(pupil) ? { "aria-current": "step", title: say("atStep", { step: pupil.step + 1 }) } : {};
+      return made("td", [made("span", dots, { role: "img", "aria-label": said })], now);
     });
+    const count = Object.values(pupil.goals).flat().length;
+    const name = made("th", [pupil.name || "–"], { scope: "row", title: pupil.name });
+    const all = [name, ...cells, made("td", [`${count}`], { class: "number" }), made("td", [memoryOf(pupil)]), made("td", this.buttons(pupil))];
+    return made("tr", all, isHere(pupil) ? {} : { class: "away" });
+  }
+
+  /** @param {Pupil} pupil */
+  buttons(pupil) {
+    const remove = buttonOf(say("removePupil"), () => this.post("remove", { key: pupil.key }));
+    remove.setAttribute("aria-label", say("removeNamed", { name: pupil.name }));
+    const run = made("a", [say("showRun")], { href: `/${pupil.link}`, target: "_blank", rel: "noopener" });
+    run.setAttribute("aria-label", say("showRunOf", { name: pupil.name }));
+    return pupil.link ? [run, " ", remove] : [remove];
+  }
+
+  /** @param {Event} event */
+  async takeCode(event) {
+    event.preventDefault();
+    const [name, code] = ["code-name", "code"].map((id) => typedById(id, HTMLInputElement));
+    if (!(await this.post("code", { name: name.value, code: code.value }))) return;
+    name.value = code.value = "";
+    name.focus();
   }
 
   /**
-   * @param {Play} play
-   * @param {EnvironmentScene} environment
+   * Sends an order; true if it was carried out.
+   * @param {string} what
+   * @param {object} said
    */
-  showPlay(play, { number, of }) {
-    setText(byId("play"), say(play.waits ? "begin" : play.playing ? "pause" : "play"));
-    setText(byId("status"), statusOf(play));
-    typedById("play", HTMLButtonElement).disabled = play.done;
-    typedById("next", HTMLButtonElement).disabled = play.done || number >= of;
-    if (document.activeElement !== this.speed) this.speed.value = `${play.speed}`;
+  async post(what, said) {
+    const answer = await fetch(what, { method: "POST", body: JSON.stringify(said) });
+    const isDone = answer.ok && (await answer.json()).done;
+    setText(byId("code-news"), isDone ? "" : say(answer.ok ? "codeWrong" : "noConnection"));
+    if (isDone && document.activeElement instanceof HTMLElement && byId("class").contains(document.activeElement)) document.activeElement.blur();
+    return isDone;
   }
 }
 
-/** @param {{page: boolean}[]} robots */
-function presence(robots) {
-  return say("presence", { open: robots.filter(({ page }) => page).length, all: robots.length });
+/** @param {Pupil} pupil */
+function isHere({ silent_s }) {
+  return silent_s !== null && silent_s < SILENT_S;
 }
 
-/** @param {Play} play */
-function statusOf(play) {
-  if (play.waits) return say("standStill");
-  if (play.done) return say("allDone");
-  return say(play.playing ? "live" : "paused");
+/** @param {Pupil} pupil */
+function memoryOf({ memory }) {
+  const { patterns, sides } = robotWords();
+  const cells = memory.slice(1).map((side, i) =>
+    made("span", [ARROWS[side]], { "data-side": SIDES[side], title: `${patterns[i + 1]}: ${sides[side]}` }));
+  return made("span", cells, { class: "memory" });
 }
 
 /** @param {{urls: string[], modules: string[]}} join */
@@ -158,5 +156,4 @@ function showJoin({ urls, modules }) {
   }));
 }
 
-if ("WebSocket" in window) Object.assign(window, { octet: new Board() });
-else setText(byId("status"), say("needsSocket"));
+Object.assign(window, { octet: new Board() });

@@ -53,3 +53,8 @@ export function isForPage(event, fields) {
   if (event.ctrlKey || event.metaKey || event.altKey) return false;
   return !(event.target instanceof Element && event.target.closest(fields));
 }
+
+/** Whether the page may move by itself. */
+export function mayMove() {
+  return !matchMedia("(prefers-reduced-motion: reduce)").matches;
+}

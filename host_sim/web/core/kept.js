@@ -1,5 +1,5 @@
 // @ts-check
-/* Texts that the browser keeps from one visit to the next, if it is allowed to. */
+/* What the browser keeps from one visit to the next: texts, if it is allowed to, and the token of a server. */
 
 /**
  * The text kept under a name; empty if there is none.
@@ -23,4 +23,11 @@ export function keep(name, text) {
   } catch {
     // then for this visit only
   }
+}
+
+/** Takes the token out of the address bar and the history: the browser has it in a cookie. */
+export function hideToken() {
+  const address = new URL(location.href);
+  address.searchParams.delete("token");
+  history.replaceState(null, "", address);
 }

@@ -51,7 +51,7 @@ export function say(key, values = {}) {
 }
 
 /**
- * A text of all pages, or of those on a wall: the board and the fleet.
+ * A text of all pages, or of the board on a wall.
  * @param {string} code - Of the language.
  * @param {Key} key
  */
@@ -129,7 +129,20 @@ function sayAll() {
   write("data-say", (element, text) => (element.textContent = text));
   write("data-say-label", (element, text) => element.setAttribute("aria-label", text));
   write("data-say-title", (element, text) => element.setAttribute("title", text));
+  for (const field of document.querySelectorAll("input[pattern]")) explain(field);
   for (const option of document.querySelectorAll("[data-kinds] option")) option.textContent = nameIn("kinds", option.getAttribute("value") ?? "");
+}
+
+/**
+ * A field for a whole number says so, in the language of the page and not of the browser.
+ * @param {Element} field
+ */
+function explain(field) {
+  if (!(field instanceof HTMLInputElement)) return;
+  field.oninput = () => {
+    field.setCustomValidity("");
+    if (field.validity.patternMismatch) field.setCustomValidity(say("wholeNumber"));
+  };
 }
 
 /** Fills the element `language`, if the page has one. */

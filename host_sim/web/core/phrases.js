@@ -5,7 +5,7 @@ import { BODY_SENTENCES, PATTERNS, REASON, SENTENCES, SIDE, SIDES } from "../gen
 import { REASON_KEYS } from "./palette.js";
 
 /**
- * The words of a language: see Words in host_sim/view/phrases.py.
+ * The words of a language: see Words in host_sim/recording/phrases.py.
  * @typedef {{sentences: Record<string, string>, patterns: string[], sides: string[], point: string, many: string}} Words
  */
 

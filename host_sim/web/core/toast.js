@@ -6,12 +6,13 @@ import { byId, setText } from "./elements.js";
 const SHOWN_MS = 5000;
 const GAP_PX = 14;
 
-/** Fills the element `note`, and moves it to where a person last pressed something. */
+/** Fills the element `note`, and moves it to where a person last pressed something, or to the page's status, beside the arena. */
 export class Toast {
   constructor() {
     this.timer = 0;
     this.element = byId("note");
-    this.hand = { x: GAP_PX, y: GAP_PX };
+    /** @type {{x: number, y: number} | undefined} - Where a person last pressed something. */
+    this.hand = undefined;
     const follow = (/** @type {PointerEvent} */ event) => (this.hand = { x: event.clientX, y: event.clientY });
     document.addEventListener("pointerdown", follow, { capture: true });
     document.addEventListener("pointerup", follow, { capture: true });
@@ -36,9 +37,10 @@ export class Toast {
   place() {
     const { width, height } = this.element.getBoundingClientRect();
     const { clientWidth, clientHeight } = document.documentElement;
-    const below = this.hand.y + GAP_PX;
-    const y = below + height < clientHeight ? below : this.hand.y - GAP_PX - height;
-    this.element.style.setProperty("left", `${Math.max(0, Math.min(this.hand.x, clientWidth - width))}px`);
+    const hand = this.hand ?? byId("status").getBoundingClientRect();
+    const below = hand.y + GAP_PX;
+    const y = below + height < clientHeight ? below : hand.y - GAP_PX - height;
+    this.element.style.setProperty("left", `${Math.max(0, Math.min(hand.x, clientWidth - width))}px`);
     this.element.style.setProperty("top", `${Math.max(0, y)}px`);
   }
 }

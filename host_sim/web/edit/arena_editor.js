@@ -4,10 +4,15 @@
 import { byId, setText, typedById } from "../core/elements.js";
 import { say } from "../core/language.js";
 import { allItems, whole } from "./hit_testing.js";
-import { endsOf, insideWalls, movedBar, plantOf, turnedBar, wirePlace } from "./placement.js";
+import { endsOf, insideWalls, isInside, movedBar, plantOf, turnedBar, wirePlace } from "./placement.js";
+import { PLANT_GROWTH_MM, PLANT_RADIUS_MM } from "../generated.js";
 
 /** @typedef {import("../draw/scene.js").Ghost} Ghost */
 
+/** Beyond the reach of the robot's sensors. */
+const PLANT_GAP_MM = 20;
+/** Ahead, right, left, behind. */
+const BEARINGS = [0, 0.5, -0.5, 1].map((half) => half * Math.PI);
 const NEW_BAR_MM = 250;
 /** A new obstacle lies in the middle, or higher up if the robot is about there. */
 const NEW_BAR_ROOM_MM = 300;
@@ -29,6 +34,8 @@ export class ArenaEditor {
     this.lifting = new Set();
     byId("lift").addEventListener("click", () => this.liftOrPut());
     byId("add-bar").addEventListener("click", () => this.addBar());
+    byId("add-plant").addEventListener("click", () => this.addPlant());
+    byId("grow").addEventListener("click", () => this.grow());
     byId("remove-bar").addEventListener("click", () => this.removeBar());
   }
 
@@ -55,6 +62,7 @@ export class ArenaEditor {
     const { node, lifted } = this.robot;
     const several = states.length > 1;
     typedById("remove-bar", HTMLButtonElement).disabled = item?.kind !== "bar" && item?.kind !== "plant";
+    typedById("grow", HTMLButtonElement).disabled = item?.kind !== "plant";
     setText(byId("lift"), say(lifted ? (several ? "putDownNumber" : "putDown") : several ? "pickUpNumber" : "pickUp", { node }));
   }
 
@@ -135,6 +143,27 @@ export class ArenaEditor {
     const y = Math.round(height * (isFree ? 0.5 : 0.2));
     this.barPending = true;
     this.send({ do: "add_bar", a: [x - NEW_BAR_MM, y], b: [x + NEW_BAR_MM, y] });
+  }
+
+  /** Puts a plant down ahead of the robot or, if a wall is there, beside it. */
+  addPlant() {
+    const { measures } = this.scene;
+    const { x, y, heading } = this.robot;
+    const far = measures.body + measures.reach + PLANT_GAP_MM + PLANT_RADIUS_MM;
+    const places = BEARINGS.map((bearing) => {
+      const angle = heading / 1000 + bearing;
+      return { x: x + far * Math.cos(angle), y: y + far * Math.sin(angle) };
+    });
+    const at = places.find((place) => isInside(place, measures)) ?? places[0];
+    this.plantPending = true;
+    this.send({ do: "plant", at: wirePlace(at, measures), radius: PLANT_RADIUS_MM });
+  }
+
+  /** The selected plant grows to all sides. */
+  grow() {
+    const { item, environment } = this.scene;
+    const plant = item?.kind === "plant" && plantOf(environment, item.id);
+    if (plant) this.send({ do: "grow_plant", id: item.id, radius: Math.round(plant.radius) + PLANT_GROWTH_MM });
   }
 
   removeBar() {

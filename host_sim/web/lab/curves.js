@@ -58,7 +58,7 @@ export class Curves {
    */
   linesOf(lane, tick) {
     const robots = lane.data?.robots ?? [];
-    const nameOf = (/** @type {number} */ node) => (robots.length > 1 ? `${lane.name}${node}` : lane.name);
+    const nameOf = (/** @type {number} */ node) => (robots.length > 1 ? `${lane.name} ${node}` : lane.name);
     return robots.map((robot) => ({
       ...this.growth(robot, lane), name: nameOf(robot.run.node), end: Math.min(tick, lane.last),
     }));

@@ -1,18 +1,10 @@
 // @ts-check
-/* Editing of the arenas, as on the live page, in the selected run. Plants can be added and grown. */
+/* Editing of the arenas, as on the live page, in the selected run. */
 
 import { ArenaEditor } from "../edit/arena_editor.js";
 import { bindArenaKeys } from "../edit/arena_keys.js";
 import { DragController } from "../edit/drag_controller.js";
-import { byId, typedById } from "../core/elements.js";
-import { isInside, plantOf, wirePlace } from "../edit/placement.js";
-import { PLANT_GROWTH_MM, PLANT_RADIUS_MM } from "../generated.js";
 import { isWorldEdit } from "../sim/arena.js";
-
-/** Beyond the reach of the robot's sensors. */
-const PLANT_GAP_MM = 20;
-/** Ahead, right, left, behind. */
-const BEARINGS = [0, 0.5, -0.5, 1].map((half) => half * Math.PI);
 
 /** An editor whose commands are changes of the selected run. */
 export class LabEditor extends ArenaEditor {
@@ -27,8 +19,6 @@ export class LabEditor extends ArenaEditor {
     this.drags = new WeakMap();
     /** What `ids` was when an obstacle or a plant was put down that is not there yet. */
     this.idsBefore = 0;
-    byId("add-plant").addEventListener("click", () => this.addPlant());
-    byId("grow").addEventListener("click", () => this.grow());
   }
 
   /** @param {ShownRun} lane - Its arena can be touched from now on. */
@@ -42,7 +32,6 @@ export class LabEditor extends ArenaEditor {
   beforeDrawing() {
     if ((this.barPending || this.plantPending) && this.ids > this.idsBefore) this.onEnvironment();
     this.onStates(this.drags.get(this.lab.lane)?.robot);
-    typedById("grow", HTMLButtonElement).disabled = this.scene.item?.kind !== "plant";
   }
 
   /** @param {Command} command */
@@ -69,27 +58,5 @@ export class LabEditor extends ArenaEditor {
     if (command.do === "lift") return { do: "lift", robot };
     if (command.do === "put") return { do: "put", robot, at: command.at, heading: command.heading };
     return isWorldEdit(command) ? command : undefined;
-  }
-
-  /** Puts a plant down ahead of the robot or, if a wall is there, beside it. */
-  addPlant() {
-    const { measures } = this.scene;
-    const { x, y, heading } = this.robot;
-    const far = measures.body + measures.reach + PLANT_GAP_MM + PLANT_RADIUS_MM;
-    const places = BEARINGS.map((bearing) => {
-      const angle = heading / 1000 + bearing;
-      return { x: x + far * Math.cos(angle), y: y + far * Math.sin(angle) };
-    });
-    const at = places.find((place) => isInside(place, measures)) ?? places[0];
-    this.plantPending = true;
-    this.idsBefore = this.ids;
-    this.lab.change({ do: "plant", at: wirePlace(at, measures), radius: PLANT_RADIUS_MM });
-  }
-
-  /** The selected plant grows to all sides. */
-  grow() {
-    const { item, environment } = this.scene;
-    const plant = item?.kind === "plant" && plantOf(environment, item.id);
-    if (plant) this.lab.change({ do: "grow_plant", id: item.id, radius: Math.round(plant.radius) + PLANT_GROWTH_MM });
   }
 }

@@ -29,6 +29,8 @@ export class Laboratory extends PlayingPage {
     this.params = worlds.random;
     this.simulator = new Simulator(parts);
     this.note = new Toast();
+    /** Whether the next run plays as soon as it is there. */
+    this.playsNext = false;
     /** @type {ShownRun[]} */
     this.lanes = [];
     this.lane = this.addLane(experiment);

@@ -2,18 +2,22 @@
 /* octet.html: runs of the real firmware in this page, side by side; each change leads to another future. */
 
 import { SidePanel } from "./side_panel.js";
-import { byId, isForPage, setText, typedById } from "../core/elements.js";
-import { heard, nameIn, say } from "../core/language.js";
+import { buttonOf } from "../core/building.js";
+import { byId, isForPage, mayMove, setText, typedById } from "../core/elements.js";
+import { LANGUAGES, heard, inEachLanguage, languageCode, nameIn, say } from "../core/language.js";
 import { LabEditor } from "./lab_editor.js";
 import { experimentOf, inWords } from "./shown_run.js";
 import { nextTick } from "./run_events.js";
 import { Laboratory } from "./laboratory.js";
 import { Course } from "../lessons/course.js";
+import { PLANS } from "../lessons/plans.js";
 import { settingAt } from "../lessons/evidence.js";
 import { Panel } from "../panel/panel.js";
 import { DivergenceView } from "../panel/divergence.js";
 import { RobotPicker } from "../panel/robot_picker.js";
+import { linkOf } from "../program/link.js";
 import { ProgramTab } from "../program/program_tab.js";
+import { fieldsOf } from "./share.js";
 import { drawMarks } from "../panel/timeline.js";
 import { Conversations } from "../talk/conversation.js";
 import { TalkBox } from "../talk/talk_box.js";
@@ -36,9 +40,17 @@ class LabPage extends Laboratory {
     this.desk = new SidePanel(this);
     this.conversations = new Conversations();
     this.talk = new TalkBox(byId("panel-talk"), this);
+    /** @type {Course} */
     this.course = new Course(this);
     this.programTab = new ProgramTab(this);
     this.parting = new DivergenceView();
+    this.share = buttonOf("", () => this.copyLink());
+    this.share.id = "copy-link";
+    byId("status").after(this.share);
+    inEachLanguage(() => {
+      setText(this.share, say("copyLink"));
+      this.share.title = say("copyLinkHelp");
+    });
     /** @type {RobotPicker | undefined} */
     this.picker = undefined;
     /** @type {LabEditor | undefined} */
@@ -46,7 +58,7 @@ class LabPage extends Laboratory {
     /** Settled when a recorded run that the page begins with, and its copy, are simulated to their ends. */
     this.repeated = begin ? this.repeat(begin) : Promise.resolve();
     addEventListener("hashchange", () => location.reload()); // what follows the # is read when the page begins
-    this.movesFirst = !begin && !location.hash && !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.playsNext = !begin && !location.hash && mayMove();
   }
 
   /**
@@ -75,8 +87,8 @@ class LabPage extends Laboratory {
     const { scene } = this;
     this.resize();
     if (!scene) return;
-    if (this.movesFirst) this.setPlaying(true);
-    this.movesFirst = false;
+    if (this.playsNext) this.setPlaying(true);
+    this.playsNext = false;
     this.picker ??= new RobotPicker(scene, (node) => this.pick(node));
     this.picker.scene = scene;
     this.editor ??= new LabEditor(this, scene);
@@ -122,6 +134,33 @@ class LabPage extends Laboratory {
   restartTalk() {
     this.conversations = new Conversations();
     this.talk.forget();
+  }
+
+  /** What a link can name. */
+  get known() {
+    const lessons = PLANS.map(({ id }) => id);
+    return { programs: this.programs, worlds: Object.keys(this.worlds), lessons, languages: LANGUAGES.map(([code]) => code) };
+  }
+
+  /**
+   * The part of an address behind the page's own, with its #, that shows a run as it is shown now.
+   * @param {Experiment} experiment
+   * @param {Partial<import("../program/link.js").Linked>} [others] - Fields that are not those of the experiment.
+   */
+  link(experiment, others = {}) {
+    const { course, tick } = this;
+    const lesson = course.begun ? { lesson: course.plan.id, step: course.view.place } : {};
+    return linkOf({ ...fieldsOf(experiment), tick: Math.round(tick), ...lesson, language: languageCode(), ...others }, this.known);
+  }
+
+  /** Puts all that is shown into the address, and into the clipboard. */
+  copyLink() {
+    const { experiment } = this.lane;
+    history.replaceState(null, "", this.link(experiment));
+    const where = typeof (experiment.world ?? "") === "string" ? "linkCopied" : "linkWithoutWorld";
+    const tell = (/** @type {"linkCopied" | "linkInAddress" | "linkWithoutWorld"} */ words) => this.note.show(say(words));
+    tell("linkInAddress");
+    navigator.clipboard?.writeText(location.href).then(() => tell(where), () => {});
   }
 
   /** @param {number} node */
@@ -178,7 +217,7 @@ class LabPage extends Laboratory {
   otherMemory() {
     const other = this.lanes.find((lane) => lane !== this.lane && lane.scene);
     const states = other?.scene?.states ?? [];
-    return { then: states[Math.min(this.lane.robot, states.length - 1)]?.memory, where: say("inRun", { run: other?.name ?? "" }) };
+    return { then: states[Math.min(this.lane.robot, states.length - 1)]?.memory, where: say("inRun") };
   }
 
   /**

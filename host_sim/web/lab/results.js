@@ -11,7 +11,7 @@ import { AVOIDING, PARAMETERS } from "../generated.js";
  */
 
 /** The columns of the table and of the file. */
-export const NAMES = ["run", "robot", "behaviour", "seed", "environment", "finished", "time s", "tour s", "trials", "lessons", "bored", "blocked s", "meals"];
+export const NAMES = ["run", "robot", "behaviour", "seed", "environment", "finished", "time (s)", "shortest tour (s)", "trials", "lessons", "bored", "blocked (s)", "meals"];
 
 /**
  * How something grows in a run.

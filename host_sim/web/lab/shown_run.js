@@ -12,13 +12,12 @@ import { Scene } from "../draw/scene.js";
 import { RANDOM, nameOf } from "../core/world_names.js";
 import { settingsOf } from "../sim/arena.js";
 
-const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 let lanes = 0;
 /** @type {WeakMap<Change, number>} - When each change was made: a later one has a higher number. */
 const madeAt = new WeakMap();
 let changesMade = 0;
 
-/** The next lane is A again. */
+/** The next run is the original again. */
 export function restartNames() {
   lanes = 0;
 }
@@ -32,8 +31,10 @@ export class ShownRun {
    */
   constructor(experiment, parent, lens) {
     this.experiment = experiment;
-    this.name = LETTERS[lanes % LETTERS.length];
+    this.number = lanes;
     lanes += 1;
+    /** What it is in a lesson: a key of the texts, or a behaviour. */
+    this.called = "";
     this.canvas = made("canvas", [], { tabindex: "0", role: "application", "aria-describedby": "help" });
     this.caption = made("figcaption", []);
     this.figure = made("figure", [this.canvas, this.caption], { class: "lane" });
@@ -45,11 +46,18 @@ export class ShownRun {
     this.scene = undefined;
     /** @type {number[]} - Of each environment so far, the length of the shortest tour, mm. */
     this.tours = [];
+    /** @type {import("../sim/run_recorder.js").Beads[]} - Of each robot. */
+    this.beads = [];
     /** How often it was asked to simulate, and whether the last simulation is still running. */
     this.asked = 0;
     this.isRunning = false;
     /** @type {Promise<void>} - Settled when what was asked for last is simulated to its end. */
     this.done = Promise.resolve();
+  }
+
+  get name() {
+    if (this.called) return heard(say(/** @type {"learner"} */ (this.called)));
+    return say(/** @type {const} */ (["original", "copy"])[this.number] ?? "copyNumber", { number: this.number });
   }
 
   /** The last tick that is known. */
@@ -103,9 +111,10 @@ export class ShownRun {
   }
 
   /** @param {import("../sim/page_worker.js").Recorded} recorded - What was simulated. */
-  take({ run, columns, tours }) {
+  take({ run, columns, tours, beads }) {
     this.data = new RunData(run, columns);
     this.tours = tours;
+    this.beads = beads;
     const { first } = this.data;
     if (!this.scene) this.scene = new Scene(run.measures, this.data.sceneAt(first), this.data.statesAt(first));
     this.scene.measures = run.measures;
@@ -130,7 +139,7 @@ export class ShownRun {
     const own = this.setup.seed ?? seed;
     const brain = this.setup.program === undefined ? heard(this.setupAt(tick).profile) : say("yourProgram");
     const parts = [
-      say("caption", { run: this.name, brain, seed }), own === seed ? "" : say("captionOwn", { seed: own }),
+      this.called === this.setupAt(tick).profile ? brain : `${this.name}: ${brain}`, say("captionSeed", { seed }), own === seed ? "" : say("captionOwn", { seed: own }),
       world === RANDOM ? "" : say("captionWorld", { world: heard(nameOf(world)) }),
     ];
     setText(this.caption, parts.join(""));

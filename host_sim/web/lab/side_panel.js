@@ -3,28 +3,20 @@
 
 import { ParameterSliders } from "./parameter_sliders.js";
 import { Curves, csvOf } from "./curves.js";
-import { byId, setText, typedById } from "../core/elements.js";
+import { byId, mayMove, setText, typedById } from "../core/elements.js";
 import { heard, inEachLanguage, say } from "../core/language.js";
-import { SENSORS } from "../core/sensors.js";
-import { bodySentence } from "../core/phrases.js";
 import { memoryIn, save, worldText } from "./files.js";
 import { PROFILES } from "../generated.js";
 import { experimentOf } from "./shown_run.js";
 import { actionStart } from "./run_events.js";
 import { WorldPictures } from "./world_pictures.js";
+import { FaultMenu, offer } from "../panel/fault_menu.js";
 import { LessonsView } from "../panel/lessons_view.js";
 import { ListingView } from "../panel/listing_view.js";
 import { RANDOM, nameOf } from "../core/world_names.js";
 
 /** @typedef {NonNullable<Experiment["world"]>} World */
 
-/** The changes of a body that the page offers, as for `tools/run --change`; docs/worlds.md explains each. */
-const FAULTS = [
-  ...SENSORS.flatMap((sensor) => [`stuck-on:${sensor}`, `stuck-off:${sensor}`]),
-  "mirror", "noise:10/1000", "noise:100/1000", "swap-motors", "weak-motor:left:60%", "weak-motor:right:60%",
-  "swap-odometers", "odometer:left:0%", "odometer:right:0%", "false-beacon:100", "lag:60ms", "slack:3deg",
-  "slip:5%", "latency:1", "dark-wall", "weak-battery", "repair",
-];
 const TABS = ["run", "parameters", "listing", "program", "curves", "files", "talk", "lessons"];
 
 /** Shows and changes the selected run. */
@@ -42,7 +34,10 @@ export class SidePanel {
     this.worlds = new Map(Object.keys(lab.worlds).map((name) => [name, /** @type {World} */ (name)]));
     this.pictures = new WorldPictures(lab.simulator);
     this.body = typedById("body", HTMLSelectElement);
-    this.fault = typedById("fault", HTMLSelectElement);
+    this.faults = new FaultMenu((what) => {
+      const { robot, experiment } = lab.lane;
+      lab.change({ do: "body", what, robot, seed: experiment.seed });
+    });
     this.robotSeed = typedById("robot-seed", HTMLInputElement);
     this.frozen = 0;
     /** What was last told of files, in the language of the page. */
@@ -56,7 +51,6 @@ export class SidePanel {
   /** Fills the fields with their choices. */
   offer() {
     offer(this.behaviour, PROFILES.map((name) => [name, heard(name)]));
-    offer(this.fault, FAULTS.map((what) => [what, faultName(what)]));
     this.pictures.offer(this.worlds, this.pictures.chosen);
     this.report(this.fileNews);
   }
@@ -92,10 +86,6 @@ export class SidePanel {
     byId("curve").addEventListener("change", () => this.show());
     on("erase", () => lab.change({ do: "erase", robot: lab.lane.robot }));
     on("freeze", () => lab.change({ do: "freeze", robot: lab.lane.robot, on: 1 - this.frozen }));
-    on("break", () => {
-      const { robot, experiment } = lab.lane;
-      lab.change({ do: "body", what: this.fault.value, robot, seed: experiment.seed });
-    });
     on("remove-lane", () => lab.removeLane(lab.lane));
     on("undo", () => {
       if (lab.lane.undo()) lab.simulate(lab.lane);
@@ -138,6 +128,7 @@ export class SidePanel {
   newRun(event) {
     event.preventDefault();
     this.lab.begin(this.wanted);
+    this.lab.playsNext = mayMove();
   }
 
   /** The experiment that the form describes. */
@@ -261,19 +252,4 @@ export class SidePanel {
     if (this.tab === "listing") this.listing.show(state, actionStart(robot, state.tick));
     if (this.tab === "curves") this.curves.show(lanes, tick);
   }
-}
-
-/** @param {string} what */
-function faultName(what) {
-  return heard(bodySentence(what)).replace(/\.$/, "");
-}
-
-/**
- * Fills a field; what was chosen stays so.
- * @param {HTMLSelectElement} select
- * @param {[string, string][]} options - Their values and names.
- */
-function offer(select, options) {
-  const chosen = select.value || options[0][0];
-  select.replaceChildren(...options.map(([value, name]) => new Option(name, value, false, value === chosen)));
 }

@@ -6,12 +6,16 @@ import { keep, kept } from "../core/kept.js";
 import { LessonView } from "./lesson_view.js";
 import { inEachLanguage, languageCode, wordsOf } from "../core/language.js";
 import { PLANS } from "./plans.js";
+import { Samples } from "./samples.js";
 import { Worksheet } from "./worksheet.js";
+import { Classroom } from "../lab/classroom.js";
 
 /**
  * The page, with its conversations.
  * @typedef {Laboratory & {
- *   talk: TalkBox, teach: (who: string, word: string, answer: string) => void, restartTalk: () => void}} Lab
+ *   talk: TalkBox, teach: (who: string, word: string, answer: string) => void, restartTalk: () => void,
+ *   course: Course, known: import("../program/link.js").Known,
+ *   link: (experiment: Experiment, others?: Partial<import("../program/link.js").Linked>) => string}} Lab
  */
 
 /** Shows lessons in the element panel-lessons. The part of the address behind # may name the one to open. */
@@ -26,9 +30,12 @@ export class Course {
     this.progress = progressIn(kept("lessons"));
     this.plan = PLANS.find(({ id }) => `#${id}` === location.hash) ?? PLANS.find(({ id }) => id === kept("lesson")) ?? PLANS[0];
     this.begun = false;
+    this.samples = new Samples(lab.simulator, () => lab.lightUp());
     this.sheet = new Worksheet();
+    this.classroom = new Classroom(this);
     this.view = new LessonView(this);
     inEachLanguage(() => this.renew());
+    byId("tab-lessons").addEventListener("click", () => this.view.reveal());
     addEventListener("beforeprint", () => this.onPrint());
     if (`#${this.plan.id}` === location.hash) byId("tab-lessons").click();
   }
@@ -74,6 +81,19 @@ export class Course {
     this.begun = false;
     this.renew();
     byId("lesson").focus();
+    this.view.reveal();
+  }
+
+  /**
+   * Continues a lesson whose run is shown already, as a link does.
+   * @param {string} id
+   * @param {number} step
+   */
+  resume(id, step) {
+    this.choose(id);
+    this.view.go(Math.min(step, this.view.steps.length - 1));
+    this.begun = true;
+    byId("tab-lessons").click();
   }
 
   renew() {
@@ -89,7 +109,9 @@ export class Course {
     this.begun = true;
     this.lab.begin(first);
     this.lab.restartTalk();
+    this.samples.forget();
     for (const experiment of others) this.lab.select(this.lab.addLane(experiment));
+    this.lab.lanes.forEach((lane, i) => (lane.called = this.plan.names?.[i] ?? ""));
   }
 
   /** Checks which goals the runs shown now have reached, and shows it. */
@@ -98,13 +120,18 @@ export class Course {
     if (!byId("panel-lessons").hidden) this.view.show();
   }
 
+  /** Notes the goals that are reached now, and the steps that the page has seen done. */
   check() {
-    const { lanes, tick } = this.lab;
+    const { lanes, tick, talk } = this.lab;
     const runs = lanes.flatMap((lane) => (lane.data ? [{ lane, data: lane.data }] : []));
     if (runs.length < lanes.length) return;
-    const { reached } = this;
-    const now = this.plan.goals.flatMap((isReached, place) => (reached.has(place) || !isReached(runs, tick, this.lab.talk) ? [] : [place]));
-    if (now.length) this.note([...reached, ...now], this.done);
+    const { reached, done, samples, plan } = this;
+    /** @param {(import("./plans.js").Goal | undefined)[]} checks @param {Set<number>} known */
+    const found = (checks, known) => checks.flatMap((check, i) => (known.has(i) || !check?.(runs, tick, { talk, samples }) ? [] : [i]));
+    const goals = found(plan.goals, reached);
+    const steps = found(plan.steps.map(({ seen }) => seen), done);
+    if (goals.length || steps.length) this.note([...reached, ...goals], [...done, ...steps]);
+    if (goals.length && this.reached.size === plan.goals.length) this.lab.note.show(this.texts.words.allReached);
   }
 
   /** @param {boolean} notes - Whether to print those for teachers, and not the worksheet. */

@@ -7,9 +7,10 @@ import { meetingsOf } from "./plant_meetings.js";
 
 /** @typedef {{lane: ShownRun, data: RunData}} Shown - A run whose first environments are there to be looked at. */
 
-const FRONT_RIGHT = PATTERNS.indexOf("front-right");
-const FRONT_LEFT = PATTERNS.indexOf("front-left");
+export const FRONT_RIGHT = PATTERNS.indexOf("front-right");
+export const FRONT_LEFT = PATTERNS.indexOf("front-left");
 const STUCK_S = 10;
+const SOON_STUCK_S = 3;
 const SOON_CLEAR_S = 4;
 const FAST_S = 40;
 const MOVED_MM = 300;
@@ -77,6 +78,23 @@ export function wasStuck(data, tick) {
 }
 
 /**
+ * @param {RunData} data
+ * @param {number} tick
+ */
+export function hasBeenStuck(data, tick) {
+  return seconds(data, longestStretch(data.robots[0], tick)) >= SOON_STUCK_S;
+}
+
+/**
+ * How often a plant was put somewhere, up to a tick.
+ * @param {ShownRun} lane
+ * @param {number} tick
+ */
+export function plantsPut({ experiment }, tick) {
+  return experiment.changes.filter((change) => (change.do === "plant" || change.do === "move_plant") && change.tick <= tick + 1).length;
+}
+
+/**
  * @param {Shown} run
  * @param {number} tick
  */
@@ -126,6 +144,15 @@ function brokenTimes({ experiment }, how, tick) {
     else times.push({ first: change.tick, last: tick });
   }
   return times;
+}
+
+/**
+ * Whether a sensor has ever seen what was not there.
+ * @param {ShownRun} lane
+ * @param {number} tick
+ */
+export function isBroken(lane, tick) {
+  return brokenTimes(lane, "stuck-on", tick + 1).length > 0;
 }
 
 /**

@@ -19,14 +19,20 @@ export class LessonView {
     const { texts, plan } = course;
     this.course = course;
     this.marks = texts.lessons[plan.id].goals.map((goal) => makeGoal(goal));
-    this.tool = toolOf(plan.tool, course.lab, texts);
+    /** @type {import("./tools.js").Tool[]} - Of the step that is shown. */
+    this.tools = [];
     this.news = made("p", [], { role: "status", id: "lesson-news" });
     this.begin = buttonOf(texts.words.start, () => course.begin());
     this.begin.className = "main";
     this.begin.id = "begin-lesson";
-    this.step = made("div", [], { id: "step", role: "group" });
-    /** The index of the step that is shown, and a key of what is written about it. */
+    const [head, body, foot] = ["head", "held", "foot"].map((name) => made("div", [], { class: name }));
+    this.head = head;
+    this.body = body;
+    this.foot = foot;
+    this.step = made("div", [head, this.news, body, foot], { id: "step", role: "group" });
+    /** The index of the step that is shown, of the one whose text and tools are written, and a key of what else is. */
     this.place = this.firstOpen;
+    this.writtenPlace = NaN;
     this.written = "";
     byId("panel-lessons").replaceChildren(...this.parts());
   }
@@ -38,9 +44,8 @@ export class LessonView {
     const heading = (/** @type {string} */ text) => made("h2", [text]);
     return [
       this.choices(), this.step, made("p", [question], { class: "question" }),
-      heading(words.goals), made("ul", this.marks.map(({ item }) => item), { id: "goals" }), this.news,
-      ...(this.tool ? [heading(words.tools), this.tool.element] : []),
-      this.prints(), ...this.details(),
+      heading(words.goals), made("ul", this.marks.map(({ item }) => item), { id: "goals" }),
+      this.prints(), ...(this.course.classroom.isOpen ? [] : [this.course.classroom.element]), ...this.details(),
     ];
   }
 
@@ -85,42 +90,73 @@ export class LessonView {
   /** @param {number} place - Of the step to show. */
   go(place) {
     this.place = place;
-    this.showStep();
+    this.show();
+    this.reveal();
+  }
+
+  /** Where the panel is below the arena, or beside it in a page that scrolls, brings the step into view. */
+  reveal() {
+    if (matchMedia("(max-width: 899px), (max-height: 500px)").matches) this.step.scrollIntoView();
   }
 
   showStep() {
+    this.showMarks();
+    if (this.place === this.writtenPlace) return;
+    this.writtenPlace = this.place;
+    const { texts, plan, lab } = this.course;
+    this.tools = (plan.steps[this.place].tools ?? []).map((name) => toolOf(name, lab, texts));
+    this.step.setAttribute("aria-label", this.nameOf(this.place));
+    this.body.replaceChildren(made("p", [this.steps[this.place]]), ...this.tools.map(({ element }) => element));
+  }
+
+  /** Shows which steps are done, and what can be pressed then. */
+  showMarks() {
     const { course, place, steps } = this;
-    const { done, next, texts: { words } } = course;
+    const { done, texts: { words } } = course;
     const key = JSON.stringify([place, ...done]);
     if (key === this.written) return;
     this.written = key;
-    const said = filled(words.stepOf, { step: place + 1, all: steps.length });
-    const marks = steps.map((_, i) => {
-      const mark = buttonOf(done.has(i) ? `${i + 1} ✓` : `${i + 1}`, () => this.go(i));
-      mark.classList.toggle("done", done.has(i));
-      mark.setAttribute("aria-label", `${filled(words.stepOf, { step: i + 1, all: steps.length })}${done.has(i) ? `, ${words.ticked}` : ""}`);
-      if (i === place) mark.setAttribute("aria-current", "step");
-      return mark;
-    });
-    const isLast = done.size === steps.length;
-    const on = isLast ? next && buttonOf(words.nextLesson, () => course.choose(next.id)) : buttonOf(this.doneWords, () => this.tick());
-    if (on) Object.assign(on, { id: "step-done", className: "main" });
-    this.step.setAttribute("aria-label", said);
-    this.step.replaceChildren(
-      made("div", [made("b", [said]), ...marks], { class: "head" }), made("p", [steps[place]]),
-      ...(isLast ? [made("p", [words.allSteps])] : []), ...(on ? [on] : []),
-    );
+    const hadFocus = this.foot.contains(document.activeElement);
+    const marks = steps.map((_, i) => this.markOf(i));
+    this.head.replaceChildren(made("b", [this.nameOf(place)]), ...marks);
+    const on = this.onwards();
+    const said = done.size === steps.length ? words.allSteps : done.has(place) ? words.seenDone : "";
+    this.foot.replaceChildren(...(said ? [made("p", [said])] : []), ...(on ? [on] : []));
+    if (hadFocus) on?.focus();
   }
 
-  get doneWords() {
-    const { words } = this.course.texts;
-    return this.place < this.steps.length - 1 ? words.stepDone : words.lastDone;
+  /** @param {number} place - Of a step. */
+  nameOf(place) {
+    return filled(this.course.texts.words.stepOf, { step: place + 1, all: this.steps.length });
   }
 
-  /** The step is done, and the next one that is not comes. */
+  /** @param {number} place - Of a step. */
+  markOf(place) {
+    const { done, texts } = this.course;
+    const isDone = done.has(place);
+    const mark = buttonOf(isDone ? `${place + 1} ✓` : `${place + 1}`, () => this.go(place));
+    mark.classList.toggle("done", isDone);
+    mark.setAttribute("aria-label", `${this.nameOf(place)}${isDone ? `, ${texts.words.ticked}` : ""}`);
+    if (place === this.place) mark.setAttribute("aria-current", "step");
+    return mark;
+  }
+
+  /** The button that leads on from this step. */
+  onwards() {
+    const { course, place, steps } = this;
+    const { done, next, texts: { words } } = course;
+    const isLast = done.size === steps.length && place === steps.length - 1;
+    if (isLast && !next) return undefined;
+    const text = isLast ? words.nextLesson : done.has(place) ? words.nextStep : place < steps.length - 1 ? words.stepDone : words.lastDone;
+    const on = buttonOf(text, () => (isLast ? course.choose(next.id) : this.tick()));
+    return Object.assign(on, { id: "step-done", className: "main" });
+  }
+
+  /** The step is done, and the next one comes; after the last one, the first that is not done. */
   tick() {
-    this.course.tick(this.place);
-    this.go(this.firstOpen);
+    const { course, place, steps } = this;
+    if (!course.done.has(place)) course.tick(place);
+    this.go(place < steps.length - 1 ? place + 1 : this.firstOpen);
     document.getElementById("step-done")?.focus();
   }
 
@@ -128,13 +164,14 @@ export class LessonView {
     this.showStep();
     const { reached, texts, begun } = this.course;
     const { words } = texts;
-    this.tool?.show();
+    for (const tool of this.tools) tool.show();
     setText(this.begin, begun ? words.again : words.start);
     this.marks.forEach(({ item, state }, place) => {
       item.classList.toggle("reached", reached.has(place));
       setText(state, reached.has(place) ? words.reached : words.open);
     });
     setText(this.news, this.newsNow());
+    this.news.classList.toggle("all", reached.size === this.marks.length);
   }
 
   newsNow() {

@@ -32,6 +32,14 @@ export function tellsKnowingFromSaying({ history }) {
     isEliza(one) !== isEliza(other) && [one, other].every((it) => (it.said.mark === "words") === isEliza(it)));
 }
 
+/**
+ * @param {TalkBox} talk
+ * @param {string} who - The first letters of a speaker.
+ */
+export function wasAsked({ history }, who) {
+  return history.some((exchange) => exchange.who.startsWith(who));
+}
+
 /** @param {TalkBox} talk */
 export function repeatsWhatItWasTaught({ history, taught }) {
   return history.some(({ said }) => said.mark === "words" && taught.has(said.text));

@@ -1,12 +1,14 @@
 // @ts-check
-/* Tools that some lessons need beside the rest of the page. */
+/* Tools that stand in the steps of the lessons. */
 
-import { setText } from "../core/elements.js";
-import { heard, languageCode } from "../core/language.js";
+import { byId, setText } from "../core/elements.js";
+import { heard, languageCode, say } from "../core/language.js";
 import { filled } from "../core/phrases.js";
 import { SENSORS } from "../core/sensors.js";
 import { PARAMETERS } from "../generated.js";
-import { choiceOf, made } from "../core/building.js";
+import { buttonOf, choiceOf, made } from "../core/building.js";
+import { Boxes } from "./boxes.js";
+import { DotPlot } from "./dot_plot.js";
 import { settingAt, ticksPerObstacle } from "./evidence.js";
 
 /**
@@ -21,23 +23,57 @@ import { settingAt, ticksPerObstacle } from "./evidence.js";
 
 const DISTRUST_DECISIONS = 32;
 
-/** @type {Record<string, (lab: Lab, texts: Texts) => Tool>} */
+/** @typedef {keyof typeof MAKERS} ToolName */
+
+/** @satisfies {Record<string, (lab: Lab, texts: Texts) => Tool>} */
 const MAKERS = {
   patience: makePatience,
   sensors: makeSensors,
-  share: (lab, { words }) => makeSwitch(lab, "share", 1, words.share),
+  distrust: (/** @type {Lab} */ lab, /** @type {Texts} */ { words }) => makeSwitch(lab, "distrust", DISTRUST_DECISIONS, words.distrust),
+  share: (/** @type {Lab} */ lab, /** @type {Texts} */ { words }) => makeSwitch(lab, "share", 1, words.share),
   score: makeScore,
   talk: makeTalk,
+  teach: makeTeaching,
+  boxes: (/** @type {Lab} */ lab) => new Boxes(lab),
+  samples: (/** @type {Lab} */ lab, /** @type {Texts} */ { words }) => new DotPlot(lab.course.samples, words),
+  whatIf: () => makeButton(say("whatIf"), () => byId("what-if").click()),
+  addPlant: () => makeButton(say("addPlant"), () => byId("add-plant").click()),
+  erase: () => makeButton(say("erase"), () => byId("erase").click()),
+  swap: (/** @type {Lab} */ lab, /** @type {Texts} */ { words }) => makeButton(words.swap, () => swapMotors(lab)),
 };
 
 /**
- * The tool of a kind; undefined for none.
- * @param {string} kind
+ * @param {ToolName} name
  * @param {Lab} lab
  * @param {Texts} texts
+ * @returns {Tool}
  */
-export function toolOf(kind, lab, texts) {
-  return MAKERS[kind]?.(lab, texts);
+export function toolOf(name, lab, texts) {
+  return MAKERS[name](lab, texts);
+}
+
+/**
+ * @param {string} text
+ * @param {() => void} onClick
+ * @returns {Tool}
+ */
+function makeButton(text, onClick) {
+  const button = buttonOf(text, onClick);
+  button.className = "main";
+  return { element: button, show: () => {} };
+}
+
+/**
+ * Swaps the motors of the robots of all runs, before the tick that is shown next.
+ * @param {Lab} lab
+ */
+function swapMotors(lab) {
+  const tick = Math.min(lab.tick + 1, ...lab.lanes.map(({ last }) => last));
+  for (const lane of lab.lanes) {
+    lane.change({ do: "body", what: "swap-motors", robot: 0, seed: 0, tick });
+    lab.simulate(lane);
+  }
+  lab.goAhead(tick);
 }
 
 /**
@@ -107,15 +143,14 @@ function makeSensors(lab, { words }) {
   /** @type {ReturnType<typeof choiceOf>[]} */
   const choices = SENSORS.map((name) => choiceOf(heard(name), states, () => breakAsChosen()));
   const breakAsChosen = () => breakSensors(lab, choices.map(({ select }) => select.value));
-  const distrust = makeSwitch(lab, "distrust", DISTRUST_DECISIONS, words.distrust);
   const fields = made("fieldset", [made("legend", [words.sensors]), ...choices.map(({ label }) => label).reverse()]);
   const show = () => {
     choices.forEach(({ select }, place) => {
       if (document.activeElement !== select) select.value = stateOf(lab, SENSORS[place]);
     });
-    distrust.show();
   };
-  return { element: made("div", [fields, distrust.element], { class: "sensors" }), show };
+  fields.className = "sensors";
+  return { element: fields, show };
 }
 
 /**
@@ -159,23 +194,31 @@ function makeScore(lab, { words }) {
 }
 
 /**
- * The box to talk in, and a form to teach a speaker a word.
+ * The box to talk in.
+ * @param {Lab} lab
+ * @returns {Tool}
+ */
+function makeTalk(lab) {
+  const element = made("div", []);
+  return { element, show: () => lab.talk.moveTo(element) };
+}
+
+/**
+ * A form to teach a speaker a word.
  * @param {Lab} lab
  * @param {Texts} texts
  * @returns {Tool}
  */
-function makeTalk(lab, { words }) {
+function makeTeaching(lab, { words }) {
   const [word, answer] = ["teach-word", "teach-answer"].map((id) => made("input", [], { id, maxlength: "60", required: "" }));
   const fields = [made("label", [`${words.word} `, word]), made("label", [`${words.answer} `, answer])];
-  const form = made("form", [...fields, made("button", [words.teach])], { class: "controls" });
+  const form = made("form", [...fields, made("button", [words.teach])], { class: "teach" });
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     lab.teach(lab.talk.who.value, word.value, answer.value);
     form.reset();
   });
-  const element = made("div", [form]);
-  lab.talk.meetRobot();
-  return { element, show: () => lab.talk.moveTo(element) };
+  return { element: form, show: () => {} };
 }
 
 /**

@@ -2,18 +2,29 @@
 /* The WebSocket of a live run: connects, and reconnects. */
 
 import { byId, setText } from "../core/elements.js";
+import { hideToken } from "../core/kept.js";
 import { say } from "../core/language.js";
 
 const RECONNECT_MS = 1000;
 const GOING_AWAY = 1001;
+const RECORDED = "/recorded";
+
+/**
+ * Shows the run so far as a recorded one.
+ * @param {string} how - What to do there: a query for `followAddress` in replay/replay.js.
+ */
+export function lookBack(how) {
+  location.assign(`${RECORDED}#${how}`);
+}
 
 /** Shows a lost connection in the element `status`; the next run may use the same address. */
 export class Connection {
   /**
-   * @param {string} path - The address, with its query.
+   * @param {string} path - The address, with its query, and without the page's token.
    * @param {(message: any) => void} accept - Gets each message.
    */
   constructor(path, accept) {
+    hideToken();
     this.path = path;
     this.accept = accept;
     this.hasEnded = false;
@@ -40,7 +51,14 @@ export class Connection {
     this.hasEnded ||= event.code === GOING_AWAY;
     document.body.classList.add("lost");
     this.tell();
+    if (event.code === GOING_AWAY) this.becomeRecorded();
     setTimeout(() => (this.socket = this.connect()), RECONNECT_MS);
+  }
+
+  /** The run has ended: the page becomes that of the recorded run, if the server still has it. */
+  async becomeRecorded() {
+    const { ok } = await fetch(RECORDED, { method: "HEAD" }).catch(() => ({ ok: false }));
+    if (ok) location.replace(`${RECORDED}#ended`);
   }
 
   /** Says that the connection is lost, if it is. */

@@ -5,11 +5,12 @@ import { byId, isForPage, setText, typedById } from "../core/elements.js";
 import { ending } from "../core/endings.js";
 import { inEachLanguage, robotWords, say } from "../core/language.js";
 import { decimal } from "../core/phrases.js";
+import { lookBack } from "./connection.js";
 
 /** @type {Record<string, string>} */
-const KEYS = { " ": "play", ".": "decision", n: "next" };
+const KEYS = { " ": "play", ".": "decision", n: "next", w: "what-if" };
 /** The controls without effect once the run is over. */
-const NEEDS_A_RUN = ["play", "decision", "lift", "add-bar"];
+const NEEDS_A_RUN = ["play", "decision", "lift", "add-bar", "add-plant", "break"];
 
 /** Sends what a person asks for, and shows how things stand. */
 export class Controls {
@@ -22,6 +23,8 @@ export class Controls {
     this.speed = typedById("speed", HTMLSelectElement);
     this.seed = typedById("seed", HTMLInputElement);
     this.keep = typedById("keep", HTMLInputElement);
+    this.scrub = typedById("scrub", HTMLInputElement);
+    this.isScrubbed = false;
     this.bindButtons();
     inEachLanguage(() => this.showFrozen(this.frozen));
     document.addEventListener("keydown", (event) => this.onKey(event));
@@ -31,7 +34,10 @@ export class Controls {
    * @param {Scene} scene
    * @param {Play} play
    */
-  show({ state, environment, measures }, play) {
+  show(scene, play) {
+    const { state, environment, measures } = scene;
+    if (!this.isScrubbed) this.showTime(state.tick);
+    setText(byId("clock"), scene.clock(Number(this.scrub.value)));
     this.playing = play.playing;
     this.node = state.node;
     this.showFrozen(state.frozen);
@@ -54,6 +60,12 @@ export class Controls {
     setText(byId("freeze"), say(frozen ? "frozen" : "freeze"));
   }
 
+  /** @param {number} tick - The present, at the end of the slider. */
+  showTime(tick) {
+    this.scrub.max = `${tick}`;
+    this.scrub.value = this.scrub.max;   // after its bound, which it cannot pass
+  }
+
   bindButtons() {
     const on = (/** @type {string} */ id, /** @type {() => Command} */ command) =>
       byId(id).addEventListener("click", () => this.send(command()));
@@ -62,6 +74,9 @@ export class Controls {
     on("next", () => ({ do: "next" }));
     on("erase", () => ({ do: "erase", node: this.node }));
     on("freeze", () => ({ do: "freeze", node: this.node, on: 1 - this.frozen }));
+    byId("what-if").addEventListener("click", () => lookBack("what-if"));
+    this.scrub.addEventListener("input", () => (this.isScrubbed = true));
+    this.scrub.addEventListener("change", () => lookBack(`tick=${this.scrub.value}`));
     this.speed.addEventListener("change", () => {
       this.send({ do: "speed", factor: Number(this.speed.value) });
       this.speed.blur();
@@ -102,7 +117,6 @@ function showEnding({ ended, done }) {
 
 /** @param {Play} play */
 function statusOf(play) {
-  if (play.waits) return say("waitsForBoard");
   if (play.done) return say(play.stays ? "allDoneSeed" : "allDone");
   if (play.ended) return say("onToNext");
   return say(play.playing ? "live" : "paused");

@@ -5,7 +5,6 @@ import { byId, setText } from "../core/elements.js";
 import { restarted } from "../core/endings.js";
 import { heard, inEachLanguage, say } from "../core/language.js";
 import { Connection } from "./connection.js";
-import { LiveSeat, pageKey } from "./live_seat.js";
 import { LiveView } from "./live_view.js";
 import { Toast } from "../core/toast.js";
 import { Scene } from "../draw/scene.js";
@@ -22,10 +21,8 @@ class LivePage {
     /** How old the state was when it was last drawn, for measurements. */
     this.timing = { lagMs: 0 };
     this.note = new Toast();
-    this.key = pageKey();
-    this.seat = new LiveSeat((command) => this.send(command));
     this.talk = new TalkBox(byId("talk"), this);
-    this.connection = new Connection(`/live${query(this.key)}`, (message) => this.accept(message));
+    this.connection = new Connection("/live", (message) => this.accept(message));
     setText(byId("status"), say("connecting"));
     setText(byId("doing"), say("waitingRobot"));
     inEachLanguage(() => this.drawSoon());
@@ -65,7 +62,6 @@ class LivePage {
       this.view ??= new LiveView(scene, (command) => this.send(command), () => this.drawSoon());
     }
     this.view?.accept(message);
-    if (message.seat !== undefined) this.seat.take(message.seat, this.view);
     if (startedOver) this.note.show(restarted(environment, states));
     if (message.notes) this.view?.editor.onRefusal();
     message.notes?.forEach((text) => this.note.show(heard(text)));
@@ -89,13 +85,6 @@ class LivePage {
     this.connection.tell();
     this.timing.lagMs = Date.now() - message.at;
   }
-}
-
-/** @param {string} key - By which the page is recognised. */
-function query(key) {
-  const fields = new URLSearchParams(location.search);
-  fields.set("page", key);
-  return `?${fields}`;
 }
 
 if ("WebSocket" in window) Object.assign(window, { octet: new LivePage() });

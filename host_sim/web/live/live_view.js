@@ -1,18 +1,19 @@
 // @ts-check
 /* What the live page shows, and what a person can do there. */
 
+import { Scene } from "../draw/scene.js";
 import { ArenaEditor } from "../edit/arena_editor.js";
 import { bindArenaKeys } from "../edit/arena_keys.js";
 import { Controls } from "./controls.js";
 import { DragController } from "../edit/drag_controller.js";
 import { byId, setText, typedById } from "../core/elements.js";
+import { FaultMenu } from "../panel/fault_menu.js";
 import { Lens } from "../draw/lens.js";
 import { LessonsView } from "../panel/lessons_view.js";
 import { Panel } from "../panel/panel.js";
 import { Renderer } from "../draw/renderer.js";
 import { RobotPicker } from "../panel/robot_picker.js";
 import { robotWords, say } from "../core/language.js";
-import { showMessage } from "./message_scene.js";
 
 const LESSONS_SHOWN = 30;
 
@@ -32,6 +33,10 @@ export class LiveView {
     this.controls = new Controls(send);
     this.picker = new RobotPicker(scene, (node) => this.editor.pick(node));
     this.lessonsView = new LessonsView();
+    this.faults = new FaultMenu((what) => {
+      const { index, environment } = scene;
+      send({ do: "body", what, robot: index, seed: environment.seed });
+    });
     /** @type {Map<number, Lesson[]>} - The last lessons of each robot, by node. */
     this.lessons = new Map();
     bindArenaKeys(this.renderer.canvas, this.editor);
@@ -73,4 +78,39 @@ export class LiveView {
 function pinsText({ volts, counts, duty }) {
   const said = `${volts}`.replace(".", robotWords().point);
   return say("pins", { volts: said, counts: counts.join(", "), duty: duty.join(", ") });
+}
+
+/**
+ * Fills a scene with a message of a live run.
+ * @param {Scene} scene
+ * @param {Message} message
+ */
+function showMessage(scene, { measures, environment, states, trails, news }) {
+  if (measures && environment) restart(scene, new Scene(measures, environment, states));
+  if (environment) enter(scene, environment);
+  scene.states = states;
+  scene.news = news ?? scene.news;
+  trails.forEach((points, i) => {
+    for (let at = 0; at < points.length; at += 3) scene.trails[i].add(points[at], points[at + 1], points[at + 2]);
+  });
+}
+
+/**
+ * The page has connected again: nothing of before holds, but for the robot that is selected.
+ * @param {Scene} scene
+ * @param {Scene} anew
+ */
+function restart(scene, anew) {
+  const { node } = scene;
+  Object.assign(scene, anew);
+  if (scene.states.some((state) => state.node === node)) scene.node = node;
+}
+
+/**
+ * @param {Scene} scene
+ * @param {EnvironmentScene} environment
+ */
+function enter(scene, environment) {
+  if (environment.first_tick !== scene.environment.first_tick) scene.trails.forEach((trail) => trail.clear());
+  scene.environment = environment;
 }

@@ -233,6 +233,9 @@ const char *page_program_expected(uint32_t expected);
 const char *page_program_shown(uint32_t robot, uint32_t place);
         /* A text that it shows, from place 0 on. */
 
+const char *page_program_printed(uint32_t robot);
+        /* What it has printed, in lines. */
+
 /* page_layouts.c: the initial layouts of environments. */
 
 double *page_drawing(void);

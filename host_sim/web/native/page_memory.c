@@ -2,8 +2,7 @@
 
 #include <string.h>
 
-#include "firmware/memory/memory_kind.h"
-#include "firmware/memory/memory_write.h"
+#include "firmware/memory/memory.h"
 
 const uint8_t *page_memory(uint32_t robot)
 {

@@ -15,6 +15,7 @@ void page_bind(struct loop_robot *robot, struct octet *octet)
     robot->senses_id = wire_id(&octet->wire, OCTET_SENSES_FRAME_ID);
     robot->drive_id = wire_id(&octet->wire, OCTET_DRIVE_FRAME_ID);
     robot->heartbeat_id = wire_id(&octet->wire, OCTET_HEARTBEAT_FRAME_ID);
+    robot->health_id = wire_id(&octet->wire, OCTET_HEALTH_FRAME_ID);
     robot->waiting = page_state()->waiting[index];
     robot->rows = rows[index];
     robot->poses = poses[index];

@@ -98,3 +98,8 @@ const char *page_program_shown(uint32_t robot, uint32_t place)
 {
     return program_of(robot)->shown[place].text;
 }
+
+const char *page_program_printed(uint32_t robot)
+{
+    return program_of(robot)->printed;
+}

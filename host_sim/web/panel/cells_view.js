@@ -19,7 +19,7 @@ import { CONES, patternBit } from "../core/sensors.js";
  * @typedef {(cell: number, side: number) => void} OnPress
  */
 
-const SVG = "http://www.w3.org/2000/svg";
+export const SVG = "http://www.w3.org/2000/svg";
 /** A cone of 45 degrees that looks up. */
 const SECTOR = "M0 0 L-12.2 -29.6 A32 32 0 0 1 12.2 -29.6 Z";
 
@@ -39,19 +39,19 @@ export class CellsView {
   nameCells() {
     this.shown = [];
     this.cells.forEach(({ name, button }, cell) => {
-      name.textContent = `${robotWords().patterns[cell]} ${binary(cell)}`;
+      name.replaceChildren(made("span", [robotWords().patterns[cell]]), ` ${binary(cell)}`);
       if (button instanceof HTMLButtonElement) button.title = say(cell ? "pressCell" : "nothingToLearn");
     });
   }
 
   /**
    * @param {Scene} scene
-   * @param {number[]} [then] - A memory to compare with,
-   * @param {string} [where] - and when or where it is.
+   * @param {State} state - Of its robot; the sentence tells of the same one.
+   * @param {{then?: number[], where?: string}} other - A memory to compare with, and when or where it is.
    */
-  show(scene, then, where = say("then")) {
+  show(scene, state, { then, where = say("then") }) {
     this.cells.forEach((parts, cell) => {
-      const facts = { ...factsOf(scene, cell, then), where };
+      const facts = { ...factsOf(scene, state, cell), then: then ? then[cell] : null, where };
       const key = JSON.stringify(facts);
       if (this.shown[cell] !== key) fillCell(parts, facts);
       this.shown[cell] = key;
@@ -61,12 +61,11 @@ export class CellsView {
 
 /**
  * @param {Scene} scene
+ * @param {State} state
  * @param {number} cell
- * @param {number[]} [then]
- * @returns {Omit<Facts, "where">}
+ * @returns {Omit<Facts, "then" | "where">}
  */
-function factsOf(scene, cell, then) {
-  const { state } = scene;
+function factsOf(scene, state, cell) {
   const about = state.pattern === cell && !state.lifted;
   return {
     cell,
@@ -77,7 +76,6 @@ function factsOf(scene, cell, then) {
     inUse: about && state.reason === REASON.REMEMBERED,
     trying: about && state.reason === REASON.TRIAL && state.trial ? state.trial.side : SIDE.NOTHING,
     meant: scene.meant?.cells.includes(cell) ?? false,
-    then: then ? then[cell] : null,
   };
 }
 
@@ -87,8 +85,7 @@ function factsOf(scene, cell, then) {
  */
 function fillCell(parts, facts) {
   const { button } = parts;
-  if (button.dataset.side !== SIDES[facts.side]) delete button.dataset.wanted;
-  button.dataset.side = SIDES[facts.side];
+  showSide(button, facts.side);
   button.classList.toggle("in-use", facts.inUse);
   button.classList.toggle("trying", facts.trying !== SIDE.NOTHING);
   button.classList.toggle("meant", facts.meant);
@@ -100,6 +97,15 @@ function fillCell(parts, facts) {
   button.setAttribute("aria-label", say("cell", { cell: facts.cell, words: words.filter(Boolean).join(", ") }));
 }
 
+/**
+ * @param {HTMLElement} button - Of a cell.
+ * @param {number} side
+ */
+export function showSide(button, side) {
+  if (button.dataset.side !== SIDES[side]) delete button.dataset.wanted;
+  button.dataset.side = SIDES[side];
+}
+
 /** @param {Facts} facts */
 function sideWords({ cell, side, trying }) {
   if (cell === 0) return say("driveOn");
@@ -108,7 +114,7 @@ function sideWords({ cell, side, trying }) {
 }
 
 /** @param {number} side */
-function sideName(side) {
+export function sideName(side) {
   return side ? robotWords().sides[side] : say("empty");
 }
 
@@ -136,10 +142,11 @@ function makeCell(list, cell, onPress) {
 }
 
 /**
+ * A button that asks for the next side of a cell; its data-side is the side that is shown.
  * @param {number} cell
  * @param {OnPress} onPress
  */
-function makeButton(cell, onPress) {
+export function makeButton(cell, onPress) {
   const button = buttonOf("", () => {
     // A second press before the first one is shown continues from the side that the first one asked for.
     const next = (SIDES.indexOf(button.dataset.wanted ?? button.dataset.side ?? "") + 1) % SIDES.length;
@@ -172,7 +179,7 @@ export function pictureOf(pattern) {
  * @param {string} name
  * @param {Record<string, string>} attributes
  */
-function addShape(svg, name, attributes) {
+export function addShape(svg, name, attributes) {
   const shape = svg.appendChild(document.createElementNS(SVG, name));
   for (const [key, value] of Object.entries(attributes)) shape.setAttribute(key, value);
 }

@@ -69,8 +69,10 @@ function firstDifference(one, other, ticks, names) {
 export function partingWords(one, other) {
   if (!one.data || !other.data || !one.scene) return "";
   const parting = partingOf(one.data, other.data);
-  if (!parting) return say("sameToEnd", { a: one.name, b: other.name });
+  if (!parting) return say("sameToEnd");
   const { tick, robot } = parting;
+  const ended = [one, other].find(({ data }) => data && data.last < tick);
+  if (ended) return say("sameUntil", { time: one.scene.clock(tick) });
   const [a, b] = [one, other].map(({ data }) => data?.statesAt(Math.min(tick, data.last))[robot]);
   if (!a || !b) return "";
   const [said, otherSaid] = [a, b].map((state) => sentence(state, true, robotWords()));

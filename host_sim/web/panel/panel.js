@@ -18,7 +18,7 @@ const THINGS = [
   ["bar", "thingBar"],
 ];
 
-/** Fills the elements of a page that have these ids: doing why boredom facts legend cells memory-title. */
+/** Fills the elements of a page that have these ids: doing why boredom-meter facts legend to-legend cells memory-title. */
 export class Panel {
   /** @param {import("./cells_view.js").OnPress} [onPress] - As in `CellsView`. */
   constructor(onPress) {
@@ -26,6 +26,7 @@ export class Panel {
     /** @type {HTMLElement[]} */
     this.legend = [];
     inEachLanguage(() => this.fillLegend(byId("legend")));
+    byId("to-legend").addEventListener("click", () => byId("reference").scrollIntoView({ block: "end" }));
     /** @type {WeakMap<Scene, SteadyStates>} */
     this.calm = new WeakMap();
     this.reason = -1;
@@ -48,12 +49,13 @@ export class Panel {
    *   with, and when or where it is.
    */
   show(scene, { exact, then, where }) {
-    const { state, measures } = scene;
-    this.showSentence(scene.shown.get(state.node) ?? state, exact);
-    this.showBoredom(state, measures);
+    const { node } = scene.state;
+    const state = scene.shown.get(node) ?? scene.state;
+    this.showSentence(state, exact);
+    this.showBoredom(state, scene.measures);
     showFacts(scene);
-    setText(byId("memory-title"), say(scene.states.length > 1 ? "memoryOf" : "memory", { node: state.node }));
-    this.cells.show(scene, then, where);
+    setText(byId("memory-title"), say(scene.states.length > 1 ? "memoryOf" : "memory", { node }));
+    this.cells.show(scene, state, { then, where });
   }
 
   /**
@@ -80,7 +82,7 @@ export class Panel {
    */
   showBoredom(state, measures) {
     const count = Math.min(state.repeat_count, measures.boredom);
-    const meter = byId("boredom");
+    const meter = byId("boredom-meter");
     const words = say("ofCount", { count, all: measures.boredom });
     if (byId("boredom-count").textContent === words) return;
     meter.style.setProperty("--share", `${count / measures.boredom}`);

@@ -2,32 +2,45 @@
 /* A link to an experiment: all that reproduces it follows the # of the page's address. */
 
 import { filled } from "../core/phrases.js";
-import { CELL_COUNT, PROFILES, PROGRAM_TEXT_MAX } from "../generated.js";
+import { CELL_COUNT, PARAMETERS, PROFILES, PROGRAM_TEXT_MAX } from "../generated.js";
+import { changesIn, setupsIn } from "./linked_changes.js";
 
 /**
  * What a link has.
- * @typedef {{seed: number, environments: number, world: string, behaviour: string, memory: number[], language: string,
- *   program: string}} Linked
+ * @typedef {{seed: number, environments: number, robots: number, world: string, body: string, behaviour: string,
+ *   memory: number[], settings: Record<string, number>, setups: RobotSetup[], changes: Experiment["changes"], tick: number,
+ *   lesson: string, step: number, language: string, program: string}} Linked
  *
  * What of a link could be taken, and what not: the names of its fields.
  * @typedef {{taken: Partial<Linked>, left: string[], isCut: boolean, isOther: boolean}} Found
  *
- * What there is to choose from: programs by name, the names of worlds, the codes of languages.
- * @typedef {{programs: Record<string, string>, worlds: string[], languages: string[]}} Known
+ * What there is to choose from: programs by name, the names of worlds and of lessons, the codes of languages.
+ * @typedef {{programs: Record<string, string>, worlds: string[], lessons: string[], languages: string[]}} Known
  */
 
 const VERSION = "1";
 const END = "end";
 const SEED_MAX = 999_999_999;
 const ENVIRONMENTS_MAX = 20;
+const ROBOTS_MAX = 4;
+const TICK_MAX = 999_999;
+const STEPS_MAX = 20;
 
 /** @type {{[K in keyof Linked]: (text: string, known: Known) => Linked[K] | undefined}} */
 const READERS = {
   seed: (text) => whole(text, 0, SEED_MAX),
   environments: (text) => whole(text, 1, ENVIRONMENTS_MAX),
+  robots: (text) => whole(text, 1, ROBOTS_MAX),
   world: (text, { worlds }) => oneOf(text, worlds),
+  body: (text) => oneOf(text, ["ideal", "kit"]),
   behaviour: (text) => oneOf(text, PROFILES),
   memory: (text) => memoryIn(text),
+  settings: (text) => settingsIn(text),
+  setups: (text) => setupsIn(text),
+  changes: (text) => changesIn(text),
+  tick: (text) => whole(text, 0, TICK_MAX),
+  lesson: (text, { lessons }) => oneOf(text, lessons),
+  step: (text) => whole(text, 0, STEPS_MAX),
   language: (text, { languages }) => oneOf(text, languages),
   program: (text, { programs }) => {
     if (text.startsWith("@")) return new Map(Object.entries(programs)).get(text.slice(1));
@@ -40,11 +53,15 @@ const READERS = {
  * @param {Partial<Linked>} linked
  * @param {Known} known
  */
-export function linkOf({ memory, program, ...others }, { programs }) {
+export function linkOf({ memory, settings, setups, changes, program, ...others }, { programs }) {
   const name = Object.keys(programs).find((each) => programs[each] === program);
+  const set = Object.entries(settings ?? {}).map(([parameter, value]) => `${parameter}:${value}`);
   const fields = {
     ...others,
     ...(memory && { memory: memory.join(".") }),
+    ...(set.length && { settings: set.join(",") }),
+    ...(setups && { setups: JSON.stringify(setups) }),
+    ...(changes?.length && { changes: JSON.stringify(changes) }),
     ...(program !== undefined && { program: name ? `@${name}` : program }),
   };
   const parts = Object.entries(fields).map(([key, value]) => `${key}=${encodeURIComponent(value)}`);
@@ -128,4 +145,18 @@ function oneOf(text, choices) {
 function memoryIn(text) {
   const cells = text.split(".").map((cell) => whole(cell, 0, 255));
   return cells.length === CELL_COUNT && cells.every((cell) => cell !== undefined) ? /** @type {number[]} */ (cells) : undefined;
+}
+
+/** @param {string} text */
+function settingsIn(text) {
+  /** @type {Record<string, number>} */
+  const settings = {};
+  for (const part of text.split(",")) {
+    const [name, value] = part.split(":");
+    const parameter = Object.hasOwn(PARAMETERS, name) ? PARAMETERS[/** @type {keyof PARAMETERS} */ (name)] : undefined;
+    const number = parameter && whole(value ?? "", parameter.min, parameter.max);
+    if (number === undefined) return undefined;
+    settings[name] = number;
+  }
+  return settings;
 }

@@ -3,14 +3,14 @@
 
 import { buttonOf, choiceOf, made, termsOf } from "../core/building.js";
 import { byId, setText } from "../core/elements.js";
-import { LANGUAGES, inEachLanguage, languageCode, speak, wordsOf } from "../core/language.js";
+import { inEachLanguage, speak, wordsOf } from "../core/language.js";
 import { filled } from "../core/phrases.js";
 import { RANDOM } from "../core/world_names.js";
 import { nextTick } from "../lab/run_events.js";
-import { experimentOf } from "../lab/shown_run.js";
+import { experimentFrom } from "../lab/share.js";
 import { partingOf } from "../panel/divergence.js";
 import { Editor } from "./editor.js";
-import { linkOf, linkedIn, tellFound } from "./link.js";
+import { linkedIn, tellFound } from "./link.js";
 import { ProgramSteps } from "./program_steps.js";
 
 const FIRST = "article";
@@ -18,7 +18,7 @@ const WHEELS = ["left", "right"];
 
 /** Fills the element panel-program. The part of the address behind # may have an experiment. */
 export class ProgramTab {
-  /** @param {Laboratory} lab */
+  /** @param {import("../lessons/course.js").Lab} lab */
   constructor(lab) {
     this.lab = lab;
     this.steps = new ProgramSteps(lab.simulator);
@@ -123,17 +123,11 @@ export class ProgramTab {
 
   /** What the page shows, as a link. */
   link() {
-    const { lab } = this;
-    const { seed, environments, world = RANDOM, robots } = (this.octet ?? lab.lane).experiment;
-    const { profile, memory } = robots[0];
-    const named = typeof world === "string";
-    const linked = {
-      seed, environments, behaviour: profile, language: languageCode(), ...(named && { world }), ...(memory && { memory }),
-      program: this.editor.text,
-    };
-    history.replaceState(null, "", linkOf(linked, this.known));
-    this.tell(named ? "inAddress" : "noWorld");
-    navigator.clipboard?.writeText(location.href).then(() => this.tell(named ? "copied" : "noWorld"), () => {});
+    const { experiment } = this.octet ?? this.lab.lane;
+    history.replaceState(null, "", this.lab.link(experiment, { program: this.editor.text }));
+    const note = typeof (experiment.world ?? RANDOM) === "string" ? "copied" : "noWorld";
+    this.tell(note === "copied" ? "inAddress" : note);
+    navigator.clipboard?.writeText(location.href).then(() => this.tell(note), () => {});
   }
 
   /** @param {"inAddress" | "copied" | "noWorld"} note */
@@ -142,25 +136,24 @@ export class ProgramTab {
     this.show();
   }
 
-  get known() {
-    return { programs: this.lab.programs, worlds: Object.keys(this.lab.worlds), languages: LANGUAGES.map(([code]) => code) };
-  }
-
   /** @param {string} hash - Of a link to an experiment, which is shown; or of anything else. */
   follow(hash) {
-    const found = linkedIn(hash, this.known);
+    const { lab } = this;
+    const found = linkedIn(hash, lab.known);
     if (!found) return;
-    const { seed = 1, environments = 5, world = RANDOM, behaviour = "article", memory, program, language } = found.taken;
+    const { program, language, tick, lesson, step } = found.taken;
     if (language) speak(language);
-    const experiment = experimentOf({ seed, environments, robots: 1, profile: behaviour, world });
-    if (memory) experiment.robots[0].memory = memory;
-    this.lab.begin(experiment);
+    const experiment = experimentFrom(found.taken);
+    lab.begin(experiment);
     this.note = () => tellFound(found, this.texts);
-    if (program === undefined) return;
-    this.editor.text = program;
-    this.isChanged = false;
-    this.lab.select(this.lab.addLane(programmed(experiment, program)));
-    byId("tab-program").click();
+    if (lesson) lab.course.resume(lesson, step ?? 0);
+    if (program !== undefined) {
+      this.editor.text = program;
+      this.isChanged = false;
+      lab.select(lab.addLane(programmed(experiment, program)));
+      byId("tab-program").click();
+    }
+    if (tick) lab.lane.done.then(() => lab.seek(tick));
   }
 
   show() {
@@ -187,6 +180,7 @@ export class ProgramTab {
       state?.ended ? texts.ended : "",
       state && !mistake && !state.ended && this.steps.line ? filled(texts.running, { line: `${this.steps.line}` }) : "",
       state?.shown.length ? filled(texts.shows, { shown: state.shown.join(" | ") }) : "",
+      state?.printed.length ? filled(texts.prints, { printed: state.printed.join(" | ") }) : "",
     ];
     this.news.dataset.kind = mistake ? "mistake" : "";
     setText(this.news, [this.note(), ...now].filter(Boolean).join(" "));

@@ -133,6 +133,7 @@ export class PlayingPage {
     this.scrub.max = `${this.last}`;
     this.scrub.value = `${this.tick}`;
     this.scrub.setAttribute("aria-valuetext", clock);
+    setText(byId("clock"), clock);
   }
 
   /** @param {KeyboardEvent} event */

@@ -17,6 +17,9 @@ import { drawMarks } from "../panel/timeline.js";
 import { Conversations } from "../talk/conversation.js";
 import { TalkBox } from "../talk/talk_box.js";
 
+/** What is behind the address of a live run that has ended. */
+const ENDED = "#ended";
+
 /** Shows one run. */
 class Player extends PlayingPage {
   /** @param {RunData} data */
@@ -38,9 +41,23 @@ class Player extends PlayingPage {
     byId("pin").addEventListener("click", () => this.pin());
     inEachLanguage(() => {
       this.showPin();
-      setText(byId("status"), heard(data.run.title));
+      setText(byId("status"), this.title);
     });
     this.renderer.canvas.addEventListener("click", (event) => this.onClick(event));
+  }
+
+  get title() {
+    return location.hash === ENDED ? say("runRecorded") : heard(this.data.run.title);
+  }
+
+  /** Does what the address asks for, if it is a live run's: shows the tick before which it was left, or its end. */
+  followAddress() {
+    if (!location.protocol.startsWith("http")) return;
+    const asked = new URLSearchParams(location.hash.slice(1));
+    byId("to-live").hidden = location.hash === ENDED;
+    byId("to-live").addEventListener("click", () => location.assign("/"));
+    this.go(Number(asked.get("tick") ?? this.last));
+    if (asked.has("what-if")) this.whatIf();
   }
 
   /** @override */
@@ -82,7 +99,7 @@ class Player extends PlayingPage {
     const kind = /** @type {EventKind} */ (typedById("kind", HTMLSelectElement).value);
     const tick = this.robot.eventFrom(kind, this.tick, step);
     const none = say(step > 0 ? "noLater" : "noEarlier", { kind: nameIn("kinds", kind) });
-    setText(byId("status"), tick === undefined ? none : heard(this.data.run.title));
+    setText(byId("status"), tick === undefined ? none : this.title);
     if (tick !== undefined) this.seek(tick);
   }
 
@@ -156,7 +173,9 @@ async function start() {
   const text = byId("run").textContent;
   if (!text) throw new Error("This page contains no run: tools/octet replay RUN.LOG --html writes one that does.");
   const run = JSON.parse(text);
-  Object.assign(window, { octet: new Player(await RunData.from(run)) });
+  const player = new Player(await RunData.from(run));
+  Object.assign(window, { octet: player });
+  player.followAddress();
 }
 
 start().catch((error) => setText(byId("status"), heard(error.message)));

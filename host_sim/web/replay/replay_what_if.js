@@ -15,6 +15,10 @@ import { partingOf } from "../panel/divergence.js";
  * @typedef {Window & {octet?: {repeated: Promise<void>, lanes: {data?: RunData}[]}}} LabWindow
  */
 
+/** How often, and for how long, the script of the laboratory is waited for. */
+const LOOK_MS = 20;
+const UNPACK_MS = 30_000;
+
 const NONE = {
   why: "This page contains no firmware. This command writes one that does: tools/octet replay out/run.log --html out/replay.html --what-if",
 };
@@ -77,9 +81,11 @@ export class ReplayWhatIf {
 
   /**
    * Tells whether the laboratory's run is the recorded one.
-   * @param {LabWindow} lab
+   * @param {LabWindow} lab - Its script unpacks itself after the page has loaded.
    */
-  async check({ octet }) {
+  async check(lab) {
+    for (let waited = 0; !lab.octet && waited < UNPACK_MS; waited += LOOK_MS) await new Promise((done) => setTimeout(done, LOOK_MS));
+    const { octet } = lab;
     try {
       await octet?.repeated;
       const [run] = octet?.lanes ?? [];

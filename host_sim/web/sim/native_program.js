@@ -16,11 +16,14 @@ import { PROGRAM_TEXT_MAX } from "../generated.js";
  * @typedef {{line: number, word: string, expected: number, words: string}} Mistake
  *
  * The steps of a program's last decision, its cells before them, and what it shows.
- * @typedef {{ended: boolean, mistake: Mistake | null, steps: Step[], variables: Variable[], before: number[], shown: string[]}} ProgramState
+ * @typedef {{ended: boolean, mistake: Mistake | null, steps: Step[], variables: Variable[], before: number[], shown: string[], printed: string[]}} ProgramState
  */
 
 /** Numbers of page_program_state before its tables. */
 const FIRST = 5;
+
+/** The last lines that are kept of what a program has printed. */
+const LINES_PRINTED = 8;
 
 /**
  * Makes a program a robot's brain, before the robot is started.
@@ -48,6 +51,7 @@ export function programState(native, robot, text) {
   const [steps, variables] = native.tablesAt(at + FIRST * Float64Array.BYTES_PER_ELEMENT, [3, 4]);
   const bytes = new TextEncoder().encode(text);
   const mistake = { line, word: native.textAt(c.page_program_word(robot)), expected, words: native.textAt(c.page_program_expected(expected)) };
+  const printed = native.textAt(c.page_program_printed(robot)).split("\n").filter(Boolean);
   return {
     ended: ended !== 0,
     mistake: expected ? mistake : null,
@@ -57,5 +61,6 @@ export function programState(native, robot, text) {
     ),
     before: [...native.doublesAt(c.page_program_cells(robot), cells)],
     shown: Array.from({ length: shown }, (_, place) => native.textAt(c.page_program_shown(robot, place))),
+    printed: printed.slice(-LINES_PRINTED),
   };
 }

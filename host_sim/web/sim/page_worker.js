@@ -10,12 +10,13 @@ import { openWorld } from "./world_opening.js";
  * @typedef {ReturnType<Simulation["result"]>} Recorded
  *
  * What else the worker is asked for, and answers: the whole log of an experiment; a robot's eight bytes after a tick, with
- * whatever its behaviour keeps in them; what its program is doing then; and the experiment that a world file is of, where
+ * whatever its behaviour keeps in them; what its program is doing then; how many ticks an experiment takes; and the experiment that a world file is of, where
  * `base` says what the file does not, or a log with its world file, of which the text may be empty, or a recorded run.
  * @typedef {Object} Answers
  * @property {(asked: {experiment: Experiment}) => Uint8Array[]} log
  * @property {(asked: {experiment: Experiment, robot: number, tick: number}) => number[]} memory
  * @property {(asked: {experiment: Experiment, robot: number, tick: number}) => ProgramState} program
+ * @property {(asked: {experiment: Experiment}) => number} ticks
  * @property {(asked: {file: {name: string, text: string}, base: Experiment}) => Experiment} world
  * @property {(asked: {text: string, world: string}) => import("./log_opening.js").Opened} open
  * @property {(asked: {recorded: RecordedRun}) => Experiment} repeat
@@ -34,14 +35,18 @@ const ANSWERS = {
   memory: ({ experiment, robot, tick }) => finishedAt(experiment, tick).memory(robot),
   program: ({ experiment, robot, tick }) =>
     programState(finishedAt(experiment, tick), robot, experiment.robots[robot].program ?? ""),
+  ticks: ({ experiment }) => finished(experiment, false).tick,
   world: ({ file, base }) => openWorld(parts, file, base),
   open: ({ text, world }) => openLog(parts.module, parts.worlds, text, world),
   repeat: ({ recorded }) => recordedExperiment(parts.module, parts.worlds, recorded),
 };
 
-/** @param {Experiment} experiment */
-function finished(experiment) {
-  const simulation = new Simulation(parts.module, experiment, parts.worlds, true);
+/**
+ * @param {Experiment} experiment
+ * @param {boolean} [keepsLog]
+ */
+function finished(experiment, keepsLog = true) {
+  const simulation = new Simulation(parts.module, experiment, parts.worlds, keepsLog);
   simulation.finish();
   return simulation;
 }

@@ -10,8 +10,11 @@ import { newsOf } from "./world_news.js";
  * A block of one robot's ticks, in the order of native/page.h.
  * @typedef {{ticks: number, rows: Int16Array, poses: Float64Array}} Block
  *
- * A run, and the columns of each robot.
- * @typedef {{run: Run, columns: Columns[]}} Recorded
+ * From which tick on how sure a robot is of each cell.
+ * @typedef {[number, number[]][]} Beads
+ *
+ * A run, and of each robot its columns and its beads.
+ * @typedef {{run: Run, columns: Columns[], beads: Beads[]}} Recorded
  */
 
 /** Of x, y and heading in a column. */
@@ -19,6 +22,7 @@ const SCALES = /** @type {const} */ ([["x", 10], ["y", 10], ["heading", 1000]]);
 const NAMES = ["x", "y", "heading", ...Object.keys(COLUMNS)];
 const EAT = ROW.indexOf("eat");
 const FIRST_ROOM = 1 << 13;
+const SIDE_BITS = 2;
 
 /** Its `tracks` record the blocks of one robot each. */
 export class RunRecorder {
@@ -75,7 +79,7 @@ export class RunRecorder {
     const changes = [...new Set(news.map(([tick]) => tick))];
     const robots = this.tracks.map((track) => track.result(begun.map(([tick]) => tick), changes));
     const run = { version: 3, title, measures, first_tick: 0, ticks, scenes, news, eaten, robots };
-    return { run, columns: this.tracks.map((track) => track.trimmed()) };
+    return { run, columns: this.tracks.map((track) => track.trimmed()), beads: this.tracks.map((track) => track.beads) };
   }
 }
 
@@ -95,12 +99,25 @@ class Track {
     this.columns = Object.fromEntries(NAMES.map((name) => [name, new Int32Array(FIRST_ROOM)]));
     /** @type {[number, number[]][]} */
     this.memory = [[0, native.sides(robot)]];
+    /** @type {Beads} */
+    this.beads = [[0, this.sureness]];
     /** @type {RobotRun["trials"]} */
     this.trials = [[0, null]];
     /** @type {import("./learning_history.js").Note[]} */
     this.begun = [];
     /** @type {number[]} */
     this.meals = [];
+  }
+
+  /** How sure the robot is of each cell, where its behaviour keeps that: in the bits above those of the side. */
+  get sureness() {
+    return this.native.memory(this.robot).map((cell) => cell >> SIDE_BITS);
+  }
+
+  /** @param {number} tick - Of what its memory holds now. */
+  remember(tick) {
+    note(this.memory, tick, this.native.sides(this.robot));
+    note(this.beads, tick, this.sureness);
   }
 
   /** @param {Block} block */
@@ -110,13 +127,13 @@ class Track {
     this.begun.push(...notes);
     this.eats = block.rows[(block.ticks - 1) * ROW.length + EAT] !== 0;
     this.append(block);
-    note(this.memory, this.ticks - 1, this.native.sides(this.robot));
+    this.remember(this.ticks - 1);
   }
 
   /** Notes that the robot was given a command before the next tick. */
   relearn() {
     this.history.relearn(this.ticks);
-    note(this.memory, this.ticks, this.native.sides(this.robot));
+    this.remember(this.ticks);
   }
 
   /** Prepares for a restart of the robot: its lessons stay. */

@@ -20,7 +20,7 @@ export class Conversation {
   constructor({ script, texts }) {
     this.texts = texts;
     this.eliza = new Eliza(structuredClone(script));
-    this.joined = new RegExp(texts.joined.length ? `,(?=\\s+(?:${texts.joined.join("|")})\\s)` : "(?!)", "gi");
+    this.joined = texts.joined && new RegExp(`,(?=\\s+(?:${texts.joined.join("|")})\\s)`, "gi");
   }
 
   /**
@@ -31,7 +31,7 @@ export class Conversation {
   answer(sentence, about) {
     const facts = /** @type {Record<string, ((words: string[]) => import("./eliza.js").Known | null)>} */ (
       /** @type {unknown} */ (about ? new RobotFacts(about, this.texts) : {}));
-    const heard = sentence.replace(/(?<=[0-9])[.,](?=[0-9])/g, POINT).replace(this.joined, " ");
+    const heard = this.joined ? sentence.replace(/(?<=[0-9])[.,](?=[0-9])/g, POINT).replace(this.joined, " ") : sentence;
     try {
       const { text, known } = this.eliza.answer(heard, (name, words) => facts[name.toLowerCase()]?.(words) ?? null);
       const of = (/** @type {"ticks" | "cells" | "food"} */ part) => inOrder(known.flatMap((it) => it[part]));

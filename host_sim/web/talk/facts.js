@@ -11,7 +11,7 @@ import { decimal, filled, lessonSentence, sentence, verdict } from "../core/phra
  * @typedef {{right: string[], left: string[], front: string[], all: string[], turns: string[]}} Spoken
  *
  * The words of a language, as in host_sim/talk/texts.py.
- * @typedef {{words: import("../core/phrases.js").Words, facts: Record<string, string>, spoken: Spoken, joined: string[]}} Texts
+ * @typedef {{words: import("../core/phrases.js").Words, facts: Record<string, string>, spoken: Spoken, joined: string[] | null}} Texts
  *
  * What a log has of a robot besides its ticks: the ticks from which it had a behaviour, and its reports on the bus.
  * @typedef {{starts: [number, string][], health: [number, Record<string, number>][]}} Told

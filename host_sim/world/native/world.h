@@ -88,4 +88,25 @@ void world_move(struct world *world, struct body *body, double left_mm_s, double
 size_t world_food_left(const struct world *world);
         /* Number of pieces that have not been eaten. */
 
+/* Moves a body: its wheels roll it along an arc, and obstacles push it out. */
+
+void body_face(struct body *body);
+        /* Updates the fields derived from the heading. */
+
+void body_roll(struct body *body, double left_mm, double right_mm, double track_mm);
+        /* Rolls each wheel its distance at a constant speed. If the left wheel rolls farther, the body turns right,
+           the positive direction. */
+
+void body_place(struct world *world, struct body *body);
+        /* Updates what the body overlaps at its pose. */
+
+void body_push_out(struct world *world, struct body *body, struct vector before);
+        /* Repeatedly pushes a body out of its deepest overlap; a wedged body returns to where it was before. */
+
+/* The beam that sees food straight ahead. */
+
+void sight_look(const struct world *world, struct body *body);
+        /* Finds the nearest visible food in the beam straight ahead, and its distance: 1 mm or more, or 0 if there is
+           none. A lifted body sees nothing. */
+
 #endif

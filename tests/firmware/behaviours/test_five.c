@@ -1,6 +1,6 @@
 #include "brain_rig.h"
 
-#include "firmware/memory/feel_memory.h"
+#include "firmware/memory/memory.h"
 
 void setUp(void)
 {

@@ -1,6 +1,6 @@
 #include "brain_rig.h"
 
-#include "firmware/memory/memory_write.h"
+#include "firmware/memory/memory.h"
 
 static const uint8_t PROGRAMMED[CELL_COUNT] = {0, 1, 1, 1, 2, 1, 2, 1};
 

@@ -1,6 +1,6 @@
 #include "brain_rig.h"
 
-#include "firmware/memory/memory_write.h"
+#include "firmware/memory/memory.h"
 
 enum { MANY = 100 };
 

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "firmware/memory/memory_kind.h"
+#include "firmware/memory/memory.h"
 
 void setUp(void)
 {

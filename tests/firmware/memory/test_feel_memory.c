@@ -1,4 +1,4 @@
-#include "firmware/memory/feel_memory.h"
+#include "firmware/memory/memory.h"
 #include "tests/test.h"
 
 enum { FIRST_BLOCKED = FEEL_FRONT_RIGHT, ALL = 31 };

@@ -1,7 +1,5 @@
-#include "firmware/memory/memory_kind.h"
+#include "firmware/memory/memory.h"
 
-#include "firmware/memory/feel_memory.h"
-#include "firmware/memory/memory_write.h"
 #include "tests/test.h"
 
 static const uint8_t SIDES[CELL_COUNT] = {0, 1, 2, 1, 0, 0, 2, 1};

@@ -22,10 +22,16 @@ static unsigned steps_until_denied(double lame)
     return 0;
 }
 
-/* A step of 12 mm on one wheel goes astray by a quarter of 240 counts; 1004 are too much. */
+/* A step of 12 mm on one wheel takes 8 ticks: a wheel that stands still for 100 is dead. */
 TEST(one_dead_wheel_is_denied_after_some_steps)
 {
-    TEST_ASSERT_EQUAL_UINT(18, steps_until_denied(0.0));
+    TEST_ASSERT_EQUAL_UINT(13, steps_until_denied(0.0));
+}
+
+/* Such a step goes astray by some 16 of 240 counts; 1004 are too much. */
+TEST(one_wheel_that_hardly_rolls_is_denied_in_the_end)
+{
+    TEST_ASSERT_EQUAL_UINT(61, steps_until_denied(0.1));
 }
 
 TEST(one_wheel_that_rolls_backward_is_denied_sooner)
@@ -52,7 +58,7 @@ TEST(one_dead_wheel_is_denied_in_short_turns_either_way)
 
 TEST(a_wheel_that_is_mended_is_believed_after_one_step)
 {
-    TEST_ASSERT_NOT_EQUAL_UINT(0, steps_until_denied(0.0));
+    TEST_ASSERT_NOT_EQUAL_UINT(0, steps_until_denied(0.1));
     act(0, 12);
     TEST_ASSERT_TRUE(motion_is_denied(&motion, &config));
     body.lame = 1.0;

@@ -163,18 +163,18 @@ TEST(the_last_speed_of_a_turn_covers_the_rest_in_a_tick)
     TEST_ASSERT_EQUAL_INT16(-125, driven().right_mm_s);
 }
 
-/* 250 mm take 62.5 ticks: twice as many, and 25. */
+/* 120 mm take 30 ticks: twice as many, and 25. */
 TEST(a_step_has_twice_its_time_and_25_ticks)
 {
     body.grip = 0.0;
-    TEST_ASSERT_EQUAL_UINT(150, act(0, 250));
+    TEST_ASSERT_EQUAL_UINT(85, act(0, 120));
 }
 
 TEST(what_is_given_up_is_known_when_its_time_is_over_and_not_before)
 {
     body.grip = 0.0;
-    begin(0, 250);
-    for (unsigned i = 1; i < 150; i++) {
+    begin(0, 120);
+    for (unsigned i = 1; i < 85; i++) {
         (void)tick();
         TEST_ASSERT_FALSE(motion_gave_up(&motion) || motion_is_denied(&motion, &config));
     }

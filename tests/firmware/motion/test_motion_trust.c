@@ -27,10 +27,22 @@ TEST(a_step_against_stuck_wheels_is_given_up)
 TEST(a_turn_that_was_given_up_is_not_made_up_for)
 {
     body.grip = 0.0;
-    act(210, 0);
+    act(90, 0);
     body.grip = 1.0;
     act(10, 0);
     TEST_ASSERT_INT_WITHIN(HALF, 10000, heading_mdeg());
+}
+
+TEST(a_lifted_robot_owes_neither_a_turn_nor_a_way)
+{
+    static const struct owed nothing = {.counts = 0};
+
+    body.grip = 0.5;
+    act(90, 12);
+    motion.apart.counts = motion.together.counts = 100;
+    motion_lift(&motion);
+    TEST_ASSERT_EQUAL_MEMORY(&nothing, &motion.apart, sizeof nothing);
+    TEST_ASSERT_EQUAL_MEMORY(&nothing, &motion.together, sizeof nothing);
 }
 
 TEST(slow_wheels_are_not_given_up)
@@ -198,9 +210,78 @@ TEST(stuck_wheels_are_given_up_at_both_ends_of_every_range)
         set_corner(corner);
         stand_at(0.0, 0.0);
         body.grip = 0.0;
-        TEST_ASSERT_GREATER_THAN_UINT(25, act(TURN_MAX_DEG, 0));
-        TEST_ASSERT_GREATER_THAN_UINT(25, act(0, STEP_MAX_MM));
+        TEST_ASSERT_GREATER_OR_EQUAL_UINT(20, act(TURN_MAX_DEG, 0));
+        motion.left = motion.right = (struct standing){.ticks = 0};
+        TEST_ASSERT_GREATER_OR_EQUAL_UINT(20, act(0, STEP_MAX_MM));
     }
+}
+
+/* Ticks of short actions, too short to be judged one by one, until one is given up; each wheel rolls to and fro. */
+static unsigned ticks_until_given_up(double left_mm, double right_mm)
+{
+    for (unsigned ticks = 0; ticks < 300; ticks++) {
+        struct senses senses;
+
+        if (ticks % 4 == 0)
+            begin(ticks % 8 ? 3 : -3, 0);
+        if (ticks % 20 == 0)
+            begin(0, 12);
+        (void)driven();
+        if (motion_gave_up(&motion))
+            return ticks;
+        body.tick++;
+        body.left_mm += ticks % 2 ? left_mm : -left_mm;
+        body.right_mm += ticks % 2 ? right_mm : -right_mm;
+        senses = sensed();
+        motion_track(&motion, &senses);
+    }
+    return 0;
+}
+
+TEST(a_wheel_that_stands_still_for_two_seconds_of_any_actions_is_dead)
+{
+    static const uint8_t tick_ms[] = {10, 20, 100};
+
+    for (unsigned i = 0; i < sizeof tick_ms; i++) {
+        config.value[TICK_MS] = tick_ms[i];
+        stand_at(100.0, 100.0);
+        TEST_ASSERT_EQUAL_UINT(2000 / tick_ms[i], ticks_until_given_up(0.0, 20.0));
+        stand_at(100.0, 100.0);
+        TEST_ASSERT_EQUAL_UINT(2000 / tick_ms[i], ticks_until_given_up(20.0, 0.0));
+    }
+}
+
+TEST(a_wheel_that_goes_on_standing_still_stays_dead)
+{
+    for (unsigned ticks = 0; ticks < 300; ticks++) {
+        begin(0, 12);
+        body.grip = 0.0;
+        (void)tick();
+        TEST_ASSERT_EQUAL(ticks >= 100, motion_gave_up(&motion));
+    }
+}
+
+TEST(the_odometer_of_a_wheel_that_stands_still_may_waver)
+{
+    stand_at(100.05, 100.05);
+    TEST_ASSERT_EQUAL_UINT(100, ticks_until_given_up(0.3, 20.0));
+    stand_at(100.05, 100.05);
+    TEST_ASSERT_EQUAL_UINT(0, ticks_until_given_up(0.4, 20.0));
+}
+
+TEST(a_wheel_that_stands_still_in_a_rest_is_told_to)
+{
+    struct senses senses = sensed();
+
+    for (unsigned ticks = 0; ticks < 300; ticks++) {
+        begin(0, 0);
+        (void)driven();
+        senses.tick++;
+        motion_track(&motion, &senses);
+    }
+    begin(0, 12);
+    (void)driven();
+    TEST_ASSERT_FALSE(motion_gave_up(&motion));
 }
 
 static uint16_t random_odometer(void)

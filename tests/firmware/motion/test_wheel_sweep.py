@@ -1,4 +1,4 @@
-"""The page on motion says what the sweep prints."""
+"""The page on bodies says what the sweep prints."""
 
 from tests.firmware.motion.wheel_sweep import TOO_LATE_MS, lines, run
 from tests.firmware.octet_c import ROOT
@@ -7,7 +7,7 @@ SEEDS_OF_THE_PAGE = 10
 
 
 def test_the_page_has_what_the_sweep_prints():
-    page = (ROOT / "docs/motion.md").read_text().splitlines()
+    page = (ROOT / "docs/bodies.md").read_text().splitlines()
 
     for line in lines(SEEDS_OF_THE_PAGE, (0, 60)):
         assert line in page

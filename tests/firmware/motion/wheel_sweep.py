@@ -67,9 +67,9 @@ def together(runs: Sequence[Figures]) -> Figures:
 
 
 def lines(seeds: int, lags_ms: Sequence[float] = (*LAGS_MS, TOO_LATE_MS)) -> Iterator[str]:
-    """The table as it stands in docs/motion.md: for each lag all delays, slacks and seeds together."""
+    """The table as it stands in docs/bodies.md: for each lag all delays, slacks and seeds together."""
     yield "| lag | actions, by delay of 0 / 1 / 2 ticks | denied | stopped | beyond the end | error at the end |"
-    yield "| --- | --- | --- | --- | --- | --- |"
+    yield "|---|---|---|---|---|---|"
     for lag_ms in lags_ms:
         by_delay = [
             together([run(lag_ms, delay, slack, seed) for slack in SLACKS_DEG for seed in range(1, seeds + 1)])

@@ -104,6 +104,16 @@ class Rearmed(Listing):
         self.repeat_count = 0
 
 
+# `sided`: no lesson from what has no side
+class Sided(Listing):
+    """It learns a turn only for an obstacle on its right or on its left."""
+
+    def learn(self, feel: int, side: int) -> None:
+        """Front-right or front-left, and not both."""
+        if pattern(feel) in (*ON_THE_RIGHT, *ON_THE_LEFT):
+            super().learn(feel, side)
+
+
 # `recheck`: the article's challenge, word for word
 class Recheck(Listing):
     """After each remembered turn the cell is erased, unless fewer sensors are triggered than before."""

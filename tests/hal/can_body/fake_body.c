@@ -56,19 +56,6 @@ int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort)
     return fake.store_result;
 }
 
-uint16_t port_id(void)
-{
-    return fake.port_id;
-}
-
-bool port_frame(const struct frame *frame, bool at_rest, struct frame *answer)
-{
-    fake.port_frames++;
-    fake.port_at_rest = at_rest;
-    *answer = (struct frame){.id = 0x61, .len = 1, .data = {frame->data[0]}};
-    return fake.port_answers;
-}
-
 uint32_t port_entropy(void)
 {
     return 0xC0FFEE;

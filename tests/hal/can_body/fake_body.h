@@ -39,11 +39,8 @@ struct fake {
     struct link_health bus;
     unsigned looks_at_health;
     uint32_t alive_ms, longest_wait_ms;   /* without a sign of life */
-    uint16_t ids[WIRE_LISTEN_COUNT + 1];
+    uint16_t ids[WIRE_LISTEN_COUNT];
     size_t id_count;
-    uint16_t port_id;                     /* that the machine listens for itself, */
-    unsigned port_frames;                 /* how many have come, */
-    bool port_at_rest, port_answers;      /* as what, and whether it answers */
 };
 
 extern struct fake fake;

@@ -13,47 +13,6 @@ TEST(it_listens_for_what_the_wire_wants)
     TEST_ASSERT_EQUAL_UINT16_ARRAY(ids, fake.ids, WIRE_LISTEN_COUNT);
 }
 
-TEST(a_frame_for_the_machine_is_for_the_machine_alone)
-{
-    fake.port_id = 0x6E1;
-    TEST_ASSERT_EQUAL(0, open_body());
-    TEST_ASSERT_EQUAL_size_t(WIRE_LISTEN_COUNT + 1, fake.id_count);
-    TEST_ASSERT_EQUAL_HEX16(0x6E1, fake.ids[WIRE_LISTEN_COUNT]);
-    happens(5, 1, (struct frame){.id = 0x6E1, .len = 1, .data = {7}});
-    fake.sends = 0;
-    fake.port_answers = true;
-    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
-    TEST_ASSERT_EQUAL_UINT(1, fake.port_frames);
-    TEST_ASSERT_TRUE(fake.port_at_rest);
-    TEST_ASSERT_EQUAL_HEX32(0x61, fake.sent[fake.sends - 1].id);
-    TEST_ASSERT_EQUAL_HEX8(7, fake.sent[fake.sends - 1].data[0]);
-}
-
-TEST(what_the_machine_leaves_without_an_answer_has_none_and_one_that_was_not_sent_is_counted)
-{
-    fake.port_id = 0x6E1;
-    TEST_ASSERT_EQUAL(0, open_body());
-    happens(5, 1, (struct frame){.id = 0x6E1, .len = 1, .data = {7}});
-    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
-    for (unsigned i = 0; i < fake.sends; i++)
-        TEST_ASSERT_NOT_EQUAL_HEX32(0x61, fake.sent[i].id);
-    happens(10, 1, (struct frame){.id = 0x6E1, .len = 1, .data = {7}});
-    fake.port_answers = true;
-    fake.failure = LINK_E_FULL;
-    fake.failing_send = fake.sends + 1;
-    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
-    command_comes(20, (struct octet_command_t){.opcode = OPCODE_ERASE});
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, receive());
-    assert_faults((struct octet_faults_t){.unsent = 1});
-}
-
-TEST(a_machine_that_listens_for_nothing_hears_nothing)
-{
-    happens(5, 1, (struct frame){.id = 0, .len = 1});
-    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
-    TEST_ASSERT_EQUAL_UINT(0, fake.port_frames);
-}
-
 TEST(arguments_that_make_no_sense_are_a_usage_error)
 {
     fake.port_result = HAL_E_USAGE;

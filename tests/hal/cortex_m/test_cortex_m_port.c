@@ -8,7 +8,6 @@
 #include "hal/flash_store/flash_store.h"
 #include "hal/port/cortex_m/core.h"
 #include "hal/port/cortex_m/crash.h"
-#include "hal/port/cortex_m/loader.h"
 #include "hal/port/cortex_m/mcu.h"
 #include "hal/port/cortex_m/systick.h"
 
@@ -23,8 +22,6 @@ static struct {
     enum reset_cause chip_cause;
     bool clock_exact, light, no_flash;
     unsigned feeds;
-    uint8_t other_node;
-    bool loader_outage;
     int opened, saved;         /* what the store returns */
     unsigned page;             /* where another one begins */
     unsigned opens, saves;
@@ -67,32 +64,6 @@ const struct crash *crash_last(void)
     return &CRASH;
 }
 
-uint8_t loader_node(uint8_t built)
-{
-    return board.other_node != 0 ? board.other_node : built;
-}
-
-const char *loader_link(void)
-{
-    return "250000";
-}
-
-void loader_alive(bool outage)
-{
-    board.loader_outage = outage;
-}
-
-uint16_t loader_id(void)
-{
-    return 0x6E5;
-}
-
-bool loader_frame(const struct frame *frame, bool at_rest, struct frame *answer)
-{
-    answer->id = frame->id + 1;
-    return at_rest;
-}
-
 bool flash_exists(void)
 {
     return !board.no_flash;
@@ -133,27 +104,11 @@ TEST(it_opens_as_what_it_was_built_for)
     board.clock_exact = true;
     board.chip_cause = RESET_WATCHDOG;
     TEST_ASSERT_EQUAL(0, port_open(&port, 0, NULL));
-    TEST_ASSERT_EQUAL_STRING("250000", port.link);
+    TEST_ASSERT_EQUAL_STRING("", port.link);
     TEST_ASSERT_EQUAL_UINT8(NODE, port.node);
     TEST_ASSERT_EQUAL(RESET_WATCHDOG, port.reset_cause);
     TEST_ASSERT_EQUAL_PTR(&CRASH, port.crash);
     TEST_ASSERT_TRUE(port.clock_exact);
-}
-
-TEST(a_boot_loader_may_have_another_number_for_it_and_hears_what_is_for_it)
-{
-    struct port port;
-    struct frame frame = {.id = 7}, answer;
-
-    board.other_node = 9;
-    TEST_ASSERT_EQUAL(0, port_open(&port, 0, NULL));
-    TEST_ASSERT_EQUAL_UINT8(9, port.node);
-    TEST_ASSERT_EQUAL_HEX16(0x6E5, port_id());
-    TEST_ASSERT_FALSE(port_frame(&frame, false, &answer));
-    TEST_ASSERT_TRUE(port_frame(&frame, true, &answer));
-    TEST_ASSERT_EQUAL_UINT32(8, answer.id);
-    port_alive(true);
-    TEST_ASSERT_TRUE(board.loader_outage);
 }
 
 TEST(a_reset_after_a_crash_is_told_as_one)

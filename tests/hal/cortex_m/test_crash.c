@@ -11,6 +11,7 @@ static const uint32_t stack[16] = {[4] = 0x10, 0x11, 0x12, 0x13, 0x1C, 0x0800AAA
 void setUp(void)
 {
     (void)crash_reset_cause(RESET_POWER_ON);
+    SCB.cpuid = 0x412FC231;   /* Cortex-M3 r2p1 */
     SCB.cfsr = 0x8200;
     SCB.hfsr = 0x40000000;
     SCB.mmfar = 0xE000ED34;
@@ -20,6 +21,16 @@ void setUp(void)
 static void crash_at(const uint32_t *frame)
 {
     crash_keep(CRASH_BUS_FAULT, frame, stack, stack + 16);
+}
+
+TEST(a_core_without_fault_registers_is_not_asked_for_them)
+{
+    SCB.cpuid = 0x410CC601;   /* Cortex-M0+ r0p1 */
+    crash_at(&stack[4]);
+    (void)crash_reset_cause(RESET_SOFTWARE);
+    TEST_ASSERT_EQUAL_HEX32(0x0800BBB2, crash_last()->values[CRASH_PC]);
+    for (unsigned i = CRASH_CFSR; i <= CRASH_BFAR; i++)
+        TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[i]);
 }
 
 TEST(after_power_on_there_is_no_crash)

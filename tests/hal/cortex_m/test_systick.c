@@ -17,13 +17,26 @@ static void passes(uint32_t counts)
 void setUp(void)
 {
     memset((void *)&SYSTICK, 0, sizeof SYSTICK);
-    systick_start(CORE_HZ);
+    systick_start(CORE_HZ, 8);
 }
 
 TEST(the_timer_runs_free_from_an_eighth_of_the_clock)
 {
     TEST_ASSERT_EQUAL_HEX32(SPAN - 1, SYSTICK.load);
     TEST_ASSERT_EQUAL_HEX32(1, SYSTICK.ctrl);
+}
+
+TEST(without_a_reference_the_timer_counts_the_core_clock)
+{
+    uint32_t start;
+
+    systick_start(CORE_HZ, 1);
+    TEST_ASSERT_EQUAL_HEX32(5, SYSTICK.ctrl);
+    start = machine_ms();
+    passes(CORE_HZ / 1000 - 1);
+    TEST_ASSERT_EQUAL_UINT32(0, machine_ms() - start);
+    passes(1);
+    TEST_ASSERT_EQUAL_UINT32(1, machine_ms() - start);
 }
 
 TEST(it_starts_anew_when_the_clock_has_changed)
@@ -33,7 +46,7 @@ TEST(it_starts_anew_when_the_clock_has_changed)
     passes(10 * PER_MS + 1);
     start = machine_ms();
     SYSTICK.val = 0x123456;
-    systick_start(CORE_HZ / 2);
+    systick_start(CORE_HZ / 2, 8);
     TEST_ASSERT_EQUAL_HEX32(0, SYSTICK.val);
     TEST_ASSERT_EQUAL_UINT32(0, machine_ms() - start);
     passes(PER_MS / 2);
@@ -45,7 +58,7 @@ TEST(an_odd_number_of_counts_is_counted_too)
 {
     uint32_t start;
 
-    systick_start(8000 * 3);
+    systick_start(8000 * 3, 8);
     start = machine_ms();
     passes(3);
     TEST_ASSERT_EQUAL_UINT32(1, machine_ms() - start);

@@ -2,7 +2,7 @@
 
 import subprocess
 
-from host_sim.backends.in_process_link import LIBRARY
+from host_sim.sim.in_process_link import LIBRARY
 
 
 def test_the_library_exports_its_own_functions_and_nothing_else():

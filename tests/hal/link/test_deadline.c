@@ -1,5 +1,5 @@
 /* Waiting, with a clock that passes only as the test says. */
-#include "hal/link/deadline.h"
+#include "hal/link/link_kind.h"
 
 #include <poll.h>
 #include <signal.h>

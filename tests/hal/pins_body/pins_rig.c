@@ -12,6 +12,8 @@ struct fake_port port;
 struct hal *hal;
 struct input in;
 
+const uint8_t PINS_SENSORS = 31;
+
 void pins_open(void) { pins.beats = 0; }
 uint16_t pins_count(unsigned side) { return pins.counts[side]; }
 void pins_push(unsigned side, int32_t duty) { pins.duty[side] = duty; }

@@ -5,7 +5,7 @@
 int port_load_more(unsigned which, uint8_t bytes[CELL_COUNT]) { (void)which; (void)bytes; return 0; }
 int port_store_more(unsigned which, const uint8_t bytes[CELL_COUNT]) { (void)which; (void)bytes; return 0; }
 
-enum { STAIR = 100, TICK = 4, NOMINAL_MV = 7200, KEPT = 77 };
+enum { STAIR = 100, STAIRS = 5, TICK = 4, NOMINAL_MV = 7200, MOST_MV = 9897, KEPT = 77 };
 
 static struct calibration calibration;
 static struct calibrate_look look;
@@ -14,7 +14,7 @@ static uint16_t back[FEEL_COUNT];
 
 void setUp(void)
 {
-    look = (struct calibrate_look){.battery_mv = NOMINAL_MV, .back = back};
+    look = (struct calibrate_look){.battery_mv = NOMINAL_MV, .back = back, .has = 31};
     for (unsigned i = 0; i < TRAITS_KEPT; i++)
         traits.value[i] = KEPT;
 }
@@ -71,6 +71,18 @@ TEST(a_sensor_that_receives_nothing_or_too_much_is_refused_and_all_stays)
     assert_refused(BODY_NEAR_RIGHT, 255);
 }
 
+TEST(a_sensor_that_the_body_does_not_have_is_not_measured)
+{
+    for (unsigned i = 0; i < FEEL_COUNT; i++)
+        back[i] = i == 0 || i == 4 ? 0 : 1200;
+    look.has = 14;
+    (void)measure_light();
+    TEST_ASSERT_EQUAL_UINT8(0, calibration.refused);
+    TEST_ASSERT_EQUAL_UINT8(KEPT, trait(BODY_NEAR_RIGHT));
+    TEST_ASSERT_EQUAL_UINT8(75, trait(BODY_NEAR_FRONT));
+    TEST_ASSERT_EQUAL_UINT8(KEPT, trait(BODY_NEAR_LEFT));
+}
+
 TEST(a_sensor_that_receives_nothing_in_one_tick_of_sixteen_counts_so)
 {
     unsigned ticks = 0;
@@ -85,30 +97,50 @@ TEST(a_sensor_that_receives_nothing_in_one_tick_of_sixteen_counts_so)
     TEST_ASSERT_EQUAL_UINT8(94, trait(BODY_NEAR_FRONT));   /* 93.75 */
 }
 
-/* Two motors that make so many counts in a beat on each stair, and lack so many after the step. */
-static bool measure_motors(const int low[PINS_SIDES], const int high[PINS_SIDES], const int lack[PINS_SIDES], uint32_t sagged_mv)
+/* Two motors that make so many counts in a beat on each stair, and lack so many after the step; backward, they make
+ * this percentage of them. */
+struct motors {
+    int low[PINS_SIDES], high[PINS_SIDES], lack[PINS_SIDES], back[PINS_SIDES];
+    uint32_t low_mv, high_mv;
+};
+
+static void run_beat(const struct motors *motors, unsigned beat)
 {
-    bool ended = false;
+    static const int DUTIES[] = {0, 16384, 16384, 49152, 49152};
+    unsigned stair = beat / STAIR % STAIRS;
+    int32_t duty = DUTIES[stair] * (beat < STAIRS * STAIR ? 1 : -1);
+
+    TEST_ASSERT_EQUAL_INT32(duty, calibrate_duty(&calibration));
+    for (unsigned side = 0; side < PINS_SIDES && duty != 0; side++) {
+        int counts = stair > 2 ? motors->high[side] : motors->low[side];
+
+        counts -= beat % (STAIRS * STAIR) == 3 * STAIR + 5 ? motors->lack[side] : 0;
+        look.counts[side] = (uint16_t)(look.counts[side] + (duty > 0 ? counts : -counts * motors->back[side] / 100));
+    }
+    look.battery_mv = stair > 2 ? motors->high_mv : motors->low_mv;
+}
+
+static bool measure(const struct motors *motors)
+{
     unsigned beat = 0;
 
     look.counts[0] = 65500;
     look.counts[1] = 30;
     calibrate_begin(&calibration, MEASURE_MOTORS);
-    for (; !ended; beat++) {
-        bool upper = beat > 2 * STAIR;
-
-        for (unsigned side = 0; side < PINS_SIDES && beat > 0; side++)
-            look.counts[side] = (uint16_t)(look.counts[side] + (upper ? high[side] : low[side])
-                                         - (beat == 2 * STAIR + 5 ? lack[side] : 0));
-        look.battery_mv = upper ? sagged_mv : NOMINAL_MV;
-        ended = calibrate_beat(&calibration, &look, &traits);
-        if (!ended)
-            TEST_ASSERT_EQUAL_INT32(beat < 2 * STAIR ? 16384 : 49152, calibrate_duty(&calibration));
+    for (; !calibrate_beat(&calibration, &look, &traits); beat++) {
+        run_beat(motors, beat);
         TEST_ASSERT_EQUAL_INT16(0, calibrate_mm_s(&calibration));
     }
     TEST_ASSERT_EQUAL_INT32(0, calibrate_duty(&calibration));
-    TEST_ASSERT_EQUAL_UINT(4 * STAIR + 1, beat);
+    TEST_ASSERT_EQUAL_UINT(2 * STAIRS * STAIR, beat);
     return calibration.refused == 0;
+}
+
+static bool measure_motors(const int low[PINS_SIDES], const int high[PINS_SIDES], const int lack[PINS_SIDES], uint32_t sagged_mv)
+{
+    return measure(&(struct motors){
+        {low[0], low[1]}, {high[0], high[1]}, {lack[0], lack[1]}, {100, 100}, NOMINAL_MV, sagged_mv,
+    });
 }
 
 TEST(two_stairs_tell_dead_band_feed_forward_and_lag)
@@ -120,6 +152,24 @@ TEST(two_stairs_tell_dead_band_feed_forward_and_lag)
     TEST_ASSERT_EQUAL_UINT8(83, trait(BODY_DEAD_RIGHT));
     TEST_ASSERT_EQUAL_UINT8(62, trait(BODY_LAG_MS));           /* 200 / 18 and 280 / 21 periods: 56 and 67 ms */
     TEST_ASSERT_EQUAL_UINT8(KEPT, trait(BODY_TRACK_MM));
+}
+
+TEST(motors_that_are_slower_backward_get_the_mean_of_both_directions)
+{
+    const struct motors motors = {{10, 10}, {40, 40}, {400, 400}, {60, 60}, NOMINAL_MV, NOMINAL_MV};
+
+    TEST_ASSERT_TRUE(measure(&motors));
+    TEST_ASSERT_EQUAL_UINT8(75, trait(BODY_FORWARD_LEFT));     /* 99.4 x 18 / 24 */
+    TEST_ASSERT_EQUAL_UINT8(83, trait(BODY_DEAD_LEFT));
+    TEST_ASSERT_EQUAL_UINT8(67, trait(BODY_LAG_MS));           /* 320 / 24 periods */
+}
+
+TEST(a_motor_that_turns_in_one_direction_only_is_refused)
+{
+    TEST_ASSERT_FALSE(measure(&(struct motors){{6, 6}, {24, 24}, {200, 200}, {100, 0}, NOMINAL_MV, NOMINAL_MV}));
+    assert_refused(BODY_FORWARD_RIGHT, 0);
+    TEST_ASSERT_FALSE(measure(&(struct motors){{2, 6}, {8, 24}, {70, 200}, {400, 100}, NOMINAL_MV, NOMINAL_MV}));
+    assert_refused(BODY_FORWARD_LEFT, 0);
 }
 
 TEST(a_battery_that_sags_under_load_is_reckoned_with)
@@ -147,6 +197,8 @@ TEST(motors_that_count_wildly_are_refused)
     for (unsigned i = 0; i < sizeof wild / sizeof *wild; i++)
         TEST_ASSERT_FALSE(measure_motors((int[]){6, wild[i][0]}, (int[]){24, wild[i][1]}, (int[]){200, 200},
                                          NOMINAL_MV));
+    /* Backward on each stair, but for a jump between them. */
+    TEST_ASSERT_FALSE(measure_motors((int[]){6, -24}, (int[]){24, -6}, (int[]){200, -60 * STAIR - 500}, NOMINAL_MV));
 }
 
 TEST(motors_that_do_not_turn_or_not_faster_or_backward_are_refused)
@@ -257,4 +309,51 @@ TEST(interrupted_it_says_so_and_at_rest_there_is_nothing_to_interrupt)
     TEST_ASSERT_EQUAL_UINT8(MEASURE_NOTHING, calibration.measures);
     TEST_ASSERT_EQUAL_UINT8(BODY_MEASURE, calibration.refused);
     TEST_ASSERT_EQUAL_INT16(0, calibrate_mm_s(&calibration));
+}
+
+/* A number that looks random. */
+static uint32_t drawn(uint32_t range)
+{
+    static uint32_t state = 1;
+
+    state = state * 1664525u + 1013904223u;
+    return (state >> 8) % range;
+}
+
+/* The judge is the sanitizer: no sum may overflow, whatever the converter reads and the encoders count. */
+TEST(any_voltages_and_counts_are_measured_or_refused)
+{
+    for (unsigned run = 0; run < 2000; run++) {
+        uint16_t speed[PINS_SIDES] = {(uint16_t)drawn(65536), (uint16_t)drawn(65536)};
+        uint32_t slower = drawn(2) == 0 ? 1 : 1000;
+
+        calibrate_begin(&calibration, (uint8_t)(run % 16 == 0 ? MEASURE_TRACK : MEASURE_MOTORS));
+        look.senses = true;
+        do {
+            for (unsigned side = 0; side < PINS_SIDES; side++)
+                look.counts[side] = (uint16_t)(look.counts[side] + speed[side] / slower + drawn(3));
+            look.battery_mv = drawn(2) == 0 ? drawn(MOST_MV + 1) : drawn(2) * MOST_MV;
+            look.wall = drawn(2000) == 0;
+        } while (!calibrate_beat(&calibration, &look, &traits));
+        for (unsigned number = TRAIT_FIRST; number < BODY_PARAMETER_END; number++)
+            TEST_ASSERT_TRUE(trait(number) == KEPT || traits_fit((uint8_t)number, trait(number)));
+    }
+}
+
+TEST(a_battery_that_comes_back_makes_no_dead_band_overflow)
+{
+    TEST_ASSERT_FALSE(measure(&(struct motors){{40, 40}, {80, 80}, {0, 0}, {100, 100}, 0, MOST_MV}));
+    assert_refused(BODY_DEAD_LEFT, -1030);
+}
+
+TEST(wheels_that_race_make_no_track_overflow)
+{
+    calibrate_begin(&calibration, MEASURE_TRACK);
+    look.senses = true;
+    for (unsigned beat = 0; !calibrate_beat(&calibration, &look, &traits); beat++) {
+        look.wall = beat % 1000 == 0;
+        look.counts[0] = (uint16_t)(look.counts[0] + 30000);
+        look.counts[1] = (uint16_t)(look.counts[1] - 30000);
+    }
+    TEST_ASSERT_EQUAL_UINT8(BODY_TRACK_MM, calibration.refused);
 }

@@ -80,10 +80,12 @@ TEST(light_that_cannot_be_is_refused_and_the_led_says_so)
     TEST_ASSERT_TRUE(port.outage);
 }
 
+enum { REST = 25 };   /* ticks, with which a measurement of the motors begins */
+
 TEST(motors_are_pushed_as_they_are_measured_and_a_bump_ends_it)
 {
     (void)told_by_the_body(OPCODE_SET, BODY_MEASURE, 2);
-    stay(2);
+    stay(REST + 1);
     (void)told_by_the_body(OPCODE_GET, BODY_MEASURE, 0);
     TEST_ASSERT_EQUAL_INT32(16384, pins.duty[0]);
     TEST_ASSERT_EQUAL_INT32(16384, pins.duty[1]);

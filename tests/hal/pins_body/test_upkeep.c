@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "hal/can_body/port.h"
+#include "host_sim/world/native/kit/kit.h"
 #include "tests/test.h"
 
 static uint8_t records[PORT_MORE][CELL_COUNT];
@@ -68,7 +69,7 @@ TEST(an_uncalibrated_body_is_as_planned)
 
     upkeep_use(&upkeep, &proximity, wheels);
     for (unsigned i = 0; i < FEEL_COUNT; i++)
-        TEST_ASSERT_EQUAL_UINT16(PROXIMITY_NEAR, proximity.near[i]);
+        TEST_ASSERT_EQUAL_UINT16(KIT_LIGHT_NEAR, proximity.near[i]);
     for (unsigned side = 0; side < PINS_SIDES; side++) {
         TEST_ASSERT_EQUAL_INT16(0, wheels[side].dead_more);
         TEST_ASSERT_EQUAL_INT16(0, wheels[side].forward_more);
@@ -88,7 +89,7 @@ TEST(sensors_and_wheels_go_by_what_is_set)
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_LAG_MS, 50, false));
     upkeep_use(&upkeep, &proximity, wheels);
     TEST_ASSERT_EQUAL_UINT16(1600, proximity.near[2]);
-    TEST_ASSERT_EQUAL_UINT16(PROXIMITY_NEAR, proximity.near[1]);
+    TEST_ASSERT_EQUAL_UINT16(KIT_LIGHT_NEAR, proximity.near[1]);
     TEST_ASSERT_EQUAL_INT16(8192 - WHEEL_DEAD, wheels[1].dead_more);
     TEST_ASSERT_EQUAL_INT16(0, wheels[0].dead_more);
     TEST_ASSERT_EQUAL_INT16(10, wheels[1].forward_more);

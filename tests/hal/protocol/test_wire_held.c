@@ -4,7 +4,8 @@
 #include "tests/test.h"
 #include "writing_rig.h"
 
-static uint32_t told_here;   /* the check as a client computes it */
+static uint32_t told_here;   /* the checks as a client computes them: over commands, */
+static uint32_t heard_here;  /* and over the senses obeyed in lockstep */
 static uint8_t counter;
 
 static uint16_t held(void)
@@ -33,17 +34,19 @@ static void tell(struct octet_command_t command, enum result result)
 
 static void assert_held(void)
 {
-    TEST_ASSERT_EQUAL_HEX16((uint16_t)told_here, held());
+    TEST_ASSERT_EQUAL_HEX16((uint16_t)(told_here ^ heard_here), held());
 }
 
 static void assert_held_with_memory(void)
 {
-    TEST_ASSERT_EQUAL_HEX16((uint16_t)crc32_more(told_here, out.memory, CELL_COUNT), held());
+    uint32_t told = crc32_more(told_here, out.memory, CELL_COUNT);
+
+    TEST_ASSERT_EQUAL_HEX16((uint16_t)(told ^ heard_here), held());
 }
 
 static void begin(void)
 {
-    told_here = 0;
+    told_here = heard_here = 0;
     counter = 0;
     out = (struct output){.memory = {0, 1, 2, 1, 2, 1, 2, 1}};
 }
@@ -118,18 +121,109 @@ TEST(what_comes_again_is_held_once)
     assert_held_with_memory();
 }
 
-/* SENSES of tick 9; those that differ from the first ones, which feel nothing, are held. */
-static void sense(uint8_t feel)
+static struct frame hear_senses(uint8_t tick, uint8_t feel)
 {
-    const struct octet_senses_t senses = {.tick = 9, .counter = 9, .feel = feel};
+    const struct octet_senses_t senses = {.tick = tick, .counter = tick % 15, .feel = feel};
     struct frame frame = {.id = OCTET_SENSES_FRAME_ID, .len = OCTET_SENSES_LENGTH};
     struct input in;
 
     (void)octet_senses_pack(frame.data, &senses, sizeof frame.data);
     frame = protected_frame(frame);
     (void)wire_read(&wire, &frame, &in);
-    if (feel != 0)
+    return frame;
+}
+
+/* SENSES of tick 9; those that differ from the first ones, which feel nothing, are held. */
+static void sense(uint8_t feel)
+{
+    bool are_first = !wire.session.knows_tick;
+    struct frame frame = hear_senses(9, feel);
+
+    if (feel != 0 && !are_first)
         told_here = crc32_more(told_here, frame.data + 1, 7);
+    if (are_first && wire.session.lockstep)
+        heard_here = crc32_more(heard_here, frame.data + 1, 7);
+}
+
+static struct frame drive_here;   /* that answered the senses before; zeros for none */
+
+static void obey(uint8_t tick, uint8_t feel)
+{
+    struct frame frame = hear_senses(tick, feel);
+
+    for (unsigned i = 1; i < 8; i++)
+        frame.data[i] ^= drive_here.data[i];
+    heard_here = crc32_more(heard_here, frame.data + 1, 7);
+}
+
+TEST(in_lockstep_all_senses_that_were_obeyed_are_held_whole_and_in_order)
+{
+    begin();
+    tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
+    for (uint8_t tick = 1; tick < 60; tick++)
+        obey(tick, tick & 7);
+    assert_held();
+    TEST_ASSERT_NOT_EQUAL(0, heard_here);
+}
+
+/* Answers the senses that came last. */
+static struct frame drive(int16_t left_mm_s, bool silent)
+{
+    struct frame written;
+
+    out.has_answer = out.has_report = false;
+    out.has_drive = true;
+    out.silent = silent;
+    out.drive = (struct drive){.tick = wire.session.tick, .left_mm_s = left_mm_s, .eat = true};
+    written = frames[write_out() - 1];
+    out.has_drive = out.silent = false;
+    return written;
+}
+
+TEST(with_senses_the_drive_that_answered_those_before_is_held)
+{
+    begin();
+    tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
+    obey(1, 0);
+    drive_here = drive(-300, false);
+    (void)drive(0, true);   /* tells that the owner is silent, and answers nothing */
+    (void)hear_senses(1, 0);   /* again */
+    obey(2, 4);
+    assert_held();
+    (void)drive(5, false);
+    assert_held();   /* the last one is not */
+    tell((struct octet_command_t){.opcode = OPCODE_RESUME}, RESULT_DONE);
+    heard_here = 0;
+    drive_here = (struct frame){.len = 0};
+    obey(3, 0);   /* the first ones follow no drive */
+    assert_held();
+}
+
+TEST(senses_that_were_refused_are_not_held)
+{
+    begin();
+    tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
+    obey(1, 0);
+    (void)hear_senses(3, 0);
+    assert_held();
+    expect(FAULT_STALE, 1);
+}
+
+TEST(a_start_forgets_senses_and_the_stop_that_ends_a_run_does_not)
+{
+    begin();
+    tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
+    obey(1, 4);
+    tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
+    heard_here = 0;
+    assert_held();
+    obey(9, 4);
+    tell((struct octet_command_t){.opcode = OPCODE_STOP}, RESULT_DONE);
+    (void)hear_senses(10, 1);   /* that nobody with an owner's number has sent */
+    assert_held_with_memory();
+    tell((struct octet_command_t){.opcode = OPCODE_STOP}, RESULT_DONE);
+    told_here = heard_here = 0;
+    assert_held_with_memory();
 }
 
 static void senses_of_one_tick(uint8_t lockstep)
@@ -179,15 +273,17 @@ TEST(on_a_noisy_line_they_are_held_if_they_come_twice)
 
 TEST(the_first_senses_after_a_start_differ_from_none)
 {
-    uint16_t before;
+    uint32_t before;
 
     begin();
     tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
     sense(0);
     tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
-    before = held();
+    heard_here = 0;
+    before = wire.session.told;
     sense(4);
-    TEST_ASSERT_EQUAL_HEX16(before, held());
+    TEST_ASSERT_EQUAL_HEX32(before, wire.session.told);
+    assert_held();
 }
 
 TEST(the_stop_of_a_robot_with_an_owner_is_held_too_and_the_next_one_forgets_all)

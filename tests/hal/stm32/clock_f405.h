@@ -32,6 +32,7 @@ static void assert_registers(void)
 /* Reserved bits keep their reset value (RM0090 7.3.2). An emulator without a clock controller runs at full speed. */
 static void assert_special(void)
 {
+    TEST_ASSERT_EQUAL_HEX32(1u << 25, CLOCK_TABLE.brown_out);   /* BORRSTF: RM0090 7.3.21 */
     (void)clock_start();
     TEST_ASSERT_EQUAL_HEX32(0x20000000, RCC.pllcfgr & 0xF0000000u);
     RCC.cfgr = 0;

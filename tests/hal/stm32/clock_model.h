@@ -36,8 +36,9 @@ static void model_reset(void)
     RCC.cr = HSION;
 }
 
-void systick_start(uint32_t core_hz)
+void systick_start(uint32_t core_hz, uint32_t divisor)
 {
+    TEST_ASSERT_EQUAL_UINT32(8, divisor);
     model.systick_hz = core_hz;
 }
 

@@ -18,7 +18,7 @@ static const uint32_t LOCK = 1u << 7;
 volatile struct flash_registers FLASH;
 volatile struct power_registers PWR;
 volatile store_word STORE[FLASH_PAGES][STORE_WORDS];
-volatile store_word PAGES[3][STORE_WORDS];   /* of the whole chip, some */
+volatile store_word PAGES[1][STORE_WORDS];   /* of the whole chip */
 static const unsigned NUMBERS[][2] = {{0, 0}, {FLASH_PAGES, 0}};   /* the address of a page tells it */
 
 static void supply(bool low)

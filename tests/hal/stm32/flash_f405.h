@@ -8,7 +8,7 @@ enum {
     PAGE_BYTES = 16384, STORE_WORDS = PAGE_BYTES / 4, UNIT_BYTES = 4, WRITES_EACH_WORD = 1,
     BUSY = 1 << 16, ONE_ERROR = 1 << 4, ERRORS = 0xF2, DONE = 1,
     BY_32_BITS = 2 << 8, WRITING = BY_32_BITS | 1, ERASING = BY_32_BITS | 2, START = 1 << 16, FIRST_SECTOR = 1,
-    WRITE_LIMIT_MS = 2, ERASE_LIMIT_MS = 4000
+    WRITE_LIMIT_MS = 2, ERASE_LIMIT_MS = 1000
 };
 
 typedef uint32_t store_word;
@@ -17,10 +17,8 @@ static const uint32_t LOCK = 1u << 31;
 
 volatile struct flash_registers FLASH;
 volatile struct power_registers PWR;
-volatile store_word PAGES[3][STORE_WORDS];   /* of the whole chip, some; the store's are among them */
-#define STORE (*(volatile store_word (*)[FLASH_PAGES][STORE_WORDS])&PAGES[1])
-static const unsigned NUMBERS[][2] = {{0, 1}, {1, 2}, {FLASH_PAGES + 3, 3}, {FLASH_PAGES + 4, 4}, {FLASH_PAGES + 8, 5},
-                                      {FLASH_PAGES + 16, 6}};
+volatile store_word STORE[FLASH_PAGES][STORE_WORDS];
+static const unsigned NUMBERS[][2] = {{0, 1}, {1, 2}};
 
 static void supply(bool low)
 {

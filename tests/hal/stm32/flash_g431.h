@@ -18,7 +18,7 @@ static const uint32_t LOCK = 1u << 31;
 volatile struct flash_registers FLASH;
 volatile struct power_registers PWR;
 volatile store_word STORE[FLASH_PAGES][STORE_WORDS];
-volatile store_word PAGES[3][STORE_WORDS];   /* of the whole chip, some */
+volatile store_word PAGES[1][STORE_WORDS];   /* of the whole chip */
 static const unsigned NUMBERS[][2] = {{0, 62}, {1, 63}, {FLASH_PAGES, 0}, {FLASH_PAGES + 10, 10}};
 
 static void supply(bool low)

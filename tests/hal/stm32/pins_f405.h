@@ -11,6 +11,10 @@ static const uint32_t MODES_A = 0xA8000000;   /* after a reset: inputs, but for 
 volatile struct rcc_registers RCC;
 volatile struct power_registers PWR;
 
+static void begin(void)
+{
+}
+
 static void assert_powered(void)
 {
     TEST_ASSERT_EQUAL_HEX32(7, RCC.ahb1enr);

@@ -11,6 +11,11 @@ static const uint32_t MODES_A = 0xABFFFFFF;   /* after a reset: analog, but for 
 volatile struct rcc_registers RCC;
 volatile struct power_registers PWR;
 
+static void begin(void)
+{
+    PWR.cr3 = 1 << 15;
+}
+
 /* And CAN runs from the bus clock. */
 static void assert_powered(void)
 {
@@ -18,6 +23,7 @@ static void assert_powered(void)
     TEST_ASSERT_EQUAL_HEX32(1 << 25 | 1 << 17 | 1 << 28, RCC.apb1enr1);
     TEST_ASSERT_EQUAL_HEX32(6 << 1 | 1 << 0, PWR.cr2);
     TEST_ASSERT_EQUAL_HEX(0x14, offsetof(struct power_registers, sr2));
+    TEST_ASSERT_EQUAL_HEX32(1 << 14 | 1 << 15, PWR.cr3);   /* 6.4.3: what a reset leaves, and no pull-downs of a dead battery */
     TEST_ASSERT_EQUAL_HEX32(2u << 24, RCC.ccipr);   /* and nothing else does not */
 }
 

@@ -25,7 +25,9 @@ static void assert_pins(void)
     for (unsigned pin = 0; pin <= 5; pin++)
         TEST_ASSERT_EQUAL_HEX32(ANALOGUE, mode(A, pin));
     TEST_ASSERT_EQUAL_HEX32(PULLED, mode(A, 6));
-    TEST_ASSERT_EQUAL_HEX32(PULLED, mode(A, 8));
+    TEST_ASSERT_EQUAL_HEX32(ALTERNATE, mode(A, 8));
+    TEST_ASSERT_EQUAL_HEX32(ALTERNATE, mode(A, 11));
+    TEST_ASSERT_EQUAL_HEX32(PULLED, mode(B, 0));
     TEST_ASSERT_EQUAL_HEX32(PULLED, mode(A, 15));
     TEST_ASSERT_EQUAL_HEX32(PULLED, mode(B, 12));
     TEST_ASSERT_EQUAL_HEX32(OUTPUT, mode(B, 5));
@@ -40,7 +42,8 @@ static void assert_pins(void)
     {"RCC ahbenr", 1, RCC.ahbenr}, {"RCC apb2enr", 1 << 9 | 1 << 11, RCC.apb2enr}, {"RCC apb1enr", 7, RCC.apb1enr}, \
     {"RCC cfgr", 2 << 14, RCC.cfgr}, {"ADC1 sqr1", 5 << 20, ADC1.sqr[0]},                                     \
     {"ADC1 sqr3", 0 | 1 << 5 | 2 << 10 | 3 << 15 | 4 << 20 | 5 << 25, ADC1.sqr[2]},                           \
-    {"ADC1 smpr2", 0x3FFFF, ADC1.smpr[1]}, {"ADC1 cr1", 1 << 8, ADC1.cr1},                                    \
+    {"ADC1 smpr2", 0x3FFFFFFF, ADC1.smpr[1]}, {"ADC1 cr1", 1 << 8, ADC1.cr1},                                 \
+    {"TIM1 bdtr", 1 << 15 | 1 << 12 | 1 << 10, TIM1.bdtr},                                                    \
     {"ADC1 cr2", 1 << 22 | 1 << 20 | 7 << 17 | 1 << 8 | 3, ADC1.cr2},
 
 #endif

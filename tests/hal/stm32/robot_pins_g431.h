@@ -29,15 +29,18 @@ static void assert_pin(unsigned port, unsigned pin, uint32_t mode, uint32_t pull
 
 static void assert_pins(void)
 {
-    for (unsigned pin = 0; pin < 4; pin++)
+    for (unsigned pin = 0; pin < 3; pin++)
         assert_pin(C, pin, ANALOGUE, 0, 0);
+    assert_pin(B, 1, ANALOGUE, 0, 0);
+    assert_pin(C, 3, ALTERNATE, 0, 2);
     assert_pin(A, 0, ANALOGUE, 0, 0);
     assert_pin(A, 1, ANALOGUE, 0, 0);
     assert_pin(A, 6, ALTERNATE, 1, 2);
     assert_pin(A, 7, ALTERNATE, 1, 2);
-    assert_pin(A, 8, 0, 1, 0);
+    assert_pin(A, 8, ALTERNATE, 0, 6);
     assert_pin(A, 15, ALTERNATE, 1, 1);
-    assert_pin(B, 0, OUTPUT, 0, 0);
+    assert_pin(B, 0, 0, 1, 0);
+    assert_pin(B, 13, OUTPUT, 0, 0);
     assert_pin(B, 6, ALTERNATE, 1, 2);
     assert_pin(B, 7, ALTERNATE, 1, 2);
     assert_pin(B, 10, 0, 1, 0);
@@ -53,8 +56,9 @@ static void assert_pins(void)
 #define CHIP_REGISTERS                                                                                             \
     {"RCC ahb1enr", 5, RCC.ahb1enr}, {"RCC ahb2enr", 1 << 13, RCC.ahb2enr}, {"RCC apb2enr", 1 << 11, RCC.apb2enr}, \
     {"RCC apb1enr1", 7, RCC.apb1enr1}, {"DMAMUX c0cr", 5, DMAMUX.ccr[0]}, {"ADC12 ccr", 3 << 16, ADC1.common.ccr}, \
-    {"ADC1 sqr1", 5 | 6 << 6 | 7 << 12 | 8 << 18 | 9 << 24, ADC1.sqr[0]}, {"ADC1 sqr2", 1 | 2 << 6, ADC1.sqr[1]},  \
-    {"ADC1 smpr1", 7 << 3 | 7 << 6 | 0x3FFC0000, ADC1.smpr[0]}, {"ADC1 cfgr", 0x3003, ADC1.cfgr},                  \
+    {"ADC1 sqr1", 5 | 6 << 6 | 7 << 12 | 8 << 18 | 12 << 24, ADC1.sqr[0]}, {"ADC1 sqr2", 1 | 2 << 6, ADC1.sqr[1]},  \
+    {"ADC1 smpr1", 0x3FFFFFFF, ADC1.smpr[0]}, {"ADC1 smpr2", 0x07FFFFFF, ADC1.smpr[1]},                             \
+    {"ADC1 cfgr", 0x3003, ADC1.cfgr}, {"TIM1 bdtr", 15 << 16 | 1 << 15 | 1 << 12 | 1 << 10, TIM1.bdtr},              \
     {"ADC1 cr", 1 << 28 | 1 << 2 | 1, ADC1.cr},
 
 #endif

@@ -51,15 +51,6 @@ TEST(the_crystal_makes_the_full_speed)
     assert_runs_from_pll(BEST.core_hz / 1000000);
 }
 
-TEST(a_clock_that_is_stopped_is_that_after_a_reset)
-{
-    assert_starts_as(&BEST);
-    clock_stop();
-    TEST_ASSERT_EQUAL_HEX32(0, RCC.cr & (PLLON | HSEON));
-    TEST_ASSERT_EQUAL_HEX32((RCC.cfgr & 3u) << SWITCHED_AT, RCC.cfgr & SWITCH_MASK & ~3u);
-    TEST_ASSERT_NOT_EQUAL_HEX32(SW_PLL, RCC.cfgr & 3u);
-}
-
 TEST(a_slow_crystal_is_waited_for)
 {
     model.crystal_ms = 99;
@@ -133,7 +124,7 @@ TEST(no_data_cache_hides_what_the_store_is_now)
     for (unsigned pll = 0; pll <= 1; pll++) {
         model_reset();
         model.pll_ms = pll ? 0 : NEVER;
-        FLASH.acr = 0x40600 | WAITS;   /* as after a reset of an STM32G4, and a boot loader */
+        FLASH.acr = 0x40600 | WAITS;   /* as after a reset of an STM32G4, and the boot loader in its ROM */
         (void)clock_start();
         TEST_ASSERT_EQUAL_HEX32(0, FLASH.acr & 1u << 10);
         TEST_ASSERT_EQUAL_HEX32(CLOCK_TABLE.caches | WAITS, FLASH.acr);
@@ -145,6 +136,12 @@ TEST(reset_flags_are_read_and_forgotten)
     RCC.csr = 0x14000000;
     TEST_ASSERT_EQUAL_HEX32(0x14000000, chip_reset_flags());
     TEST_ASSERT_EQUAL_HEX32(FORGET | 0x14000000, RCC.csr);
+}
+
+TEST(a_brown_out_alone_is_a_power_on)
+{
+    RCC.csr = CLOCK_TABLE.brown_out | 1u << 26;   /* as each reset, it pulls the pin */
+    TEST_ASSERT_EQUAL(CLOCK_TABLE.brown_out != 0, (chip_reset_flags() & CHIP_POWER_ON) != 0);
 }
 
 TEST(what_is_special_about_the_chip)

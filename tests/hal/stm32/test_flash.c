@@ -149,14 +149,3 @@ TEST(pages_have_the_numbers_of_the_chip)
     for (unsigned i = 0; i < sizeof NUMBERS / sizeof NUMBERS[0]; i++)
         TEST_ASSERT_EQUAL_UINT32(NUMBERS[i][1], flash_number(NUMBERS[i][0]));
 }
-
-TEST(behind_the_stores_pages_are_those_of_the_chip)
-{
-    static const uint32_t words[] = {0x5678, 0x9ABCDEF0};
-
-    memset((void *)PAGES, 0xFF, sizeof PAGES);
-    flash_begin(FLASH_PAGES, 8, words);
-    TEST_ASSERT_EQUAL_PTR((const char *)PAGES + 8, flash_place(FLASH_PAGES, 8));
-    TEST_ASSERT_EQUAL_HEX16(0x5678, *(const volatile uint16_t *)flash_place(FLASH_PAGES, 8));
-    TEST_ASSERT_TRUE(flash_has(FLASH_PAGES, 8, words));
-}

@@ -1,11 +1,11 @@
 /* What only this chip's flash does: it writes half a word at a time, and its core stands still meanwhile. */
 #include <string.h>
 
-#include "tests/test.h"
 #include "hal/flash_store/flash.h"
-#include "hal/stm32/line.h"
+#include "hal/port/cortex_m/uart.h"
 #include "hal/stm32/machine.h"
 #include "hal/stm32/stm32f103/registers.h"
+#include "tests/test.h"
 
 enum { HALVES = 512, LOCK = 1 << 7 };
 

@@ -4,12 +4,12 @@
 #include <string.h>
 #include <sys/mman.h>
 
-#include "tests/test.h"
 #include "hal/flash_store/flash.h"
-#include "hal/stm32/line.h"
+#include "hal/port/cortex_m/uart.h"
 #include "hal/stm32/machine.h"
 #include "hal/stm32/stm32g431/flash_errors.h"
 #include "hal/stm32/stm32g431/registers.h"
+#include "tests/test.h"
 
 enum { HOST_PAGE = 4096, WORDS = 512 };
 
@@ -49,6 +49,18 @@ TEST(what_cannot_be_corrected_cannot_be_read)
     FLASH.eccr = 0;
     TEST_ASSERT_EQUAL(0, flash_read(0, 0, words, sizeof words));
     TEST_ASSERT_EQUAL(0, flash_write(0, 8, words, sizeof words));
+}
+
+TEST(pages_behind_those_of_the_store_are_the_chips_own)
+{
+    static const uint32_t words[2] = {0x12345678, 0x9ABCDEF0};
+    uint32_t read[2];
+
+    memset((void *)PAGES, 0xFF, sizeof PAGES);
+    TEST_ASSERT_EQUAL(0, flash_write(FLASH_PAGES, 8, words, sizeof words));
+    TEST_ASSERT_EQUAL(0, flash_read(FLASH_PAGES, 8, read, sizeof read));
+    TEST_ASSERT_EQUAL_HEX32_ARRAY(words, read, 2);
+    TEST_ASSERT_EQUAL_HEX32(words[1], PAGES[0][3]);
 }
 
 TEST(an_interrupt_is_forgiven_to_nobody_but_the_reader)

@@ -43,14 +43,6 @@ TEST(it_starts_the_watchdog_for_2_seconds)
     TEST_ASSERT_EQUAL_UINT32(2000, IWDG.rlr);
 }
 
-TEST(a_patient_watchdog_waits_four_times_as_long)
-{
-    mcu_be_patient();
-    TEST_ASSERT_EQUAL_UINT32(5, IWDG.pr);   /* by 128 */
-    TEST_ASSERT_EQUAL_UINT32(2000, IWDG.rlr);
-    TEST_ASSERT_EQUAL_HEX32(0xAAAA, IWDG.kr);
-}
-
 TEST(a_watchdog_that_stays_busy_does_not_hold_up_the_start)
 {
     IWDG.sr = 3;
@@ -93,6 +85,11 @@ TEST(what_else_is_in_the_register_of_flags_is_no_cause)
         reset_flags = 1u << other;
         TEST_ASSERT_EQUAL(RESET_POWER_ON, mcu_reset_cause());
     }
+}
+
+TEST(systick_counts_an_eighth_of_the_core_clock)
+{
+    TEST_ASSERT_EQUAL_UINT32(8, mcu_systick_divisor());
 }
 
 TEST(feeding_feeds)

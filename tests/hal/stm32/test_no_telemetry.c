@@ -1,7 +1,7 @@
 /* A robot that talks to nobody. */
 #include "hal/can_body/port.h"
 #include "hal/pins_body/telemetry.h"
-#include "hal/stm32/line.h"
+#include "hal/port/cortex_m/uart.h"
 #include "tests/test.h"
 
 void setUp(void)

@@ -24,6 +24,7 @@ void setUp(void)
     GPIO[0].at.moder = MODES_A;
     GPIO[0].at.pupdr = 0x64000000;
     memcpy(before, (const void *)GPIO, sizeof before);
+    begin();
     pins_start();
 }
 

@@ -72,22 +72,21 @@ TEST(the_registers_are_as_the_manual_wants_them)
     } cases[] = {
         {"TIM1 arr", TOP - 1, TIM1.arr},
         {"TIM1 rcr", 20000 / 200 - 1, TIM1.rcr},
-        {"TIM1 ccmr1", 0x6000, TIM1.ccmr[0]},   /* a duty takes effect at once, as the pin of its direction does */
-        {"TIM1 ccmr2", 0x0060, TIM1.ccmr[1]},
-        {"TIM1 ccer", 1 << 6 | 1 << 10, TIM1.ccer},
+        {"TIM1 ccmr1", 0x6060, TIM1.ccmr[0]},   /* a duty takes effect at once */
+        {"TIM1 ccmr2", 0x6060, TIM1.ccmr[1]},
+        {"TIM1 ccer", 1 | 1 << 6 | 1 << 10 | 1 << 12, TIM1.ccer},
         {"TIM1 egr", 1, TIM1.egr},
         {"TIM1 sr", 0, TIM1.sr},
         {"TIM1 dier", 1, TIM1.dier},
-        {"TIM1 bdtr", 1 << 15 | 1 << 12 | 1 << 10, TIM1.bdtr},
         {"TIM1 cr1", 1 << 7 | 1, TIM1.cr1},
         {"NVIC iser", 1 << 25, NVIC.iser[0]},
         {"TIM2 arr", 0xFFFF, TIM2.arr},
         {"TIM2 ccmr1", 0x0031, TIM2.ccmr[0]},
         {"TIM2 smcr", 7 | 5 << 4, TIM2.smcr},
         {"TIM2 cr1", 1, TIM2.cr1},
-        {"TIM3 ccmr1", 0x3131, TIM3.ccmr[0]},
+        {"TIM3 ccmr1", 0xF1F1, TIM3.ccmr[0]},
         {"TIM3 smcr", 3, TIM3.smcr},
-        {"TIM4 ccmr1", 0x3131, TIM4.ccmr[0]},
+        {"TIM4 ccmr1", 0xF1F1, TIM4.ccmr[0]},
         {"TIM4 smcr", 3, TIM4.smcr},
         {"DMA1 cndtr", 6, DMA1.channel[0].cndtr},
         {"DMA1 ccr", 0x5A1, DMA1.channel[0].ccr},
@@ -120,17 +119,18 @@ TEST(a_beat_is_slept_for_and_cleared)
     TEST_ASSERT_EQUAL_UINT(2, slept);
 }
 
-TEST(a_duty_is_time_high_forward_and_time_low_backward)
+/* By the truth table of the DRV8833: 1/0 drives forward, 0/1 backward, 1/1 brakes; nothing is ever 0/0, which coasts. */
+TEST(a_duty_is_the_time_in_which_one_input_is_low_and_the_motor_brakes_in_the_rest)
 {
     pins_push(0, 16384);
-    TEST_ASSERT_EQUAL_UINT32(TOP / 4, TIM1.ccr[1]);
-    TEST_ASSERT_EQUAL_HEX32(1 << 16, GPIO[B].at.bsrr);
+    TEST_ASSERT_EQUAL_UINT32(TOP, TIM1.ccr[1]);
+    TEST_ASSERT_EQUAL_UINT32(TOP - TOP / 4, TIM1.ccr[0]);
     pins_push(1, -16384);
     TEST_ASSERT_EQUAL_UINT32(TOP - TOP / 4, TIM1.ccr[2]);
-    TEST_ASSERT_EQUAL_HEX32(1 << 1, GPIO[B].at.bsrr);
+    TEST_ASSERT_EQUAL_UINT32(TOP, TIM1.ccr[3]);
     pins_push(1, 0);
-    TEST_ASSERT_EQUAL_UINT32(0, TIM1.ccr[2]);
-    TEST_ASSERT_EQUAL_HEX32(1 << 17, GPIO[B].at.bsrr);
+    TEST_ASSERT_EQUAL_UINT32(TOP, TIM1.ccr[2]);
+    TEST_ASSERT_EQUAL_UINT32(TOP, TIM1.ccr[3]);
 }
 
 TEST(outputs_are_set_and_cleared)
@@ -151,7 +151,7 @@ TEST(what_is_pressed_is_low)
     TEST_ASSERT_TRUE(pins_bumped());
     GPIO[B].at.idr = 0xFFFF & ~(1u << 11);
     TEST_ASSERT_TRUE(pins_bumped());
-    GPIO[A].at.idr = 0xFFFF & ~(1u << 8);
+    GPIO[B].at.idr = 0xFFFF & ~(1u << 0);
     TEST_ASSERT_TRUE(pins_button());
 }
 

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from host_sim.base.errors import RobotError, UsageError
-from host_sim.faults.event import Event
 from host_sim.lab.campaign import matrix
 from host_sim.lab.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
 from host_sim.lab.campaign.html_report import page, summary, verdict
@@ -19,6 +18,7 @@ from host_sim.lab.campaign.run_files import CourseLog
 from host_sim.lab.campaign.running import run_all
 from host_sim.lab.campaign.shrink import shrink
 from host_sim.protocol.codec import Frame
+from host_sim.transport.rule import Event
 from tests.lab.campaign.support import CLEAN, outcome_of
 from tests.runs.support import octet
 
@@ -33,7 +33,9 @@ def test_each_fault_is_seen_and_told_however_short_the_runs_are(tmp_path):
     assert f"{runs} runs: 0 not as they should be" in done.stdout
     text = report.read_text()
     assert text.count("<details>") == runs
-    assert "http" not in text
+    assert "http:" not in text
+    assert "https:" not in text
+    assert "default-src 'none'" in text
     assert "--fault drop:30%" in text
 
 
@@ -112,7 +114,7 @@ def test_the_command_of_a_cell_repeats_it(tmp_path, name):
 
 
 def test_an_image_that_is_missing_is_a_problem_and_not_a_robot_that_ended_in_order(monkeypatch):
-    monkeypatch.setattr("host_sim.emulator.board.image_path", lambda board, link: Path("nowhere", board, link))
+    monkeypatch.setattr("host_sim.base.paths.image_path", lambda board, link: Path("nowhere", board, link))
 
     assert outcome_of("article blue_pill lockstep seed=12 limit=1 event=reset@20").broke
 
@@ -219,7 +221,7 @@ def test_where_there_is_no_such_link_it_is_said():
 def test_reports_that_come_later_are_no_other_course():
     logs = [CourseLog() for _ in range(3)]
     senses, drive, heartbeat, other = (Frame(number, bytes(8)) for number in (0x101, 0x041, 0x6A1, 0x042))
-    said = [(heartbeat, senses, drive), (senses, other, drive, heartbeat), (senses, Frame(0x041, bytes([1] * 8)))]
+    said = [(heartbeat, senses, drive), (senses, other, drive, heartbeat), (Frame(0x101, bytes([1] * 8)), drive)]
 
     for log, frames in zip(logs, said, strict=True):
         for frame in frames:
@@ -236,7 +238,7 @@ def test_what_need_not_be_noticed_must_not_leave_a_trace():
 
     outcome.differs = True
 
-    assert outcome.problems == ["unseen"]
+    assert outcome.problems == ["unseen", "differs without a warning"]
 
 
 NEVER = FaultClass("a fault that never comes", ("forge:erase@99999/to",), harmless=PACES)

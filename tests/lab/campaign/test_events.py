@@ -1,18 +1,18 @@
-"""What the campaign makes happen to a robot, its line or its host: it is told, or it leaves no trace."""
+"""What the campaign makes happen to a robot, its line, its host or its pins: it is told, or it leaves no trace."""
 
 import threading
 from contextlib import nullcontext
 
 import pytest
 
-from host_sim.backends.images import BOARDS
 from host_sim.lab.campaign.board_setup import Board
-from host_sim.lab.campaign.cell import PACES, Cell
+from host_sim.lab.campaign.cell import LOCKSTEP, PACES, PIN_EVENTS, PINS_LINK, Cell
 from host_sim.lab.campaign.host_events import CLOCK_EVENTS
 from host_sim.lab.campaign.links import open_setup
-from host_sim.lab.campaign.matrix import default_limit_s, groups
+from host_sim.lab.campaign.matrix import PINS, default_limit_s, groups
 from host_sim.lab.campaign.run_files import FILE_EVENTS
-from host_sim.lab.campaign.running import run_cell
+from host_sim.lab.campaign.running import run_all, run_cell
+from host_sim.sim.access import BOARDS
 from tests.lab.campaign.support import leaves_a_trace, outcome_of
 
 
@@ -75,8 +75,8 @@ def test_the_power_goes_twice_in_a_row_while_flash_is_erased_and_the_memory_is_k
     assert outcome.problems == []
     assert "its memory kept" in outcome.doubts[0]
     assert setup.board.resets == ["power"] * 3
-    choice, memory, cut_short, whole = 1, 1, 2, 1
-    assert setup.board.hardware.flash.erasures == choice + memory + cut_short + whole
+    memory, cut_short, whole = 1, 2, 1
+    assert setup.board.hardware.flash.erasures == memory + cut_short + whole
 
 
 @pytest.mark.parametrize(
@@ -98,7 +98,7 @@ def test_the_power_goes_twice_in_a_row_while_flash_is_erased_and_the_memory_is_k
 def test_an_event_without_effect_fails_the_campaign(monkeypatch, where, event):
     monkeypatch.setattr("host_sim.lab.campaign.running.happen", lambda *_: None)
     for limit in ("_LEAST_S", "_FIRST_S", "_MOST_S"):  # what a busy host repeats would look like the effect
-        monkeypatch.setattr(f"host_sim.client.waiting.{limit}", 10.0)
+        monkeypatch.setattr(f"host_sim.client.connection.{limit}", 10.0)
 
     outcome = outcome_of(f"article {where} lockstep seed=12 limit=0.6 event={event}@20")
 
@@ -135,3 +135,44 @@ def test_what_was_to_happen_to_a_line_later_does_not_outlive_it():
         setup.events["unplug"](60_000)
 
     assert set(threading.enumerate()) <= before
+
+
+TRIED = (
+    "the wire of the front sensor is broken",
+    "a channel of the left encoder is lost",
+    "the right encoder counts against its motor",
+    "the left motor is stalled",
+    "the wire of the right motor is off",
+    "the motors' plugs are swapped",
+    "the bridge reports a fault",
+    "the converter is stuck",
+    "the button's contacts bounce",
+)
+
+
+@pytest.fixture(scope="module")
+def outcomes():
+    (cells,) = groups(["article"], [PINS_LINK], [LOCKSTEP], lambda _: 10.0, PINS)
+    return {it.cell.fault: it for it in run_all(cell for cell in cells if cell.fault in ("", *TRIED))}
+
+
+@pytest.mark.parametrize("fault", TRIED)
+def test_a_fault_of_the_pins_reaches_the_robot_which_bears_or_tells_it(outcomes, fault):
+    outcome = outcomes[fault]
+    assert (outcome.reach, outcome.problems, outcome.end) == ("reached", [], "")
+    assert ("denied" in outcome.seen) == outcome.cell.denies
+
+
+def test_a_robot_that_has_stopped_for_its_wheels_answers_to_the_end(outcomes):
+    assert outcomes["the bridge reports a fault"].recovered
+
+
+def test_the_power_goes_twice_in_a_row_while_flash_is_written_and_the_robot_goes_on():
+    outcome = outcome_of("article pins lockstep seed=12 limit=6 event=flash-cut:3@200")
+
+    assert (outcome.problems, outcome.end) == ([], "")
+    assert "its memory restored" in outcome.doubts[0]
+
+
+def test_each_event_has_a_row():
+    assert {it.event.partition(":")[0] for it in PINS} == set(PIN_EVENTS)

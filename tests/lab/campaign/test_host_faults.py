@@ -1,5 +1,7 @@
 """Faults of this host: of its disk, its folders, its files and its clock."""
 
+import subprocess
+import sys
 import time
 from contextlib import ExitStack
 
@@ -10,6 +12,7 @@ from host_sim.lab.campaign.host_events import clock_events
 from host_sim.lab.campaign.run_files import RunFiles
 from host_sim.protocol.codec import Frame
 from host_sim.recording.memory_file import MemorySaver
+from host_sim.transport.cable import Cable
 from tests.lab.campaign.support import leaves_a_trace, outcome_of
 from tests.runs.support import octet
 
@@ -103,6 +106,47 @@ def test_another_simulator_takes_over_the_robot_of_one_that_was_killed():
     outcome = outcome_of("article slcan lockstep seed=12 limit=1 event=kill-simulator:7000@20")
 
     assert (outcome.problems, outcome.end, outcome.recovered) == ([], "", True)
+
+
+@pytest.mark.parametrize("event", ["unplug:100", "reset", "kill", "hang:100", "noise:1", "hold-up:100"])
+def test_what_happens_to_a_line_and_its_robot_before_the_simulator_is_killed_happens_there(event):
+    outcome = outcome_of(f"article slcan lockstep seed=12 limit=1 event={event}@15 event=kill-simulator:7000@20")
+
+    assert (outcome.problems, outcome.broke) == ([], False)
+
+
+def test_a_line_is_told_what_happens_by_the_process_that_has_it(monkeypatch):
+    told = []
+    monkeypatch.setattr(Cable, "plug", lambda _: told.append("plug"))
+    monkeypatch.setattr(Cable, "unplug", lambda _: told.append("unplug"))
+
+    outcome_of("article slcan lockstep seed=12 limit=1 event=unplug:1@15 event=kill-simulator:7000@20")
+
+    assert told[:1] == ["unplug"]
+
+
+def test_a_simulator_that_hangs_is_ended_and_fails_the_campaign(monkeypatch):
+    monkeypatch.setattr("host_sim.lab.campaign.killed.SILENT_S", 0.5)
+    monkeypatch.setattr(MemorySaver, "save", lambda *_: time.sleep(60))
+
+    outcome = outcome_of("article none lockstep seed=12 limit=1 event=kill-simulator:5@20")
+
+    assert outcome.problems == ["broke"]
+    assert "the simulator hung" in outcome.end
+
+
+def test_a_process_that_is_held_up_on_a_busy_host_goes_on():
+    busy = """
+import subprocess, time
+from host_sim.lab.campaign.host_events import hold_up
+begin = subprocess.Popen.__init__
+def begin_late(*words, **named):
+    begin(*words, **named)
+    time.sleep(0.3)
+subprocess.Popen.__init__ = begin_late
+hold_up(10)
+"""
+    assert subprocess.run([sys.executable, "-c", busy], timeout=20, check=False).returncode == 0
 
 
 def test_a_memory_that_is_not_in_its_file_when_the_simulator_is_killed_fails_the_campaign(monkeypatch):

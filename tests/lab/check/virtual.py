@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from host_sim.base.frame import Frame
 from host_sim.lab.check.robots import Robots, wake
 from host_sim.lab.check.talk import Talk
+from host_sim.transport.link import Frame
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLE = ROOT / "examples" / "robot" / "robot.py"

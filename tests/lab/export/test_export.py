@@ -3,28 +3,29 @@
 import re
 import subprocess
 import sys
-from collections import Counter
 from pathlib import Path
 
+import cantools
 import fastparquet
 import mdfreader
 import pandas as pd
 import pytest
-from small_mcap import JSONDecoderFactory, read_message_decoded
 from vblf.can import CanMessage
 from vblf.reader import BlfReader
 
 from host_sim.api import RunConfig, log_table, run
 from host_sim.base.extra_library import library
 from host_sim.cli.main import main
-from host_sim.lab.export.frames import LAST_S
+from host_sim.lab.export.export_command import FORMATS as WRITERS
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.every_node import hear
 from host_sim.protocol.generated import MESSAGES
 from host_sim.recording.log_reader import Recorded, read_log
+from host_sim.report.dbc_file import dbc_text
 from tests.recording.support import record_run
 
-FORMATS = ("csv", "parquet", "asc", "blf", "mf4", "mcap")
+FORMATS = ("csv", "parquet", "asc", "blf", "trc", "mf4")
+LAST_S = {name: int(it.last_s) for name, it in WRITERS.items() if it.last_s < float("inf")}
 
 
 @pytest.fixture(scope="module")
@@ -84,6 +85,35 @@ def test_mdfreader_reads_the_mf4_file(exported, recorded):
     assert [round(time * 1e6) for time in times] == [it.time_us - recorded[0].time_us for it in recorded]
 
 
+TRC_LINE = re.compile(r" *\d+ +(\d+\.\d{3}) DT +1 +0([0-9A-F]{3}) Rx -  (\d) +((?:[0-9A-F]{2} ?)*)")
+
+
+def test_the_trc_file_is_as_peak_describes_version_2_1(exported, recorded):
+    """By the columns of PEAK's own description: of libraries, only python-can reads TRC, and it wrote the file."""
+    lines = exported["trc"].read_text().splitlines()
+    assert lines[0] == ";$FILEVERSION=2.1"
+    assert ";$COLUMNS=N,O,T,B,I,d,R,L,D" in lines
+
+    read = [TRC_LINE.fullmatch(line).groups() for line in lines if not line.startswith(";")]
+    assert [(int(id_, 16), bytes.fromhex(data)) for _, id_, _, data in read] == [it.frame for it in recorded]
+    assert all(int(length) == len(bytes.fromhex(data)) for *_, length, data in read)
+    times = [round(float(ms) * 1000) for ms, *_ in read]
+    assert times == [it.time_us - recorded[0].time_us for it in recorded]
+
+
+def test_the_mf4_file_begins_with_its_first_frame(tmp_path):
+    """Absolute times, and negative ones would show if it began when it was written."""
+    log, path = tmp_path / "a.log", tmp_path / "a.mf4"
+    log.write_text("".join(f"(1700000000.{us:06d}) can0 041#0011\n" for us in (250_000, 270_000)))
+    assert main(["export", str(log), "--mf4", str(path)]) == 0
+
+    mdf = mdfreader.Mdf(str(path))
+
+    assert [round(time * 1e6) for time in mdf.get_channel_data("time").tolist()] == [0, 20_000]
+    with library("asammdf", "export").MDF(path) as file:
+        assert file.header.start_time.timestamp() == 1700000000.25
+
+
 def signals_of(row: dict[str, object], message: str) -> dict[str, int]:
     """The signals of a message that a row of a table has."""
     return {
@@ -100,12 +130,17 @@ def test_the_table_has_every_signal(exported, recorded, name):
         table = pd.read_csv(file, dtype={"data": str}) if csv else fastparquet.ParquetFile(file).to_pandas()
 
     rows = table.to_dict("records")
+    dbc = cantools.database.load_string(dbc_text((1, 2)), "dbc")
     assert [row["data"] for row in rows] == [it.frame.data.hex().upper() for it in recorded]
     assert [round(row["time_s"] * 1e6) for row in rows] == [it.time_us for it in recorded]
     for row, it in zip(rows, recorded, strict=True):
         heard = hear(it.frame)
         assert (row["node"], row["message"]) == (heard.node, heard.name)
         assert row["damaged"] == (heard.signals is None)
+        if not row["damaged"]:
+            decoded = dbc.decode_message(it.frame.id, it.frame.data, decode_choices=False)
+            prefix = f"N{heard.node}_{heard.name}_"
+            assert signals_of(row, heard.name) == {key.removeprefix(prefix): value for key, value in decoded.items()}
         for message in MESSAGES:
             expected = heard.signals if message == heard.name else None
             assert signals_of(row, message) == (expected or {})
@@ -117,22 +152,6 @@ def test_pandas_reads_integers_that_may_be_missing(exported):
 
     assert {str(table[column].dtype) for column in ("node", "damaged", "SENSES.feel", "ANSWER.value")} == {"Int64"}
     assert table["time_s"].dtype == "float64"
-
-
-def test_small_mcap_reads_the_mcap_file(exported, recorded):
-    with exported["mcap"].open("rb") as file:
-        messages = list(read_message_decoded(file, decoder_factories=[JSONDecoderFactory()]))
-
-    assert len(messages) == len(recorded)
-    for message, it in zip(sorted(messages, key=lambda it: it.message.sequence), recorded, strict=True):
-        heard = hear(it.frame)
-        damaged = heard.signals is None
-        assert message.channel.topic == f"/robot_{heard.node}/{'damaged' if damaged else heard.name}"
-        assert message.message.log_time == it.time_us * 1000
-        if not damaged:
-            assert heard.signals.items() <= message.decoded_message.items()
-    reasons = Counter(it.decoded_message["reason_name"] for it in messages if it.channel.topic == "/robot_1/DRIVE")
-    assert reasons["wander"] > 0
 
 
 def test_what_was_skipped_is_said(log, tmp_path, capsys):

@@ -13,7 +13,7 @@ from host_sim.lab.gymnasium_envs.rules import Rewards
 from host_sim.protocol.generated import Senses
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import SimParams
 
 FORWARD, LEFT, RIGHT, TRY_LEFT, TRY_RIGHT, ABOUT = range(6)
 COUNTS_PER_DEGREE = 10 * math.pi * SimParams().wheel_track_mm / 360
@@ -33,6 +33,7 @@ def episode(env: gymnasium.Env, seed: int, steps: int = 60) -> list[tuple]:
     return seen
 
 
+@pytest.mark.filterwarnings("ignore:.*no window can be opened")  # "human" is tried, too
 def test_gymnasium_finds_no_fault():
     check_env(gymnasium.make("octet/Arena-v0").unwrapped)
 
@@ -136,7 +137,7 @@ def test_an_episode_ends_when_the_time_is_up():
 def test_an_episode_ends_when_all_food_is_eaten():
     env = ArenaEnv()
     env.reset(seed=1)
-    for food in env._worlds._arenas[0].inside.food:
+    for food in env._worlds.arenas[0].inside.food:
         food.eaten = True
 
     assert env.step(FORWARD)[2:4] == (True, False)

@@ -3,6 +3,7 @@
 import gymnasium
 import numpy as np
 import pytest
+from gymnasium import error
 
 import host_sim.lab.gymnasium_envs  # noqa: F401 - registers the environments
 from host_sim.lab.gymnasium_envs.arena_env import ArenaEnv
@@ -61,3 +62,23 @@ def test_a_step_may_be_a_tick():
     envs.reset(seed=1)
 
     assert envs.step(np.array([0, 5]))[0][:, 0].tolist() == [1, 1]
+
+
+def test_each_arena_takes_the_environment_that_it_is_told(envs):
+    chosen = [(7, 2), (8, 1), (9, 3), (7, 2), (1, 1), (2, 1)]
+    single = [ArenaEnv(limit_s=6) for _ in chosen]
+    alone = [env.reset(options={"environment": one})[0] for env, one in zip(single, chosen, strict=True)]
+    together, _ = envs.reset(options={"environments": chosen})
+    for _ in range(80):
+        assert np.array_equal(together, alone)
+        together = envs.step(np.zeros(COUNT, np.int64))[0]
+        alone = [env.step(0)[0] for env in single]
+
+    assert np.array_equal(together[0], together[3])
+    assert len({senses.tobytes() for senses in together}) > 1
+
+
+@pytest.mark.parametrize("environments", [[(1, 1)], 7, [(1, 1)] * 5 + [(1, 0)], "123456"])
+def test_environments_that_are_none_are_refused(envs, environments):
+    with pytest.raises(error.Error, match="give a"):
+        envs.reset(options={"environments": environments})

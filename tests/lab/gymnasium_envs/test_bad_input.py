@@ -10,7 +10,6 @@ from host_sim.lab.gymnasium_envs import told_worlds
 from host_sim.lab.gymnasium_envs.arena_env import ArenaEnv
 from host_sim.lab.gymnasium_envs.arena_parallel_env import ArenaParallelEnv
 from host_sim.lab.gymnasium_envs.arena_vector_env import ArenaVectorEnv
-from host_sim.lab.gymnasium_envs.brain_env import BrainEnv
 from host_sim.world.layouts import NoRoomError
 
 NO_ACTIONS = [
@@ -61,15 +60,6 @@ def test_actions_of_several_arenas_that_are_none(actions):
     assert envs.step(np.array([0, 1]))[4]["robot_s"].tolist() == pytest.approx([0.06, 0.06])
 
 
-@pytest.mark.parametrize("action", [*NO_ACTIONS, [4] * 7, [-1] * 7, [0] * 6, [math.nan] * 7, [1.5] * 7], ids=repr)
-def test_changes_of_the_memory_that_are_none(action):
-    env = BrainEnv(step_s=1)
-    env.reset(seed=1)
-    with pytest.raises(error.InvalidAction):
-        env.step(action)
-    env.close()
-
-
 @pytest.mark.parametrize("actions", [{}, {"robot_1": 0}, {"robot_1": 0, "robot_3": 0}, {"robot_1": 0, "robot_2": 9}])
 def test_actions_of_robots_that_are_none(actions):
     env = ArenaParallelEnv(2)
@@ -79,22 +69,17 @@ def test_actions_of_robots_that_are_none(actions):
 
 
 def test_a_step_before_the_beginning_or_after_the_end():
-    single, several, brain = ArenaEnv(limit_s=1), ArenaParallelEnv(2, limit_s=1), BrainEnv(limit_s=1)
-    for begin in (lambda: None, lambda: (single.reset(), several.reset(), brain.reset())):
+    single, several = ArenaEnv(limit_s=1), ArenaParallelEnv(2, limit_s=1)
+    for begin in (lambda: None, lambda: (single.reset(), several.reset())):
         begin()
         if several.agents:
-            single.step(5), several.step(dict.fromkeys(several.agents, 5)), brain.step([3] * 7)
+            single.step(5), several.step(dict.fromkeys(several.agents, 5))
         with pytest.raises(error.ResetNeeded):
             single.step(0)
         with pytest.raises(error.ResetNeeded):
             several.step({})
-        with pytest.raises(error.ResetNeeded):
-            brain.step([3] * 7)
     with pytest.raises(error.ResetNeeded):
         ArenaVectorEnv(2).step(np.zeros(2, np.int64))
-    brain.close()
-    with pytest.raises(error.ResetNeeded):
-        brain.step([3] * 7)
 
 
 @pytest.mark.parametrize("seed", [-1, 1.5, "one", math.nan])
@@ -141,24 +126,6 @@ def test_limits_out_of_range(arguments):
     for kind in (ArenaEnv, ArenaVectorEnv, ArenaParallelEnv):
         with pytest.raises(error.Error):
             kind(**arguments)
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        {"profile": "genius"},
-        {"acts_on": "wheels"},
-        {"acts_on": "parameters", "parameters": ("charm",)},
-        {"acts_on": "parameters", "parameters": ()},
-        {"acts_on": "parameters", "parameters": "turn_deg"},
-        {"step_s": 0},
-        {"limit_s": math.nan},
-    ],
-    ids=repr,
-)
-def test_a_brain_that_there_is_not(arguments):
-    with pytest.raises(error.Error):
-        BrainEnv(**arguments)
 
 
 def test_no_arenas():

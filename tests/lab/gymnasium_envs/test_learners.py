@@ -13,9 +13,9 @@ from host_sim.lab.gymnasium_envs.q_learning import Learned, learn
 from host_sim.lab.gymnasium_envs.scaled import ScaledSenses, scaled
 
 
-@pytest.mark.parametrize("first", ["", "import octet\n"])
+@pytest.mark.parametrize("first", ["", "import octet_robot\n"])
 def test_gymnasium_finds_the_environments_by_the_package(first):
-    code = f"{first}import gymnasium\nprint(gymnasium.make('octet:octet/Arena-v0').reset(seed=1)[0].shape)"
+    code = f"{first}import gymnasium\nprint(gymnasium.make('octet_robot:octet/Arena-v0').reset(seed=1)[0].shape)"
 
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=ROOT)
 
@@ -24,7 +24,7 @@ def test_gymnasium_finds_the_environments_by_the_package(first):
 
 @pytest.mark.filterwarnings("ignore:.*is different from the unwrapped version")
 def test_scaled_senses_are_an_observation_like_any():
-    check_env(ScaledSenses(gymnasium.make("octet:octet/Arena-v0").unwrapped), skip_render_check=True)
+    check_env(ScaledSenses(gymnasium.make("octet_robot:octet/Arena-v0").unwrapped), skip_render_check=True)
 
 
 def test_scaled_senses_say_what_is_near():

@@ -11,7 +11,6 @@ import pytest
 from host_sim.base.errors import OctetError
 from host_sim.cli.main import main
 from host_sim.lab.study import workers
-from host_sim.lab.study.dask_command import _here_only
 from host_sim.lab.study.folder import StudyFolder
 from host_sim.lab.study.trial import run_trial
 from host_sim.lab.workers import cluster as cluster_of
@@ -30,13 +29,14 @@ class Cluster:
         self.address = self._line(self.scheduler, "Scheduler at:")
 
     def start(self, role: str, *words: str) -> subprocess.Popen:
-        command = [sys.executable, "-m", "host_sim", "dask", role, *words, *NO_PAGE]
-        process = subprocess.Popen(command, cwd=ROOT, stderr=subprocess.PIPE, text=True, start_new_session=True)
+        command = [sys.executable, "-m", "dask", role, *words, "--host", "127.0.0.1", *NO_PAGE]
+        found = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (ROOT, ROOT / "build/cluster")))}
+        process = subprocess.Popen(command, env=found, stderr=subprocess.PIPE, text=True, start_new_session=True)
         self._processes.append(process)
         return process
 
     def worker(self) -> subprocess.Popen:
-        alone = ("--nworkers", "1", "--nthreads", "1", "--no-nanny", "--host", "127.0.0.1")
+        alone = ("--nworkers", "1", "--nthreads", "1", "--no-nanny")
         process = self.start("worker", self.address, *alone, "--local-directory", str(self._folder))
         self._line(process, "Registered to:")
         return process
@@ -61,15 +61,6 @@ def cluster(tmp_path):
     cluster.stop()
 
 
-def test_a_scheduler_is_for_its_own_machine_unless_told_otherwise(cluster):
-    ours, theirs = _here_only("scheduler", []), ["--host", "0.0.0.0"]
-
-    assert cluster.address.startswith("tcp://127.0.0.1:")
-    assert ours == ["--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:8787"]
-    assert _here_only("scheduler", theirs) == theirs
-    assert _here_only("worker", []) == []
-
-
 @pytest.fixture
 def plan(tmp_path) -> Path:
     text = 'profiles = ["article", "never"]\nseeds = 3\nenvironments = 1\nlimit_s = 20\n'
@@ -81,7 +72,7 @@ def test_two_workers_of_a_cluster_make_the_rows_that_are_made_here(cluster, plan
     cluster.worker()
     cluster.worker()
 
-    words = ["study", str(plan), "--out", str(tmp_path / "there"), "--dask", cluster.address, "--chunk", "1"]
+    words = ["study", str(plan), "--out", str(tmp_path / "there"), "--cluster", cluster.address, "--chunk", "1"]
     assert main(words) == 0
 
     assert main(["study", str(plan), "--out", str(tmp_path / "here"), "--jobs", "1"]) == 0
@@ -98,7 +89,7 @@ def test_the_runs_of_a_worker_that_dies_are_made_by_another(cluster):
     trials = [trial("article", seed, limit_s=60) for seed in range(12)]
 
     made = []
-    for runs in workers.run_all(trials, cluster_of(cluster.address), chunk=1):
+    for runs in workers.run_all(workers.run_chunk, trials, cluster_of(cluster.address), chunk=1):
         if not made:
             os.killpg(first.pid, signal.SIGKILL)
         made += runs
@@ -111,7 +102,7 @@ def test_a_scheduler_that_goes_away_is_said(cluster, monkeypatch):
     monkeypatch.setattr("host_sim.lab.workers._CONNECT_S", 1)
     cluster.worker()
     trials = [trial("article", seed, limit_s=60) for seed in range(12)]
-    every = workers.run_all(trials, cluster_of(cluster.address), chunk=1)
+    every = workers.run_all(workers.run_chunk, trials, cluster_of(cluster.address), chunk=1)
 
     assert next(every)
     cluster.scheduler.kill()
@@ -123,6 +114,6 @@ def test_a_scheduler_that_goes_away_is_said(cluster, monkeypatch):
 def test_where_no_scheduler_answers_it_is_one_line(plan, capsys, monkeypatch):
     monkeypatch.setattr("host_sim.lab.workers._CONNECT_S", 1)
 
-    assert main(["study", str(plan), "--dask", "tcp://127.0.0.1:1"]) == 2
+    assert main(["study", str(plan), "--cluster", "tcp://127.0.0.1:1"]) == 2
 
     assert capsys.readouterr().err.count("\n") == 1

@@ -143,4 +143,6 @@ def test_a_study_of_robots_in_worlds_of_their_own_is_compared_as_fleets(tmp_path
     assert main(["study", str(plan), "--out", str(tmp_path / "out")]) == 2
     assert f"use tools/octet compare {plan}" in capsys.readouterr().err
     assert main(["compare", str(plan)]) == 0
-    assert "a: 2 seeds of 1 environment each" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "a: 2 seeds of 1 environment each" in said
+    assert "used      seeds 1..4 for choosing: everything" in said

@@ -185,7 +185,7 @@ def test_the_runs_of_a_dead_worker_are_made_again(tmp_path, monkeypatch):
     monkeypatch.setattr(workers, "run_chunk", die_once)
     trials = [trial("article", seed, limit_s=5) for seed in range(4)]
 
-    made = [run.trial for runs in workers.run_all(trials, processes(2), chunk=1) for run in runs]
+    made = [run.trial for runs in workers.run_all(workers.run_chunk, trials, processes(2), chunk=1) for run in runs]
 
     assert sorted(made, key=lambda it: it.config.seed) == trials
 

@@ -20,7 +20,7 @@ from host_sim.protocol.generated import Reason
 from host_sim.sim.make import make
 from host_sim.sim.native_fleet import loaded
 from host_sim.sim.run_config import RunConfig
-from host_sim.world.params import SimParams
+from host_sim.world.geometry import SimParams
 from tests.lab.study.support import NOTHING, SOUND, SWAPPED, trial
 
 
@@ -202,5 +202,5 @@ def test_a_contact_counts_as_far_as_in_a_study():
 def test_what_a_fleet_cannot_do_is_refused():
     plan = Plan("", [Trial(RunConfig(changes=("mirror@1s",)))])
 
-    with pytest.raises(UsageError, match="tools/octet study"):
+    with pytest.raises(UsageError, match=r"nothing changes in a fleet: .* such as mirror@0s"):
         samples_of_fleets(plan)

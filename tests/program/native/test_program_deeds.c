@@ -51,6 +51,19 @@ TEST(delay_rests_for_as_many_ticks_as_it_takes)
     is(rig_next(), REASON_PROGRAM, 0, 5);
 }
 
+TEST(a_range_is_that_of_the_sensor_in_its_direction)
+{
+    senses = (struct senses){.range_mm = {10, 20, 30, 40, RANGE_NONE}};
+    (void)rig_begin("a=rRange()\nb=rRange(45)\nc=rRange(90)\nd=rRange(-30)\ne=rRange(-90)\nf=rRange(22)");
+    TEST_ASSERT_EQUAL_DOUBLE(6, rig_value("a"));
+    TEST_ASSERT_EQUAL_DOUBLE(4, rig_value("b"));
+    TEST_ASSERT_EQUAL_DOUBLE(2, rig_value("c"));
+    TEST_ASSERT_EQUAL_DOUBLE(8, rig_value("d"));
+    TEST_ASSERT_EQUAL_DOUBLE(800, rig_value("e"));
+    TEST_ASSERT_EQUAL_DOUBLE(6, rig_value("f"));
+    TEST_ASSERT_TRUE(program.measures);
+}
+
 TEST(it_senses_what_the_robot_senses)
 {
     senses = (struct senses){.feel = FEEL_FRONT_RIGHT | FEEL_RIGHT, .look = true, .beacon_mm = 149, .bump = true};

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "host_sim/program/native/code.h"
-#include "host_sim/program/native/tokens.h"
+#include "host_sim/program/native/compiler.h"
+#include "host_sim/program/native/machine.h"
 #include "tests/test.h"
 
 void setUp(void)
@@ -42,6 +42,14 @@ TEST(operators_bind_as_in_the_listing)
     comes_to(2, "int(2.9)");
     comes_to(COLOUR_GREEN, "Green");
     comes_to(1, "+TRUE");
+    comes_to(31, "0x1F");
+    comes_to(254, "0XfE");
+    comes_to(14, "0%1110");
+    comes_to(0, "0 % 1");
+    comes_to(1, "1 < 2 && 3 >= 3");
+    comes_to(1, "0 || 2");
+    comes_to(0, "!3");
+    comes_to(1, "!0 && !(2 > 3)");
 }
 
 TEST(shifts_and_remainders_of_anything_are_numbers)
@@ -67,14 +75,14 @@ TEST(capital_and_small_letters_are_the_same)
 
 TEST(an_if_on_one_line_holds_for_the_rest_of_the_line)
 {
-    (void)rig_begin("if 0 then a=1\\b=1\nif 1 then c=1\\d=1 else e=1\nif 0 then f=1 else g=1\na=a\\b=b\\e=e\\f=f");
+    (void)rig_begin("a=0\\b=0\\e=0\\f=0\nif 0 then a=1\\b=1\nif 1 then c=1\\d=1 else e=1\nif 0 then f=1 else g=1");
     TEST_ASSERT_EQUAL_DOUBLE(0, rig_value("a") + rig_value("b") + rig_value("e") + rig_value("f"));
     TEST_ASSERT_EQUAL_DOUBLE(3, rig_value("c") + rig_value("d") + rig_value("g"));
 }
 
 TEST(the_first_branch_that_holds_is_taken)
 {
-    const char *text = "for x = 1 to 4\nif x=1\na=a*10+1\nelseif x=2\na=a*10+2\nelseif x=3 then\na=a*10+3\nelse\na=a*10+4\nendif\nnext";
+    const char *text = "a=0\nfor x = 1 to 4\nif x=1\na=a*10+1\nelseif x=2\na=a*10+2\nelseif x=3 then\na=a*10+3\nelse\na=a*10+4\nendif\nnext";
 
     (void)rig_begin(text);
     TEST_ASSERT_EQUAL_DOUBLE(1234, rig_value("a"));
@@ -82,15 +90,68 @@ TEST(the_first_branch_that_holds_is_taken)
 
 TEST(loops_go_on_as_long_as_they_should)
 {
-    (void)rig_begin("n = 5\nwhile n\nn--\nsum++\nwend\nfor i = 10 to 1 step -3\nlast = i\nnext i\nfor j = 2 to 1\nno = 1\nnext\n");
+    (void)rig_begin("no = 0\nsum = 0\nn = 5\nwhile n\nn--\nsum++\nwend\nfor i = 10 to 1 step -3\nlast = i\nnext i\nfor j = 2 to 1\nno = 1\nnext\n");
     TEST_ASSERT_EQUAL_DOUBLE(5, rig_value("sum"));
     TEST_ASSERT_EQUAL_DOUBLE(1, rig_value("last"));
     TEST_ASSERT_EQUAL_DOUBLE(0, rig_value("no"));
 }
 
+TEST(repeat_goes_on_until_its_condition_holds)
+{
+    (void)rig_begin("n=0\nrepeat\nn++\nuntil n=3\nrepeat\nn++\nuntil true\n");
+    TEST_ASSERT_EQUAL_DOUBLE(4, rig_value("n"));
+}
+
+TEST(break_leaves_the_innermost_loop_and_continue_begins_its_next_round)
+{
+    (void)rig_begin("a=0\nb=0\nfor i=1 to 9\nif i>4 then break\nif i=2\ncontinue\nendif\na=a*10+i\nnext\n"
+                    "repeat\nb++\nwhile 1\nif b then break\nwend\nif b<3 then continue\nuntil b>=3\n"
+                    "while b>0\nb-=1\nif b=1 then break\nif 1 then continue else b=99\nwend");
+    TEST_ASSERT_EQUAL_DOUBLE(134, rig_value("a"));
+    TEST_ASSERT_EQUAL_DOUBLE(1, rig_value("b"));
+}
+
+TEST(goto_goes_to_a_label_before_or_after_it)
+{
+    (void)rig_begin("n=0\nAgain:\nn++\nwhile 1\nif n<3 then goto Again\ngoto Done\nwend\nn=99\nDone:\nm=n");
+    TEST_ASSERT_EQUAL_DOUBLE(3, rig_value("m"));
+}
+
+TEST(a_value_is_changed_in_place)
+{
+    (void)rig_begin("x=6\nx+=2\nx*=3\nx-=4\nx/=5\ndim a[3]\ni=0\na[i+1]+=7\na[1]++\na[1]--\na[1]*=x\ny=a[1]\n"
+                    "call Add(y)\nend\nsub Add(&z)\nz+=0.5");
+    TEST_ASSERT_EQUAL_DOUBLE(4, rig_value("x"));
+    TEST_ASSERT_EQUAL_DOUBLE(28.5, rig_value("y"));
+}
+
+TEST(an_index_is_computed_once_for_a_change_in_place)
+{
+    struct random before;
+
+    (void)rig_begin("dim a[9]\na[random(9)]+=1\n");
+    before = brain.random;
+    rig_reset();
+    (void)rig_begin("x=random(9)\n");
+    TEST_ASSERT_EQUAL_MEMORY(&before, &brain.random, sizeof before);
+}
+
+TEST(print_gives_lines_of_texts_and_numbers)
+{
+    (void)rig_begin("print \"Hello\"\nprint\nprint 1,2;3 // note\nprint \"a\";\nprint \"b\",\nprint -0.5 ' note");
+    TEST_ASSERT_EQUAL_STRING("Hello\n\n1 23\nab -0.5\n", program.printed);
+}
+
+TEST(what_is_printed_beyond_the_room_for_it_is_lost)
+{
+    (void)rig_begin("for i=1 to 2000\nprint \"abc\"\nnext");
+    TEST_ASSERT_EQUAL(PROGRAM_PRINTED_MAX - 1, strlen(program.printed));
+    TEST_ASSERT_EQUAL(PROGRAM_ENDED, program.state);
+}
+
 TEST(gosub_comes_back)
 {
-    (void)rig_begin("gosub Twice\ngosub Twice\nend\nTwice:\ngosub Once\ngosub Once\nreturn\nOnce:\nn++\nreturn\n");
+    (void)rig_begin("n=0\ngosub Twice\ngosub Twice\nend\nTwice:\ngosub Once\ngosub Once\nreturn\nOnce:\nn++\nreturn\n");
     TEST_ASSERT_EQUAL_DOUBLE(4, rig_value("n"));
     TEST_ASSERT_EQUAL(PROGRAM_ENDED, program.state);
 }

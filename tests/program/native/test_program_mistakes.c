@@ -21,7 +21,7 @@ static const struct {
     {"x = ", 1, "", EXPECTED_VALUE},
     {"x = while", 1, "while", EXPECTED_VALUE},
     {"x = rFell()", 1, "rFell", EXPECTED_VALUE},
-    {"x = \"a\"", 1, "a", EXPECTED_VALUE},
+    {"x = \"a\"", 1, "a", EXPECTED_NO_TEXT},
     {"x = 1 2", 1, "2", EXPECTED_LINE_END},
     {"if 1 x = 2", 1, "x", EXPECTED_LINE_END},
     {"x = (1 + 2", 1, "", EXPECTED_CLOSE},
@@ -31,7 +31,25 @@ static const struct {
     {"dim a(3)", 1, "(", EXPECTED_OPEN},
     {"xyString 1,1,\"never ends\nx=1", 1, "never ends", EXPECTED_QUOTE},
     {"for i 1 to 2\nnext", 1, "1", EXPECTED_EQUALS},
-    {"dim a[2]\na[1]++", 2, "++", EXPECTED_EQUALS},
+    {"dim a[2]\na[1]", 2, "", EXPECTED_EQUALS},
+    {"repeat\nx=2", 1, "repeat", EXPECTED_UNTIL},
+    {"until 1", 1, "until", EXPECTED_REPEAT},
+    {"while 1\nuntil 1", 2, "until", EXPECTED_REPEAT},
+    {"if 1 then break", 1, "break", EXPECTED_LOOP},
+    {"continue", 1, "continue", EXPECTED_LOOP},
+    {"goto 10", 1, "10", EXPECTED_NAME},
+    {"goto Nowhere", 1, "Nowhere", EXPECTED_LABEL},
+    {"A:\ncall B()\nend\nsub B()\ngoto A", 5, "A", EXPECTED_NO_GOTO},
+    {"if rFeel then rTurn 5", 1, "then", EXPECTED_BRACKETS},
+    {"x = rRange(91)", 1, "x", EXPECTED_ANGLE},
+    {"if 0 then n = 1\nx = n", 2, "n", EXPECTED_WRITTEN},
+    {"n++", 1, "n", EXPECTED_WRITTEN},
+    {"x = 0x", 1, "x", EXPECTED_LINE_END},
+    {"x = a[0]\ndim a[2]", 1, "x", EXPECTED_WRITTEN},
+    {"Circle 1,2,3,4", 1, "Circle", EXPECTED_NO_DRAWING},
+    {"GetKey k", 1, "GetKey", EXPECTED_NO_KEYS},
+    {"if rSense() then rTurn 5", 1, "rSense", EXPECTED_NO_SENSOR},
+    {"rInvisible Green", 1, "rInvisible", EXPECTED_NO_SETTING},
     {"for i = 1\nnext", 1, "", EXPECTED_TO},
     {"for 1 = 1 to 2\nnext", 1, "1", EXPECTED_NAME},
     {"dim a[2]\nfor a[1] = 1 to 2\nnext", 2, "a", EXPECTED_NAME},
@@ -156,7 +174,7 @@ TEST(too_many_numbers_are_refused)
 TEST(a_long_word_is_quoted_in_part_and_no_letter_is_split)
 {
     rig_fails("abcdefghijklmnopqrstuvwxyzabcdefghijklmnop 1", 1, "abcdefghijklmnopqrstuvwxyzabcde", EXPECTED_STATEMENT);
-    rig_fails("x = \"abcdefghijklmnopqrstuvwxyzabcd\xc3\xa4\xc3\xa4\"", 1, "abcdefghijklmnopqrstuvwxyzabcd", EXPECTED_VALUE);
+    rig_fails("x = \"abcdefghijklmnopqrstuvwxyzabcd\xc3\xa4\xc3\xa4\"", 1, "abcdefghijklmnopqrstuvwxyzabcd", EXPECTED_NO_TEXT);
 }
 
 TEST(a_zero_in_a_text_is_refused)

@@ -93,7 +93,7 @@ class Fate:
 
     Attributes:
         status: As `os.waitstatus_to_exitcode` has it.
-        memory: What is in its memory file.
+        memory: What is in its memory file, or in the doubtful one beside it if the run has left one.
         errors: What it printed to stderr.
         witness: What it was about to save.
     """
@@ -110,8 +110,9 @@ class Fate:
 
     @property
     def is_orderly(self) -> bool:
-        """Whether the run said in at most one line what was wrong."""
-        return self.errors.count("\n") <= 1 and "Traceback" not in self.errors
+        """Whether the run said in at most one line what was wrong, and in another one that its memory is doubtful."""
+        lines = [line for line in self.errors.splitlines() if "the run is doubtful: its memory is in" not in line]
+        return len(lines) <= 1 and "Traceback" not in self.errors
 
 
 def at_instruction(number: int, signal_number: int, witness: Witness, *, only_saving: bool = False) -> Doom:
@@ -143,8 +144,9 @@ def with_full_disk(size: int) -> Doom:
 
 def run_doomed(folder: Path, doom: Doom, witness: Witness, *words: str) -> Fate:
     """Does a run in a process of its own, which begins with its doom."""
-    memory = folder / "robot.mem"
+    memory, doubtful = folder / "robot.mem", folder / "robot.mem.doubtful"
     memory.write_bytes(BEFORE)
+    doubtful.unlink(missing_ok=True)
     errors, said = os.pipe()
     child = os.fork()
     if child == 0:
@@ -154,7 +156,8 @@ def run_doomed(folder: Path, doom: Doom, witness: Witness, *words: str) -> Fate:
     with os.fdopen(errors) as pipe:
         text = pipe.read()
     _, status = os.waitpid(child, 0)
-    return Fate(os.waitstatus_to_exitcode(status), memory.read_bytes(), text, witness)
+    left = doubtful if doubtful.exists() else memory
+    return Fate(os.waitstatus_to_exitcode(status), left.read_bytes(), text, witness)
 
 
 def _be_doomed(folder: Path, doom: Doom, witness: Witness, words: Sequence[str]) -> None:

@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from host_sim.faults.cable import Cable
+from host_sim.transport.cable import Cable
 from tests.runs.support import ROBOT, Run, is_right, octet_process
 
 CHANCE = 0.05

@@ -8,18 +8,17 @@ from collections import Counter
 from collections.abc import Callable
 from random import Random
 
-from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.errors import RobotError
-from host_sim.client.commands import start
+from host_sim.client.commands import handshake, start
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
-from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
-from host_sim.faults.bus_faults import random_frame
 from host_sim.protocol.codec import Frame, Protocol, crc8
 from host_sim.protocol.forgery import forge
 from host_sim.protocol.generated import MESSAGES, NOTHING_SENSED
+from host_sim.sim.in_process_link import InProcessLink
+from host_sim.transport.bus_faults import random_frame
 from host_sim.transport.clock import VirtualClock
 
 PROTOCOL = Protocol()

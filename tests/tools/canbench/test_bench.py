@@ -225,13 +225,13 @@ def test_what_is_not_in_the_dbc_is_told(open_bench):
     for act, message in (
         (lambda: bench.send("SETPIONT"), "has no message SETPIONT; it has SETPOINT, STATUS"),
         (lambda: bench.send("SETPOINT", spede=1), "SETPOINT has no signal spede; it has crc, counter, speed"),
-        (lambda: bench.send_cyclic("SETPOINT", speed=99999), "SETPOINT: "),
+        (lambda: bench.send_cyclic("SETPOINT", speed=99999), "SETPOINT cannot be encoded: Expected signal .speed. "),
         (lambda: bench["STATUS.spede"], "STATUS has no signal spede"),
         (lambda: open_bench(node="MOTRO"), "has no message that MOTRO sends; senders are HOST, MOTOR"),
         (lambda: open_bench(crc="crc32"), "no CRC profile 'crc32'; there are e2e1"),
         (lambda: open_bench("fall@3"), "there is no fault 'fall'"),
         (lambda: open_bench("forge:SETPIONT"), "has no message SETPIONT"),
-        (lambda: open_bench(crc="e2e5"), "crc is no place for a CRC of 16 bits"),
+        (lambda: open_bench(crc="e2e5").send("SETPOINT"), "SETPOINT cannot be used: crc is no place for a CRC of 16"),
     ):
         with pytest.raises(UsageError, match=message):
             act()

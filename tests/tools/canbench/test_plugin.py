@@ -37,6 +37,13 @@ def test_the_heater_is_a_good_one(tmp_path):
     assert "3 passed" in done.stdout
 
 
+def test_a_robot_is_a_device_like_any_other(tmp_path):
+    done = run_pytest(tmp_path, EXAMPLES / "robot")
+
+    assert done.returncode == 0, done.stdout
+    assert "2 passed" in done.stdout
+
+
 FINDING = """
 import pytest
 
@@ -55,6 +62,17 @@ def test_of_many_faults_the_fewest_are_found(tmp_path):
 
     assert re.search(r"-+ can_bench, seed 3 -+\n(\d{2}) faults by 600 ms", done.stdout)
     assert re.search(r"-+ can_bench, fewest faults -+\ncorrupt@\d+/to\n1 faults", done.stdout), done.stdout
+
+
+def test_what_is_odd_in_a_dbc_file_is_said(tmp_path):
+    (tmp_path / "motor.dbc").write_text((EXAMPLES / "motor" / "motor.dbc").read_text() + "BO_ 768 LONG: 12 HOST\n")
+    (tmp_path / "pytest.ini").write_text(MOTOR_INI)
+    (tmp_path / "test_it.py").write_text("def test_it(can_bench):\n    can_bench.run(ms=10)\n")
+
+    done = run_pytest(tmp_path, "--can-dbc", "motor.dbc")
+
+    assert done.returncode == 0
+    assert re.search(r"PytestWarning: .*motor.dbc: these messages cannot be used: LONG: it has 12 bytes", done.stdout)
 
 
 WRONG = """
@@ -95,7 +113,7 @@ def test_what_is_wrong_is_told_in_a_line(tmp_path, words, message):
 def test_the_distribution_stands_for_itself(tmp_path):
     site, elsewhere, project = tmp_path / "site", tmp_path / "elsewhere", tmp_path / "tools" / "pytest_canbench"
     elsewhere.mkdir()
-    for folder in (PROJECT, *(ROOT / "host_sim" / name for name in ("base", "faults", "transport"))):
+    for folder in (PROJECT, *(ROOT / "host_sim" / name for name in ("base", "transport"))):
         shutil.copytree(folder, tmp_path / folder.relative_to(ROOT))  # building leaves files beside the sources
     offline = ("--no-index", "--no-deps", "--no-build-isolation", "--disable-pip-version-check")
     install = [sys.executable, "-m", "pip", "install", "-q", *offline, "--target", site, project]

@@ -4,7 +4,10 @@ from pathlib import Path
 
 from playwright.sync_api import Page
 
+from host_sim.talk.languages import languages
 from tests.web.support import next_frame, wait_for
+
+LESSONS = tuple(languages()["en"]["lessons"]["lessons"])
 
 READY = "window.octet?.scene?.state && octet.last > 0"
 DONE = "document.querySelector('#status').textContent === 'the real firmware, in this page'"
@@ -42,6 +45,18 @@ def settle(page: Page) -> None:
     """Waits until what changed is simulated and shown."""
     simulated(page)
     next_frame(page)
+
+
+def go_to_step(page: Page, number: int) -> None:
+    """Presses the number of a step, counted from 1; its tools are in it."""
+    page.click(f"#step .head button:nth-of-type({number})")
+    settle(page)
+
+
+def ticked(page: Page) -> list[int]:
+    """The steps that are done, counted from 1."""
+    marks = page.locator("#step .head button").all_inner_texts()
+    return [place for place, mark in enumerate(marks, 1) if "✓" in mark]
 
 
 def reached(page: Page) -> list[bool]:

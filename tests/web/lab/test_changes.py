@@ -26,7 +26,7 @@ def test_a_changed_cell_makes_another_future_beside_the_first(page):
     page.click("#cells li:nth-child(2) button")
     simulated(page)
 
-    wait_for_text(page, "#parting", "A and B part at 0:50.5 (tick 2523)")
+    wait_for_text(page, "#parting", "They diverge at 0:50.5 (tick 2523)")
     assert "Their memories differ: front-right." in page.inner_text("#parting")
     assert page.evaluate("octet.lanes.map((lane) => lane.experiment.changes.length)") == [0, 1]
     same = "octet.lanes.map((lane) => [...lane.data.robots[0].columns.x.slice(0, 2523)].join())"
@@ -79,7 +79,7 @@ def test_a_changed_behaviour_parameter_or_obstacle_makes_another_future(page, ch
         page.locator("#robot-seed").blur()
     simulated(page)
 
-    wait_for_text(page, "#parting", "A and B part at")
+    wait_for_text(page, "#parting", "They diverge at")
 
 
 def test_what_was_changed_is_replayed_by_the_host(page, tmp_path):

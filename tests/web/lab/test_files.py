@@ -110,9 +110,9 @@ def test_an_opened_log_shows_the_behaviour_that_its_robot_has_at_that_time(page,
     wait_for_text(page, "#file-news", "byte for byte")
     simulated(page)
     page.evaluate("octet.go(300)")
-    wait_for_text(page, "figcaption", "A: article, seed 1")
+    wait_for_text(page, "figcaption", "original: article, seed 1")
     page.evaluate("octet.go(500)")
-    wait_for_text(page, "figcaption", "A: never, seed 1")
+    wait_for_text(page, "figcaption", "original: never, seed 1")
 
 
 def test_what_was_told_of_a_file_is_told_in_the_language_that_is_chosen_then(page, tmp_path):

@@ -6,13 +6,13 @@ import pytest
 from playwright.sync_api import Page
 
 from host_sim.protocol.generated import PARAMETERS
-from host_sim.world.world_names import STILL_WORLDS
+from host_sim.world.names import STILL_WORLDS
 from tests.runs.support import octet
-from tests.web.lab.support import SIZES, go, saved, settle, simulated
-from tests.web.looks import PHONES, TOO_SMALL, check, out_of_view, resize, violations_at
-from tests.web.support import wait_for
+from tests.web.lab.support import READY, SIZES, go, saved, settle, simulated
+from tests.web.looks import ARENA, PHONES, TOO_SMALL, check, out_of_view, resize, too_small, violations_at
+from tests.web.support import next_frame, wait_for
 
-SIZE_MAX = 600_000
+SIZE_MAX = 380_000
 IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#what-if", "#tabs", "#cells")
 
 
@@ -38,7 +38,7 @@ def test_the_table_is_saved_for_a_spreadsheet(shared):
 
     lines = saved(shared, "#save-csv").decode().splitlines()
 
-    assert lines[0].startswith("run,robot,behaviour,seed,environment,finished,time s,tour s,trials")
+    assert lines[0].startswith("run,robot,behaviour,seed,environment,finished,time (s),shortest tour (s),trials")
     assert len(lines) == 6
 
 
@@ -47,6 +47,14 @@ def test_each_parameter_has_a_slider_with_its_range(shared):
     ranges = shared.evaluate(f"{sliders}.map(({{ title, min, max }}) => [title, Number(min), Number(max)])")
 
     assert ranges == [[name, it.minimum, it.maximum] for name, it in PARAMETERS.items()]
+
+
+def test_the_arena_is_what_the_page_shows_first(shared):
+    assert too_small(shared, ARENA, "#floors canvas") == []
+    shared.click("#what-if")
+    settle(shared)
+    assert too_small(shared, {(1366, 657): (470, 350)}, "#floors canvas") == []
+    shared.evaluate("octet.removeLane(octet.lane)")
 
 
 def test_it_plays_on_from_where_it_is_scrubbed_to(shared):
@@ -135,7 +143,7 @@ def test_what_it_says_of_two_runs_is_of_those_that_are_there(page):
     simulated(page)
     page.select_option("#behaviour", "never")
     settle(page)
-    assert page.inner_text("#parting").startswith("A and B part at")
+    assert page.inner_text("#parting").startswith("They diverge at")
 
     # Another run of the same name, simulated as often; the next frame shows those that are there again.
     said = page.evaluate(
@@ -144,7 +152,45 @@ def test_what_it_says_of_two_runs_is_of_those_that_are_there(page):
         " return document.querySelector('#parting').textContent; }"
     )
 
-    assert said == "A and B do the same until the end."
+    assert said == "They do the same until the end."
+
+
+def test_a_new_run_plays_like_the_first_one_unless_less_motion_is_wanted(file, open_page):
+    playing = []
+    for motion in ("no-preference", "reduce"):
+        page = open_page(file.as_uri(), ready=READY, reduced_motion=motion)
+        playing.append(page.evaluate("octet.playing"))
+        page.evaluate("octet.setPlaying(false)")
+        page.click("#new-run button")
+        wait_for(page, "octet.scene && octet.last > 0")
+        next_frame(page)
+        playing.append(page.evaluate("octet.playing"))
+
+    assert playing == [True, True, False, False]
+
+
+def test_sentence_cells_and_meter_are_of_the_same_tick(page):
+    page.evaluate(
+        "const { scene, panel } = octet;"
+        "scene.shown.set(scene.state.node, { ...scene.state, repeat_count: 7, memory: [0, 1, 2, 0, 0, 0, 0, 0] });"
+        "panel.show(scene, { exact: true });"
+    )
+
+    assert page.inner_text("#boredom-count") == "7 of 10"
+    assert page.locator("#cells .cell").evaluate_all("cells => cells.slice(0, 3).map((it) => it.dataset.side)") == [
+        "nothing",
+        "left",
+        "right",
+    ]
+
+
+def test_a_field_for_a_number_says_so_in_the_page_s_language(page):
+    page.select_option("#language", "de")
+    page.locator("#seed").press_sequentially("7a")
+
+    assert page.evaluate("document.querySelector('#seed').validationMessage").startswith("Bitte eine ganze Zahl")
+    page.fill("#seed", "7")
+    assert page.evaluate("document.querySelector('#seed').validationMessage") == ""
 
 
 def test_axe_finds_nothing(page):

@@ -8,7 +8,7 @@ from playwright.sync_api import Page
 
 from host_sim.base.paths import ROOT
 from host_sim.report.octet_page import programs
-from host_sim.view.languages import languages
+from host_sim.talk.languages import languages
 from tests.runs.support import octet
 from tests.web.lab.support import READY, go, settle
 from tests.web.looks import violations_at
@@ -54,7 +54,7 @@ def step(page: Page) -> int:
 def test_the_article_s_program_parts_from_octet_where_it_waits_two_seconds(tab):
     run(tab)
 
-    assert tab.inner_text("#program-parting") == "Your robot and Octet part at 1:28.3."
+    assert tab.inner_text("#program-parting") == "Your robot and Octet diverge at 1:28.3."
     first, second = tab.evaluate("octet.lanes.map(({ data }) => data.statesAt(data.last)[0].memory)")
     assert first == second
 
@@ -136,7 +136,7 @@ def test_a_behaviour_takes_the_place_of_a_program(tab):
     tab.select_option("#behaviour", "never")
     settle(tab)
 
-    assert tab.inner_text("figure:nth-child(2) figcaption") == "B: never, seed 1"
+    assert tab.inner_text("figure:nth-child(2) figcaption") == "copy: never, seed 1"
 
 
 def test_the_page_sends_the_frames_of_the_command_line(page, tmp_path):
@@ -167,6 +167,27 @@ def test_a_link_brings_the_experiment_back(tab, open_page):
     assert again.evaluate("octet.lanes.map(({ experiment }) => experiment)") == tab.evaluate(
         "octet.lanes.map(({ experiment }) => experiment)"
     )
+
+
+def test_a_link_holds_parameters_changes_robots_time_and_lesson(open_page, file):
+    page = open_page(file.as_uri() + "#share", ready=READY)
+    page.click("#begin-lesson")
+    settle(page)
+    page.evaluate("octet.lane.setUp({ seed: 77, settings: { turn_deg: 20 } })")
+    page.evaluate("octet.change({ do: 'plant', at: [1200, 900], radius: 120 })")
+    page.evaluate("octet.change({ do: 'write', robot: 1, cell: 3, side: 2 })")
+    settle(page)
+    page.evaluate("octet.seek(371)")
+    page.click("#copy-link")
+
+    again = open_page(page.evaluate("location.href"), ready=READY)
+    settle(again)
+    wait_for(again, "octet.tick === 371")
+
+    assert again.evaluate("octet.lane.experiment") == page.evaluate("octet.lane.experiment")
+    assert len(again.evaluate("octet.lane.experiment.changes")) == 2
+    assert again.evaluate("[octet.course.plan.id, octet.course.begun]") == ["share", True]
+    assert "Loaded" not in again.inner_text("#program-news")
 
 
 FOUND = (
@@ -200,6 +221,12 @@ def test_a_link_has_seed_world_behaviour_memory_program_and_language(open_page, 
         ("#v=1&seed=x&world=moon&seed2=3&end", "Not loaded: seed, world, seed2."),
         ("#v=1&program=%E2%8&environments=3&end", "Loaded from it: environments. Not loaded: program."),
         ("#v=1&memory=1.2.3&end", "Not loaded: memory."),
+        (
+            "#v=1&settings=turn_deg:0,x:1&changes=[{}]&setups=[{}]&lesson=dance&end",
+            "parameters, changes, the robots'",
+        ),
+        ('#v=1&changes=[{"do":"lift","tick":1,"x":1}]&end', "Not loaded: changes."),
+        ('#v=1&changes=[{"do":"lift","tick":2},{"do":"lift","tick":1}]&end', "Not loaded: changes."),
     ],
 )
 def test_what_of_a_link_was_taken_and_what_not_is_told(link, told, open_page, file):

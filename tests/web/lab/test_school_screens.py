@@ -7,12 +7,19 @@ import pytest
 from playwright.sync_api import Browser, Page, Playwright
 
 from tests.web.browsers import BROWSERS, launch
-from tests.web.lab.support import READY, go, settle
+from tests.web.lab.support import LESSONS, READY, go, settle
 from tests.web.looks import out_of_view, resize
 from tests.web.support import next_frame
 
 SIZES = [(1366, 657), (1280, 720), (1024, 768)]
-LESSONS = ("watch", "program", "boredom", "plant", "sensor", "share", "talk")
+PHONE = (390, 844)
+# What stands in a step and lies below something else, such as the arena.
+COVERED = """() => [...document.querySelectorAll("#step .held *, #step .head *")].filter((e) => {
+  const { left, top, width, height } = e.getBoundingClientRect();
+  const over = document.elementFromPoint(left + width / 2, top + height / 2);
+  const isSeen = width && height && !e.closest("svg, option") && e.checkVisibility();
+  return isSeen && !document.querySelector("#step").contains(over);
+}).map((e) => `${e.tagName} ${e.textContent.slice(0, 30)}`)"""
 IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#step", "#cells", "#memory-title", "#begin-lesson")
 
 # Of all that has no scroll bar: what is wider or higher than its element, and what lies on its neighbour.
@@ -20,10 +27,11 @@ FAULTS = """() => {
   const name = (e) => e.id || `${e.tagName} ${e.className} ${e.textContent.slice(0, 30)}`;
   const isWhole = (e) => e.scrollWidth <= e.clientWidth + 1 && e.scrollHeight <= e.clientHeight + 3;
   const scrolls = (e) => getComputedStyle(e).overflowY === "auto" || e.matches("input, select, textarea");
-  const cut = [...document.querySelectorAll("main *")].filter((e) => e.checkVisibility() && e.clientWidth
+  const cut = [...document.querySelectorAll("header *, main *")].filter((e) => e.checkVisibility() && e.clientWidth
     && !e.closest("svg, canvas, table, .editor, #listing") && !e.querySelector("[role=tabpanel]")
     && !scrolls(e) && !isWhole(e));
-  const neighbours = [...document.querySelectorAll("main > section, #desk > *, #stage > *, #step > *, .cell > span")]
+  const groups = "main > *, #panel > *, .bar > *, #desk > *, #stage > *, #step > *, .cell > span";
+  const neighbours = [...document.querySelectorAll(groups)]
     .filter((e) => e.checkVisibility() && e.clientHeight).map((e) => [e, e.getBoundingClientRect()]);
   const over = neighbours.flatMap(([a, p], i) => neighbours.slice(i + 1)
     .filter(([b, q]) => a.parentElement === b.parentElement
@@ -35,7 +43,7 @@ FAULTS = """() => {
 }"""
 
 # The cards whose contents leave more than a third of them free, below or beside.
-EMPTY = """() => [...document.querySelectorAll("main > section:not(#desk)")].flatMap((card) => {
+EMPTY = """() => [...document.querySelectorAll("main > section, #panel > section:not(#desk)")].flatMap((card) => {
   const box = card.getBoundingClientRect();
   const seen = [...card.querySelectorAll("*")].filter((e) => e.checkVisibility());
   const inside = seen.map((e) => e.getBoundingClientRect());
@@ -64,6 +72,14 @@ def faults(page: Page) -> list[str]:
     return [*page.evaluate(FAULTS), *page.evaluate(EMPTY)]
 
 
+def shown_steps(page: Page) -> Iterator[int]:
+    """Shows each step of the lesson, without a click, which may scroll the page."""
+    for step in range(page.locator("#step .head button").count()):
+        page.evaluate("i => document.querySelectorAll('#step .head button')[i].click()", step)
+        next_frame(page)
+        yield step
+
+
 def test_the_step_of_every_lesson_is_in_view_with_arena_and_memory(page):
     page.click("#tab-lessons")
     for lesson in LESSONS:
@@ -75,14 +91,26 @@ def test_the_step_of_every_lesson_is_in_view_with_arena_and_memory(page):
             resize(page, size)
             for language in ("en", "de"):
                 page.select_option("#language", language)
-                for step in range(page.locator("#step .head button").count()):
-                    # A click from outside may scroll the page, and where to is not what is measured.
-                    page.evaluate("i => document.querySelectorAll('#step .head button')[i].click()", step)
+                for step in shown_steps(page):
                     page.evaluate("scrollTo(0, 0)")
-                    next_frame(page)
                     assert out_of_view(page, IN_VIEW, size) == [], (lesson, size, language, step)
                     assert page.evaluate("document.querySelector('#panel-lessons').scrollTop") == 0
                 assert faults(page) == [], (lesson, size, language)
+
+
+def test_what_a_step_needs_is_in_view_on_a_phone_below_the_arena(page):
+    page.click("#tab-lessons")
+    needed = ("#floors", "#play", "#step .head", "#step .held")
+    resize(page, PHONE)
+    for lesson in LESSONS:
+        page.select_option("#lesson", lesson)
+        page.evaluate("document.querySelector('#begin-lesson').click()")
+        settle(page)
+        for language in ("en", "de"):
+            page.select_option("#language", language)
+            for step in shown_steps(page):
+                assert out_of_view(page, needed, PHONE) == [], (lesson, language, step)
+                assert page.evaluate(COVERED) == [], (lesson, language, step)
 
 
 @pytest.mark.parametrize("tab", ["run", "parameters", "listing", "program", "curves", "files", "talk"])
@@ -97,6 +125,7 @@ def test_nothing_is_cut_and_no_card_is_half_empty(tab, page):
         go(page, 3000)
         for size in SIZES:
             resize(page, size)
+            page.evaluate("scrollTo(0, 0)")
             assert out_of_view(page, ("#floors", "#play", "#doing", "#what-if", "#tabs", "#cells"), size) == [], size
             assert faults(page) == [], (lanes, size)
 
@@ -113,11 +142,11 @@ def test_the_name_of_each_world_fits_when_it_is_chosen_in_bold(page):
 def test_what_is_cut_what_overlaps_and_what_is_empty_is_found(page):
     page.evaluate(
         "document.body.insertAdjacentHTML('beforeend', '<style id=planted>#doing { width: 20px; white-space: pre; }"
-        "#tabs { margin-top: -20px; } #reference { padding-bottom: 400px; }</style>')"
+        "#desk { margin-top: -20px; } #reference { padding-bottom: 400px; }</style>')"
     )
     found = "\n".join(faults(page))
     page.evaluate("document.querySelector('#planted').remove()")
 
     assert "cut: doing" in found
-    assert "world-tools on tabs" in found
+    assert "memory on desk" in found
     assert "reference: 0." in found

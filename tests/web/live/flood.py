@@ -6,7 +6,6 @@ is too long.
 
 import argparse
 import contextlib
-import os
 import resource
 import socket
 import subprocess
@@ -87,7 +86,6 @@ def main() -> int:
     count = parser.parse_args().count
     _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
     with TemporaryDirectory() as folder:
-        os.environ["XDG_STATE_HOME"] = folder
         watched = start_watched(Path(folder) / "run")
         resource.setrlimit(resource.RLIMIT_NOFILE, (min(most, 2 * count + 100), most))
         try:

@@ -56,6 +56,13 @@ def test_the_drawing_of_its_frames_can_be_timed(page):
     wait_for(page, "octet.times.length > 2")
 
 
+def test_the_token_leaves_the_address_and_a_reload_needs_none(page):
+    assert "token" not in page.url
+    assert page.evaluate("document.cookie") == ""
+    page.reload()
+    wait_for(page, "window.octet?.scene && octet.scene.state.tick > octet.scene.environment.start_tick")
+
+
 def test_it_pauses_and_plays_again(page):
     pause(page)
     tick = state(page)["tick"]
@@ -149,7 +156,17 @@ def test_food_is_dragged_elsewhere(page):
 def test_a_run_that_a_person_changed_replays(watch, open_page):
     watched = watch("--seed", "4")
     page = open_page(watched.url)
-    for control in ("#lift", "#add-bar", "#cells li:nth-child(3) button", "#freeze", "#lift", "#next", "#erase"):
+    for control in (
+        "#lift",
+        "#add-bar",
+        "#cells li:nth-child(3) button",
+        "#freeze",
+        "#lift",
+        "#next",
+        "#erase",
+        "#add-plant",
+        "#break",
+    ):
         tick = state(page)["tick"]
         page.click(control)
         wait_for(page, "tick => octet.scene.state.tick > tick", tick)
@@ -207,7 +224,7 @@ def test_keyboard_alone(page):
     action = state(page)["action"]
     page.keyboard.press(".")
     wait_for(page, "action => octet.scene.state.action !== action && !octet.play.playing", action)
-    for element in ("language", "arena"):
+    for element in ("what-if", "lift", "add-bar", "add-plant", "zoom-in", "follow", "to-legend", "language", "arena"):
         page.keyboard.press("Tab")
         assert page.evaluate("document.activeElement.id") == element
     for _ in range(5):
@@ -226,7 +243,7 @@ def test_keyboard_alone(page):
 def test_all_controls_can_be_reached_by_tab(page):
     pause(page)
     reached = set()
-    for _ in range(30):
+    for _ in range(40):
         page.keyboard.press("Tab")
         reached.add(page.evaluate("document.activeElement.id"))
     assert {"arena", "play", "decision", "speed", "lift", "add-bar", "next", "seed", "freeze", "erase"} <= reached
@@ -239,7 +256,8 @@ def test_the_end_of_the_run_is_said(watch, open_page):
     wait_for(page, "octet.play.done")
     wait_for_text(page, "#status", "all done")
     assert watched.end() == 0
-    wait_for_text(page, "#status", "the run has ended")
+    page.wait_for_url("**/recorded*")
+    wait_for_text(page, "#status", "The run has ended")
 
 
 def test_the_place_of_a_click_is_where_the_robot_is(page):

@@ -8,8 +8,9 @@ from itertools import pairwise
 import pytest
 from playwright.sync_api import Page
 
-from host_sim.view import phrases
+from host_sim.recording import phrases
 from tests.web.fake_run import ENVIRONMENT, HOME, FakeRun, robot_state
+from tests.web.looks import resize
 from tests.web.support import DEADLINE_S, drag, next_frame, place_on_page, wait_for, wait_for_text
 
 PLAY = {"playing": True, "speed": 1, "done": False, "rate": 50, "stays": True, "ended": None}
@@ -236,6 +237,7 @@ def test_the_verdict_is_that_of_the_terminal(page):
 
 
 def test_a_cell_says_who_filled_it_and_an_empty_one_says_nothing(page, run):
+    resize(page, (1920, 1000))
     run.states[0] |= {
         "memory": [0, 1, 2, 0, 0, 0, 0, 0],
         "learned": [-1, 50, 100, 150, -1, -1, -1, -1],
@@ -277,14 +279,18 @@ def test_printing_keeps_colours_and_whole_cells(page):
     assert not page.locator("#tools").is_visible()
 
 
-def test_a_page_left_open_comes_back_with_the_next_run(watch, open_page):
+def test_a_page_left_open_says_that_its_run_has_ended_and_the_next_run_is_closed_to_it(watch, open_page):
     first = watch("--seed", "1")
     page = open_page(first.url)
     assert first.end() == 0
-    wait_for_text(page, "#status", "the run has ended")
+    page.wait_for_url("**/recorded*")
+    wait_for_text(page, "#status", "The run has ended")
     port = re.search(r":(\d+)/", first.url)
 
     second = watch("--port", port[1], "--seed", "9")
 
-    assert second.url == first.url
-    wait_for(page, "octet.scene.environment.seed === 9 && !document.body.classList.contains('lost')")
+    assert second.url != first.url
+    new = open_page(second.url)
+    assert new.evaluate("octet.scene.environment.seed") == 9
+    assert page.evaluate("octet.scene.environment.seed") == 1
+    wait_for_text(page, "#status", "The run has ended")

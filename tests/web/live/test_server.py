@@ -1,16 +1,15 @@
 """The page server under attack: connections that mean no good, other sites' pages, and what it says of them."""
 
+import asyncio
 import http.client
 import logging
-import os
-import stat
 from io import StringIO
 
+import aiohttp
 import pytest
 
 from host_sim.live.connections import one_line_logger
 from host_sim.live.listener import Listener
-from host_sim.live.token_file import local_token
 from tests.web.live.flood import STDERR_MAX, flood
 from tests.web.support import DEADLINE_S
 
@@ -101,14 +100,12 @@ def test_an_error_is_one_line_and_many_are_a_number():
     assert isinstance(logger, logging.Logger)
 
 
-def test_other_machines_are_not_listened_to(monkeypatch, tmp_path):
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+def test_other_machines_are_not_listened_to():
     with Listener(None, 0).socket as listening:
         assert listening.getsockname()[0] == "127.0.0.1"
 
 
-def test_the_address_always_has_a_token(monkeypatch, tmp_path):
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+def test_the_address_always_has_a_token():
     for listen in (None, "127.0.0.1"):
         listener = Listener(listen, 0)
         listener.socket.close()
@@ -116,35 +113,25 @@ def test_the_address_always_has_a_token(monkeypatch, tmp_path):
         assert [url.rpartition("/")[2] for url in listener.urls] == [f"?token={listener.token}"]
 
 
-def test_the_token_of_this_machine_stays_and_is_for_this_user_alone(monkeypatch, tmp_path):
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
-    file = tmp_path / "octet/token"
+def test_each_run_has_a_token_of_its_own():
+    tokens = set()
+    for _ in range(2):
+        listener = Listener(None, 0)
+        listener.socket.close()
+        tokens.add(listener.token)
 
-    assert local_token() == local_token() == file.read_text()
-    assert stat.S_IMODE(file.stat().st_mode) == 0o600
+    assert len(tokens) == 2
 
 
-@pytest.mark.parametrize("harm", ["others may read it", "no token", "a folder", "a link", "no folder", "a pipe"])
-def test_a_token_file_that_is_not_to_be_trusted_is_not_used(monkeypatch, tmp_path, harm):
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
-    file = tmp_path / "octet/token"
-    known = local_token()
-    if harm == "others may read it":
-        file.chmod(0o644)
-    elif harm == "no token":
-        file.write_text("x")
-    else:
-        file.unlink()
-        if harm == "a folder":
-            file.mkdir()
-        elif harm == "a pipe":
-            os.mkfifo(file, 0o600)
-        elif harm == "a link":
-            (tmp_path / "known").write_text(known)
-            file.symlink_to(tmp_path / "known")
-        else:
-            file.parent.rmdir()
-            file.parent.write_text("in the way")
+def test_the_cookie_of_a_page_opens_it_again_and_is_out_of_reach_of_scripts_and_other_sites(module_watch):
+    home = module_watch.url.partition("?")[0]
 
-    assert local_token() != known
-    assert len(local_token()) == 22
+    async def statuses() -> list[int]:
+        async with aiohttp.ClientSession(cookie_jar=aiohttp.CookieJar(unsafe=True)) as session:
+            found = [(await session.get(url)).status for url in (home, module_watch.url, home)]
+            cookie = next(iter(session.cookie_jar))
+            assert cookie["httponly"]
+            assert cookie["samesite"] == "Strict"
+            return found
+
+    assert asyncio.run(statuses()) == [403, 200, 200]

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <stddef.h>
 
-#include "firmware/memory/feel_memory.h"
+#include "firmware/memory/memory.h"
 #include "tests/test.h"
 
 enum { ALL_FOUR = 15, UPPER = 1 << 4 };

@@ -52,12 +52,12 @@ def test_the_recorded_run_is_repeated_and_a_changed_cell_makes_another_future(pl
     page = open_page(plain.as_uri())
     lab = ask(page, 800)
     assert page.inner_text("#what-if-news") == SAME
-    assert lab.evaluate("[octet.tick, octet.lane.name, octet.lanes.length]") == [800, "B", 2]
+    assert lab.evaluate("[octet.tick, octet.lane.name, octet.lanes.length]") == [800, "copy", 2]
 
     lab.click("#cells li:nth-child(2) button")
     simulated(lab)
 
-    wait_for_text(lab, "#parting", "A and B part at")
+    wait_for_text(lab, "#parting", "They diverge at")
     tick = lab.evaluate("Number(/tick (\\d+)/.exec(document.querySelector('#parting').textContent)[1])")
     x = "octet.lanes.map((lane) => [...lane.data.robots[0].columns.x])"
     recorded, changed = lab.evaluate(x)
@@ -81,7 +81,7 @@ def test_a_behaviour_a_parameter_or_an_obstacle_makes_another_future(plain, open
         lab.click("#add-bar")
     simulated(lab)
 
-    wait_for_text(lab, "#parting", "A and B part at")
+    wait_for_text(lab, "#parting", "They diverge at")
 
 
 def test_a_future_goes_on_where_the_recorded_run_was_ended_early(page_of, open_page):

@@ -9,8 +9,8 @@ import pytest
 from host_sim.protocol.generated import PROFILES
 from host_sim.report.octet_page import world_dimensions
 from host_sim.sim.run_config import RunConfig
+from host_sim.world.names import CRATES
 from host_sim.world.reach import tour_mm
-from host_sim.world.world_names import CRATES
 from host_sim.world.worlds import world_of
 from tests.runs.support import octet
 from tests.web.sim.node import in_node

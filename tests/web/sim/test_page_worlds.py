@@ -9,7 +9,7 @@ from host_sim.base.errors import UsageError
 from host_sim.base.paths import ROOT
 from host_sim.protocol.words import KIT_SETTINGS
 from host_sim.report.octet_page import world_dimensions
-from host_sim.world.written_world import content_of, read_world_file
+from host_sim.world.worlds import content_of, read_world_file
 from tests.web.sim.node import in_node
 
 OPEN = """

@@ -1,4 +1,4 @@
-#include "host_sim/world/native/clearance.h"
+#include "host_sim/world/native/draw/layout.h"
 #include "tests/test.h"
 
 static struct bar bar;

@@ -1,4 +1,4 @@
-#include "host_sim/world/native/furniture.h"
+#include "host_sim/world/native/edits.h"
 #include "tests/test.h"
 
 static const struct bar BARS[] = {{{500.0, 600.0}, {900.0, 600.0}}, {{100.0, 100.0}, {100.0, 300.0}}};

@@ -1,7 +1,6 @@
 /* A kit whose board drives the motors itself, and measures light. */
 #include <string.h>
 
-#include "hal/pins_body/proximity.h"
 #include "host_sim/world/native/kit/kit.h"
 #include "tests/test.h"
 
@@ -85,7 +84,7 @@ TEST(a_wall_at_the_reach_of_a_sensor_gives_the_light_that_triggers_it)
     capsule_set(&wall, (struct vector){-500, 160}, (struct vector){500, 160}, 0);
     kit.ranges = &ranges;
     kit_light(&kit, &world, &body, 0, light);
-    TEST_ASSERT_UINT_WITHIN(40, PROXIMITY_NEAR, light[0] > light[FEEL_COUNT - 1] ? light[0] : light[FEEL_COUNT - 1]);
+    TEST_ASSERT_UINT_WITHIN(40, KIT_LIGHT_NEAR, light[0] > light[FEEL_COUNT - 1] ? light[0] : light[FEEL_COUNT - 1]);
     TEST_ASSERT_EQUAL_UINT16(0, light[2]);
     body.feel = 0;
     kit_light(&kit, &world, &body, 0, light);

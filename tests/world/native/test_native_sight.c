@@ -1,4 +1,4 @@
-#include "host_sim/world/native/sight.h"
+#include "host_sim/world/native/world.h"
 #include "tests/test.h"
 #include "tests/world/native/fake_space.h"
 

@@ -4,7 +4,6 @@
 
 #include "host_sim/world/native/draw/draws.h"
 #include "host_sim/world/native/draw/layout.h"
-#include "host_sim/world/native/draw/reach.h"
 
 #define DRAW_PI 3.14159265358979323846
 

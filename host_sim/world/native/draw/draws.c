@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "hal/boot/sha512.h"
-
 enum { MIDDLE = 397, KEY_WORDS = (DRAWS_TEXT_MAX + SHA512_BYTES) / 4 };
 
 static const uint32_t TWIST = 0x9908b0df, HIGH = 0x80000000;

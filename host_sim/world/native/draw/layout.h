@@ -1,10 +1,71 @@
-/* layout.h: the initial layout of an environment, and what it is drawn from. */
+/* layout.h: what stands in an arena, how near it is, where a body can get to, and the layouts of new runs. */
 #ifndef OCTET_LAYOUT_H
 #define OCTET_LAYOUT_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
-#include "host_sim/world/native/clearance.h"
+#include "host_sim/world/native/vector.h"
+
+/* The clearance of a place among obstacles. */
+
+struct bar {   /* a straight obstacle with round ends: those of its centre line */
+    struct vector a;
+    struct vector b;
+};
+
+struct plant {   /* a round one */
+    struct vector at;
+    double radius_mm;
+};
+
+/* What stands in an arena, and its walls. */
+struct obstacles {
+    double width_mm;
+    double height_mm;
+    double bar_radius_mm;
+    size_t bar_count;
+    size_t plant_count;
+    const struct bar *bars;
+    const struct plant *plants;
+};
+
+double clearance_mm(const struct obstacles *obstacles, struct vector at);
+        /* The distance from a place to the nearest obstacle or wall; negative inside an obstacle or beyond a wall. */
+
+bool clearance_suffices(const struct obstacles *obstacles, struct vector at, double room_mm);
+        /* Whether that is at least room_mm; the same result, but faster. */
+
+/* Finds where in an arena the centre of a body can get to, on a grid. */
+
+enum { REACH_CELL_MM = 25 };
+
+/* The cells that a body can get to. The caller provides cells and stack, reach_size of each. */
+struct reach {
+    uint8_t *cells;    /* row by row, with a border of one cell: 1 for those that it can get to, else 0 */
+    uint32_t *stack;
+    uint32_t columns;   /* with the border */
+    uint32_t rows;
+};
+
+size_t reach_size(double width_mm, double height_mm);
+        /* The number of cells of an arena. */
+
+void reach_find(struct reach *reach, const struct obstacles *obstacles, double body_radius_mm, struct vector start);
+        /* Finds the cells that a body of this size can get to from a start inside the arena. */
+
+bool reach_has(const struct reach *reach, struct vector at);
+        /* Whether it can get to the cell of a place inside the arena. */
+
+void reach_keep_clear(struct reach *reach, const struct obstacles *obstacles, double room_mm);
+        /* Keeps only the cells whose middle has that much clearance. */
+
+struct vector reach_middle(const struct reach *reach, uint32_t cell);
+        /* The middle of a cell. */
+
+double reach_distance_mm(const struct reach *reach, struct vector from);
+        /* The distance to the nearest middle of a cell that it can get to; infinite if there is none. */
 
 enum { LAYOUT_BARS_MAX = 64, LAYOUT_FOOD_MAX = 20 };
 

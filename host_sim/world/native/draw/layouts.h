@@ -3,7 +3,6 @@
 #define OCTET_LAYOUTS_H
 
 #include "host_sim/world/native/draw/layout.h"
-#include "host_sim/world/native/draw/reach.h"
 
 struct layout_which {
     int64_t seed;

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "host_sim/world/native/clearance.h"
+#include "host_sim/world/native/draw/layout.h"
 #include "host_sim/world/native/space/capsule.h"
 
 enum {

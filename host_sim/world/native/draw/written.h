@@ -1,10 +1,27 @@
-/* written.h: a world as a person wrote it, unchecked. docs/worlds.md explains its keys. */
+/* written.h: a world as a person wrote it, unchecked, and what is wrong with it. docs/worlds.md explains its keys. */
 #ifndef OCTET_WRITTEN_H
 #define OCTET_WRITTEN_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "host_sim/world/native/draw/layout.h"
-#include "host_sim/world/native/draw/reach.h"
-#include "host_sim/world/native/draw/written_fault.h"
+
+enum { WRITTEN_TEXT_MAX = 200, WRITTEN_VALUES_MAX = 8 };
+
+enum written_key { WRITTEN_SIZE, WRITTEN_START, WRITTEN_FOOD, WRITTEN_BARS };   /* food and bars are lists */
+
+struct written_fault {
+    int32_t key;     /* where it is: an enum written_key, */
+    int32_t entry;   /* and the entry of its list, from 0; -1: all of it */
+    uint32_t value_count;
+    double values[WRITTEN_VALUES_MAX];
+    char text[WRITTEN_TEXT_MAX];   /* the message; each %g stands for the next of the values */
+};
+
+bool written_fails(struct written_fault *fault, enum written_key key, int32_t entry, const char *words, ...);
+        /* Fills in the fault, and returns false. Words that do not begin with a letter follow the name of the entry.
+           The arguments are a text for each %s, and for each %g a double, which goes to the values. */
 
 enum { WRITTEN_BARS_MAX = 40, WRITTEN_FOOD_MAX = LAYOUT_FOOD_MAX, WRITTEN_NUMBERS_MAX = 4 };
 enum { WRITTEN_SIZE_MIN_MM = 600, WRITTEN_WIDTH_MAX_MM = 6000, WRITTEN_HEIGHT_MAX_MM = 5000 };

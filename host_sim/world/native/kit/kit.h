@@ -1,12 +1,13 @@
 /* kit.h: a real body: wheels that follow late and unevenly, sensors that differ. Each robot's is drawn from its seed.
- * If the wheels have motors, the same controller as on a board controls their speed: hal/pins_body/wheel.h. */
+ * If the wheels have motors, their speed is controlled as on a board: firmware/motion/speed_control.h. */
 #ifndef OCTET_WORLD_KIT_H
 #define OCTET_WORLD_KIT_H
 
-#include "hal/pins_body/wheel.h"
+#include "firmware/motion/speed_control.h"
 #include "host_sim/world/native/ranges.h"
 
 enum { KIT_DELAY_MAX = 5, KIT_SENSED = 8, KIT_WHEELS = 2 };   /* KIT_SENSED: a power of 2, above KIT_DELAY_MAX */
+enum { KIT_LIGHT_NEAR = 1200 };   /* what triggers a sensor of a robot that was not calibrated: body_near_right */
 
 enum trait {
     TRAIT_LAG_MS, TRAIT_DEAD_MM_S, TRAIT_ACCELERATION_MM_S2, TRAIT_SLACK_MM, TRAIT_COUNT_MM, TRAIT_LEFT_WHEEL,
@@ -102,7 +103,7 @@ uint16_t kit_count(const struct kit *kit, unsigned side);
 
 void kit_light(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick,
                uint16_t light[FEEL_COUNT]);
-        /* Light of its own LEDs that each infrared sensor receives, 0..4095: PROXIMITY_NEAR from a wall at the
+        /* Light of its own LEDs that each infrared sensor receives, 0..4095: KIT_LIGHT_NEAR from a wall at the
            sensor's maximum range. */
 
 void kit_light_from(const struct kit *kit, const uint8_t range_mm[FEEL_COUNT], uint32_t tick,

@@ -1,6 +1,5 @@
 #include "host_sim/world/native/kit/kit.h"
 
-#include "hal/pins_body/proximity.h"
 #include "host_sim/world/native/vector_sums.h"
 
 enum { STREAMS = 8 };   /* random numbers per tick */
@@ -73,7 +72,7 @@ void kit_light_from(const struct kit *kit, const uint8_t range_mm[FEEL_COUNT], u
 
     for (unsigned n = 0; n < FEEL_COUNT; n++) {
         double part = (reach(kit, n) + noise(kit, tick, n) + BEHIND_MM) / (range_mm[n] + BEHIND_MM);
-        double received = PROXIMITY_NEAR * part * part;
+        double received = KIT_LIGHT_NEAR * part * part;
 
         light[n] = range_mm[n] == RANGE_NONE ? 0 : (uint16_t)(received < MOST ? received : MOST);
     }

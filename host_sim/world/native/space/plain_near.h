@@ -1,6 +1,8 @@
-/* plain_near.h: finds what is near a place in a plain space. */
+/* plain_near.h: finds what is near a place in a plain space, or in the line of sight to it. */
 #ifndef OCTET_PLAIN_NEAR_H
 #define OCTET_PLAIN_NEAR_H
+
+#include <stdbool.h>
 
 #include "host_sim/world/native/space/plain_space.h"
 
@@ -30,5 +32,8 @@ struct plain_choice plain_near_capsules(const struct plain_world *space, struct 
 
 size_t plain_near_bodies(const struct world *world, struct vector at, uint32_t bodies[PLAIN_NEAR_MAX]);
         /* The bodies around a place; all of them without a grid. */
+
+bool plain_view_hides(const struct world *world, const struct body *body, struct vector point);
+        /* Whether an obstacle or another body is between a body and a point. */
 
 #endif

@@ -1,7 +1,6 @@
 #include "host_sim/world/native/space/plain_space.h"
 
 #include "host_sim/world/native/space/plain_near.h"
-#include "host_sim/world/native/space/plain_view.h"
 #include "host_sim/world/native/vector_sums.h"
 
 static const double MARGIN_MM = 0.001;   /* far more than rounding */

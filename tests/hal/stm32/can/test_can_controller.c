@@ -1,7 +1,7 @@
 /* What every CAN controller's driver has to do, without the link on top of it. Built once with each rig. */
 #include "tests/test.h"
 #include "can_rig.h"
-#include "hal/stm32/can_controller.h"
+#include "hal/port/cortex_m/can_controller.h"
 #include "hal/stm32/can_timing.h"
 
 static const uint16_t WANTED[] = {0x0C1, 0x041};

@@ -1,6 +1,6 @@
 /* What every CAN controller's driver has to do, with the link on top of it: opening and receiving. Built once with each rig. */
 #include "can_link_cases.h"
-#include "hal/stm32/line.h"
+#include "hal/port/cortex_m/uart.h"
 
 void setUp(void)
 {

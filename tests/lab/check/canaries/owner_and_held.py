@@ -1,4 +1,4 @@
-"""Defects of an owner and of what is held: O1 to O8, H1 to H7."""
+"""Defects of an owner and of what is held: O1 to O8, H1 to H9."""
 
 from tests.lab.check.canaries.meddled import Commanded, Counting, Robot, Sensing, Silent, breaks, meddling
 from tests.lab.check.virtual import example
@@ -65,6 +65,23 @@ class HearsOnlyTheFirstSenses(Sensing):
         held = self.held
         said = sense(data, word, now_ms)
         self.held = held
+        return said
+
+
+@breaks("H8")
+class HoldsNoSensesOfObstacles(Sensing):
+    def changed(self, sense, data, word, now_ms):
+        obeyed = self.obeyed
+        said = sense(data, word, now_ms)
+        self.obeyed = obeyed if word >> 20 & 31 else self.obeyed
+        return said
+
+
+@breaks("H9")
+class HoldsSensesOnItsOwnClock(Sensing):
+    def changed(self, sense, data, word, now_ms):
+        said = sense(data, word, now_ms)
+        self.obeyed = self.obeyed or 1
         return said
 
 

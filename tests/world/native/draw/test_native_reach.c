@@ -1,4 +1,4 @@
-#include "host_sim/world/native/draw/reach.h"
+#include "host_sim/world/native/draw/layout.h"
 #include "tests/test.h"
 
 #include <math.h>

@@ -1,6 +1,5 @@
 /* What is wrong with a world that a person wrote, place and words. */
 #include "host_sim/world/native/draw/written.h"
-#include "host_sim/world/native/draw/written_fault.h"
 #include "tests/test.h"
 
 #include <math.h>

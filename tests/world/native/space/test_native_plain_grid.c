@@ -1,4 +1,4 @@
-#include "host_sim/world/native/space/plain_grid.h"
+#include "host_sim/world/native/space/plain_space.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "host_sim/world/native/space/plain_view.h"
+#include "host_sim/world/native/space/plain_near.h"
 #include "tests/test.h"
 #include "host_sim/world/native/space/plain_space.h"
 

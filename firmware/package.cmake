@@ -1,0 +1,11 @@
+# The package Octet, for find_package(Octet). docs/porting.md has the commands that make it.
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Octet)
+install(TARGETS octet_core octet_brain EXPORT Octet COMPONENT octet)
+install(EXPORT Octet NAMESPACE Octet:: FILE OctetConfig.cmake DESTINATION ${package} COMPONENT octet)
+write_basic_package_version_file(OctetConfigVersion.cmake COMPATIBILITY SameMajorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/OctetConfigVersion.cmake DESTINATION ${package} COMPONENT octet)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/firmware DESTINATION include/octet COMPONENT octet FILES_MATCHING PATTERN "*.h")
+install(FILES ${PROJECT_SOURCE_DIR}/hal/hal.h DESTINATION include/octet/hal COMPONENT octet)
+install(FILES ${OCTET_GENERATED}/robot_words.h DESTINATION include/octet COMPONENT octet)

@@ -1,0 +1,183 @@
+/* A body on the pins of an RP2040: slices of the PWM drive both motors, count the beacon's bursts and generate the
+ * beat, PIO counts the encoders, and the ADC measures when it is asked. */
+#include "hal/pins_body/pins.h"
+
+#include "hal/port/cortex_m/core.h"
+#include "hal/port/cortex_m/uart.h"
+#include "hal/rp2040/encoder.h"
+#include "hal/rp2040/gpio.h"
+#include "hal/rp2040/machine.h"
+#include "hal/rp2040/registers.h"
+
+enum { BEAT, LEFT, RIGHT, BURSTS = 6 };           /* slices: pins.toml has their pins */
+
+enum {
+    RESET_ADC = 1 << 0, RESET_PWM = 1 << 14,
+    PWM_HZ = 20000, BEAT_HZ = 200, COUNTER_SPAN = 65536,
+    ON = 1 << 0, BY_FALLING_B = 3 << 4,           /* in csr */
+    PWM_WRAP = 4, UART0_ANY = 20,                 /* numbers of interrupts */
+    RECEIVES = 1 << 4,                            /* in uartimsc: its FIFO is half full */
+    ADC_ON = 1 << 0, ADC_ONCE = 1 << 2, ADC_READY = 1 << 8, ADC_ERROR = 1 << 9, ADC_CHANNEL_AT = 12,
+    ADC_WAIT_MAX = 1000,                          /* polls; a conversion takes 2 us */
+    LOW = 1 << 0, FELL = 1 << 2,                  /* of a pin's four bits in intr */
+    /* The supply is measured at a third. 4.8 V of it are the motors' nominal voltage, WHEEL_NOMINAL_MV. */
+    SUPPLY_MV = 3300, SAMPLE_SPAN = 4096, BATTERY_HALVES = 9
+};
+
+const uint8_t PINS_SENSORS = 7u << 1;   /* none at the sides: the ADC has three inputs for them */
+
+static const uint8_t PULLED_UP[] = {
+    BOARD_LEFT_ENCODER_A, BOARD_LEFT_ENCODER_B, BOARD_RIGHT_ENCODER_A, BOARD_RIGHT_ENCODER_B,
+    BOARD_BRIDGE_FAULT, BOARD_BUMPER_LEFT, BOARD_BUMPER_RIGHT, BOARD_BUTTON,
+};
+
+static volatile uint32_t *edges(uint32_t pin)
+{
+    return &IO_BANK0.intr[pin / 8];
+}
+
+static void start_slice(unsigned slice, uint32_t div, uint32_t top, uint32_t mode)
+{
+    PWM.ch[slice].div = div << 4;
+    PWM.ch[slice].top = top;
+    PWM.ch[slice].csr = mode | ON;
+}
+
+static void start_motors(uint32_t core_hz)
+{
+    static const uint8_t pins[] = {BOARD_LEFT_PWM, BOARD_LEFT_BACK, BOARD_RIGHT_PWM, BOARD_RIGHT_BACK};
+
+    for (unsigned side = 0; side < PINS_SIDES; side++) {
+        PWM.ch[LEFT + side].top = core_hz / PWM_HZ - 1;
+        pins_push(side, 0);
+        start_slice(LEFT + side, 1, core_hz / PWM_HZ - 1, 0);
+    }
+    for (unsigned i = 0; i < sizeof pins; i++)
+        gpio_set(pins[i], GPIO_BY_PWM);
+}
+
+/* Its counter has 16 bits: the clock is divided as far as needed. */
+static void start_beat(uint32_t core_hz)
+{
+    uint32_t div = core_hz / ((uint32_t)BEAT_HZ * COUNTER_SPAN) + 1;
+
+    start_slice(BEAT, div, core_hz / BEAT_HZ / div - 1, 0);
+    PWM.intr = 1u << BEAT;
+    PWM.inte = 1u << BEAT;
+    UART0.uartimsc = RECEIVES;
+    NVIC.iser[0] = 1u << PWM_WRAP | 1u << UART0_ANY;
+}
+
+static void start_inputs(void)
+{
+    for (unsigned i = 0; i < sizeof PULLED_UP; i++)
+        gpio_set(PULLED_UP[i], GPIO_BY_CORE);
+    *edges(BOARD_BRIDGE_FAULT) = (uint32_t)FELL << BOARD_BRIDGE_FAULT % 8 * 4;
+    gpio_set(BOARD_BEACON, GPIO_BY_PWM);
+    start_slice(BURSTS, 1, COUNTER_SPAN - 1, BY_FALLING_B);
+    gpio_analogue(BOARD_PROXIMITY_FRONT_RIGHT);
+    gpio_analogue(BOARD_PROXIMITY_FRONT);
+    gpio_analogue(BOARD_PROXIMITY_FRONT_LEFT);
+    gpio_analogue(BOARD_BATTERY);
+    encoder_start(0, BOARD_LEFT_ENCODER_A);
+    encoder_start(1, BOARD_RIGHT_ENCODER_A);
+}
+
+void pins_open(void)
+{
+    uint32_t core_hz = machine_clocks().core_hz;
+
+    pins_wake_bridge(false);
+    pins_shine(false);
+    gpio_output(BOARD_BRIDGE_AWAKE);
+    gpio_output(BOARD_INFRARED);
+    clock_release(RESET_PWM);
+    if (clock_start_adc())
+        clock_release(RESET_ADC);
+    ADC.cs = ADC_ON;
+    start_inputs();
+    start_motors(core_hz);
+    start_beat(core_hz);
+}
+
+/* Bounded by the watchdog: without its timer the robot must not continue. Whatever wakes it, it serves the line. */
+void pins_wait(void)
+{
+    while (!(PWM.intr & 1u << BEAT)) {
+        line_pump();
+        NVIC.icpr[0] = 1u << UART0_ANY;
+        core_sleep();
+    }
+    PWM.intr = 1u << BEAT;
+    NVIC.icpr[0] = 1u << PWM_WRAP;
+}
+
+uint16_t pins_count(unsigned side)
+{
+    return encoder_count(side);
+}
+
+/* Slow decay: both half-bridges are on, which brakes, but for the duty, in which one of them is off. So the motor's
+ * current never ends, and its speed is proportional to the duty. */
+void pins_push(unsigned side, int32_t duty)
+{
+    uint32_t top = PWM.ch[LEFT + side].top + 1;
+    uint32_t rest = top - ((uint32_t)(duty < 0 ? -duty : duty) * top >> 16);
+
+    PWM.ch[LEFT + side].cc = duty < 0 ? top << 16 | rest : rest << 16 | top;
+}
+
+void pins_wake_bridge(bool awake)
+{
+    gpio_write(BOARD_BRIDGE_AWAKE, awake);
+}
+
+/* The bridge itself has switched off. Its signal is kept, however short. */
+bool pins_bridge_failed(void)
+{
+    return (*edges(BOARD_BRIDGE_FAULT) >> BOARD_BRIDGE_FAULT % 8 * 4 & (LOW | FELL)) != 0;
+}
+
+void pins_shine(bool on)
+{
+    gpio_write(BOARD_INFRARED, on);
+}
+
+/* Returns 0 if nothing converts: then the battery is flat, and the wheels rest. */
+static uint16_t convert(uint32_t channel)
+{
+    unsigned polls = 0;
+
+    ADC.cs = channel << ADC_CHANNEL_AT | ADC_ONCE | ADC_ON;
+    while (polls < ADC_WAIT_MAX && !(ADC.cs & ADC_READY))
+        polls++;
+    return polls < ADC_WAIT_MAX && !(ADC.cs & ADC_ERROR) ? (uint16_t)ADC.result : 0;
+}
+
+void pins_measure(uint16_t light[FEEL_COUNT])
+{
+    light[0] = light[FEEL_COUNT - 1] = 0;
+    light[1] = convert(BOARD_PROXIMITY_FRONT_RIGHT_CHANNEL);
+    light[2] = convert(BOARD_PROXIMITY_FRONT_CHANNEL);
+    light[3] = convert(BOARD_PROXIMITY_FRONT_LEFT_CHANNEL);
+}
+
+uint32_t pins_battery_mv(void)
+{
+    return (uint32_t)convert(BOARD_BATTERY_CHANNEL) * SUPPLY_MV * BATTERY_HALVES / (2 * SAMPLE_SPAN);
+}
+
+uint16_t pins_bursts(void)
+{
+    return (uint16_t)PWM.ch[BURSTS].ctr;
+}
+
+bool pins_bumped(void)
+{
+    return !gpio_read(BOARD_BUMPER_LEFT) || !gpio_read(BOARD_BUMPER_RIGHT);
+}
+
+bool pins_button(void)
+{
+    return !gpio_read(BOARD_BUTTON);
+}

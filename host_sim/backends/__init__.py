@@ -1,1 +1,0 @@
-"""Backends that run robots: in a process, in this process, on a bus, or as an image on an emulated board."""

@@ -1,0 +1,56 @@
+"""The behaviour in C that the robot of a log had: in its user's file, or in the log's world file.
+
+Opening a log compiles nothing that came with it, unless its user says so.
+"""
+
+import argparse
+import sys
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from host_sim.base.errors import UsageError
+from host_sim.cli.parsing import file_path
+
+if TYPE_CHECKING:
+    from host_sim.protocol.codec import Frame, Protocol
+    from host_sim.sim.own_brain import OwnBrain
+    from host_sim.sim.world_record import WorldRecord
+
+
+def add_source_options(parser: argparse.ArgumentParser) -> None:
+    """Adds the options that say where the source is."""
+    add = parser.add_argument
+    add("--profile", type=file_path, metavar="MINE.C", help="the behaviour in C that the robot had")
+    trusted = "if there was one: compile and run its source as it came with the log"
+    add("--compile", action="store_true", help=trusted)
+
+
+def own_of(arguments: argparse.Namespace, record: "WorldRecord | None") -> "OwnBrain | None":
+    """The behaviour, compiled; None if the options and the world file name none.
+
+    Raises:
+        UsageError: It cannot be compiled; or nobody has said which file it is, or to compile the recorded source.
+    """
+    from host_sim.sim.own_brain import own_brain, own_copy
+
+    recorded = record.own if record else None
+    if arguments.profile:
+        own = own_brain(arguments.profile)
+        if recorded and own.source.sha256 != recorded.sha256:
+            sys.stderr.write(f"octet: {arguments.profile} differs from {recorded}, which the robot had\n")
+        return own
+    if recorded is None:
+        return None
+    if arguments.compile:
+        return own_copy(recorded)
+    trusted = "or, if you trust those who sent the log, --compile, which takes the source that came with it"
+    raise UsageError(f"the robot in {arguments.log} had {recorded}: add --profile and this file; {trusted}")
+
+
+def check_own(arguments: argparse.Namespace, frames: "Iterable[Frame]", protocol: "Protocol") -> None:
+    """Refuses a robot that was started with a behaviour of its user, which is not known."""
+    from host_sim.protocol.generated import OWN_PROFILE
+
+    commands = (protocol.decode(frame) for frame in frames if frame.id == protocol.id_of("COMMAND"))
+    if any(it and it.signals.get("profile") == OWN_PROFILE for it in commands):
+        raise UsageError(f"the robot in {arguments.log} had a behaviour of its own: add --profile MINE.C, its file")

@@ -1,0 +1,1 @@
+"""Exercises: behaviours of pupils, judged decision by decision."""

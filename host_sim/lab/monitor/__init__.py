@@ -1,1 +1,0 @@
-"""Monitors a bus live: decodes every robot's frames, and reports problems."""

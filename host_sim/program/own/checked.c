@@ -1,0 +1,95 @@
+/* The guard in a process of the robot's own, with the address sanitizer: a failure is printed and ends it. */
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/time.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+#include "host_sim/program/own/guard.h"
+
+enum { ENDED = 3, NOTES_MAX = 4000, WAIT_S = 1 };
+
+void __sanitizer_symbolize_pc(void *code, const char *format, char *out, size_t size);
+const char *__asan_default_options(void);
+void __asan_on_error(void);
+void note(const char *text, long value);
+
+const char *__asan_default_options(void)
+{
+    return "detect_leaks=0:detect_stack_use_after_return=1:color=never";
+}
+
+/* The sanitizer has found something, and prints it next: with which senses, it does not know. */
+void __asan_on_error(void)
+{
+    char when[GUARD_TEXT_MAX / 3];
+
+    guard_when(when, sizeof when);
+    printf("own: , %s\n", when);
+    fflush(stdout);
+}
+
+/* The last of the places is the one that was not put there by a function of a header. */
+void guard_place(const void *code, char *text, size_t size)
+{
+    char places[GUARD_TEXT_MAX] = "";
+    const char *last = places;
+
+    if (!code)
+        return;
+    __sanitizer_symbolize_pc((void *)code, "%S", places, sizeof places - 1);
+    for (const char *next = places; next < places + sizeof places - 1 && *next; next += strlen(next) + 1)
+        last = next;
+    snprintf(text, size / 2, "%s", last);
+}
+
+void guard_end(const char *text)
+{
+    printf("own: %s\n", text);
+    fflush(stdout);
+    _exit(ENDED);
+}
+
+static void too_long(int number, siginfo_t *info, void *context)
+{
+    const ucontext_t *at = context;
+    const void *code = NULL;
+
+    (void)number;
+    (void)info;
+#if defined(__x86_64__)
+    code = (const void *)(at->uc_mcontext.gregs[REG_RIP] + 1);
+#elif defined(__aarch64__)
+    code = (const void *)(at->uc_mcontext.pc + 4);
+#else
+    (void)at;
+#endif
+    guard_fail(code, NULL, "a loop without an end: a second in one decision");
+}
+
+/* A timer counts the time that this process computes: it counts in empty loops, too, which take no branches. */
+void guard_watch(bool on)
+{
+    static bool ready;
+    const struct itimerval wait = {.it_value.tv_sec = on ? WAIT_S : 0};
+    struct sigaction action;
+
+    if (!ready) {
+        memset(&action, 0, sizeof action);
+        action.sa_sigaction = too_long;
+        action.sa_flags = SA_SIGINFO;
+        sigaction(SIGVTALRM, &action, NULL);
+        ready = true;
+    }
+    setitimer(ITIMER_VIRTUAL, &wait, NULL);
+}
+
+void note(const char *text, long value)
+{
+    static int printed;
+
+    if (printed < NOTES_MAX)
+        printed += printf("> %.200s %ld\n", text, value);
+    fflush(stdout);
+}

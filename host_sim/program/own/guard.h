@@ -1,0 +1,30 @@
+/* guard.h: between the robot and its user's behaviour, on the host. guard.c knows what is wrong; what becomes of it,
+ * checked.c knows in a process of the robot's own, and fast.c in the simulator's. */
+#ifndef OCTET_GUARD_H
+#define OCTET_GUARD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { GUARD_TEXT_MAX = 600 };
+
+const char *own_failure(void);
+        /* What was wrong, in one line; empty if nothing was. */
+
+void guard_when(char *text, size_t size);
+        /* The tick of the decision under way, and its senses, in words. */
+
+void guard_fail(const void *code, const char *place, const char *what);
+        /* The decision under way is wrong: at a place in the source or, if that is null, where this code is. Does not
+           return while a decision is under way. */
+
+void guard_place(const void *code, char *text, size_t size);
+        /* Of checked.c and fast.c: the file and line of code, empty if it is not known. */
+
+void guard_end(const char *text);
+        /* The same: takes the text of a failure. Returns if the robot is to stand still from now on. */
+
+void guard_watch(bool on);
+        /* The same: a decision begins or ends. */
+
+#endif

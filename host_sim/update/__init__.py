@@ -1,1 +1,0 @@
-"""Firmware updates over CAN, as docs/update.md has them."""

@@ -1,0 +1,103 @@
+"""Each option of each command does something that can be seen: the table options.toml says what."""
+
+import re
+from types import SimpleNamespace
+from unittest import mock
+
+import pytest
+
+from host_sim.base.errors import UsageError
+from host_sim.lab.check.checking import Verdict
+from tests.cli.option_rows import LAB, TABLE, Trial, options, parsers, rows, tried
+from tests.runs.support import ROOT, octet
+
+OTHERS = sorted(set(TABLE) - set(LAB))
+
+
+@pytest.mark.parametrize("command", sorted(parsers()))
+def test_each_option_has_a_row(command):
+    assert set(rows(command)) == options(parsers()[command])
+
+
+def test_no_row_is_left_of_an_option_that_is_gone():
+    assert set(TABLE) == set(parsers())
+    assert [name for name in TABLE if not set(TABLE[name]) - {"words"} <= options(parsers()[name])] == []
+
+
+def test_a_test_that_is_named_gives_the_option():
+    named = [(name, ROOT / row) for command in TABLE for name, row in rows(command).items() if isinstance(row, str)]
+
+    assert [(name, path) for name, path in named if not re.search(rf"{name}\b", path.read_text())] == []
+
+
+@pytest.fixture(scope="module")
+def trial(tmp_path_factory: pytest.TempPathFactory) -> Trial:
+    return Trial(tmp_path_factory.mktemp("options"))
+
+
+@pytest.mark.parametrize(("command", "name"), tried(*OTHERS))
+def test_an_option_changes_what_its_row_says(command, name, trial):
+    trial.check(command, name)
+
+
+def handed(target: str, *words: str) -> mock._Call:
+    """With which arguments a command calls a function, which ends it."""
+    with mock.patch(target, side_effect=UsageError("far enough")) as called:
+        assert octet(*words).stderr == "octet: far enough\n"
+    return called.call_args
+
+
+def test_check_asks_the_robot_with_the_number_on_the_bus():
+    assert handed("host_sim.lab.check.robots.external", "check", "--bus", "virtual:1", "--node", "3").args == (
+        "virtual:1",
+        3,
+    )
+
+
+@pytest.mark.parametrize(("words", "lines"), [((), 1), (("--all",), 2)])
+def test_check_prints_all_sentences_if_told_to(monkeypatch, words, lines):
+    verdict = Verdict("T1", "It answers.", "holds")
+    monkeypatch.setattr("host_sim.lab.check.checking.check_robot", lambda *_, **__: [verdict])
+
+    assert octet("check", "--bus", "virtual:1", *words).stdout.count("\n") == lines
+
+
+def test_a_campaign_in_real_time_runs_in_lockstep_too():
+    words = ("campaign", "a.html", "--links", "fd", "--profiles", "article")
+
+    paces = [handed("host_sim.lab.campaign.matrix.groups", *words, *more).args[2] for more in ((), ("--real-time",))]
+
+    assert paces == [("lockstep",), ("lockstep", "real-time")]
+
+
+def test_profiles_are_compared_on_the_robot_that_is_named():
+    words = ("compare", "article", "--robot", "emulated", "--seeds", "1")
+
+    assert [
+        each.config.robot for each in handed("host_sim.lab.study.compare_command.with_progress", *words).args[0]
+    ] == ["emulated"]
+
+
+def test_the_robot_that_is_calibrated_is_the_one_that_is_named():
+    words = ("calibrate", "--bus", "slcan:/dev/nowhere", "--node", "3", "--bitrate", "250000")
+
+    access = handed("host_sim.sim.connect.Connector", *words).args[1]
+
+    assert (access.bus, list(access.nodes), access.bitrate) == ("slcan:/dev/nowhere", [3], 250_000)
+
+
+@pytest.mark.parametrize(("words", "asks"), [((), True), (("--yes",), False)])
+def test_calibrate_asks_before_a_step_unless_told_not_to(monkeypatch, words, asks):
+    calibration = SimpleNamespace(traits=dict)
+    monkeypatch.setattr("host_sim.lab.calibrate.calibrate_command._reached", lambda *_: (calibration, None))
+
+    call = handed("host_sim.lab.calibrate.calibrate_command._measures", "calibrate", "--bus", "virtual:1", *words)
+
+    assert call.kwargs == {"ask": asks}
+
+
+@pytest.mark.parametrize(("words", "ignores"), [((), False), (("--no-world",), True)])
+def test_talk_ignores_the_world_of_a_run_if_told_to(words, ignores):
+    call = handed("host_sim.recording.resimulation.resimulate", "talk", "--log", "run.log", *words)
+
+    assert call.kwargs["ignore_world"] is ignores

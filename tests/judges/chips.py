@@ -1,0 +1,97 @@
+"""What of the chips is compared with ST's SVD files: chips.toml, and svd.txt, which svd_table.py makes."""
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from host_sim.base.toml_file import parse_toml
+
+FOLDER = Path(__file__).parent
+TABLE = FOLDER / "svd.txt"
+SETUP: Mapping[str, Any] = parse_toml((FOLDER / "chips.toml").read_text())
+COMPARED: Mapping[str, Mapping[str, str]] = SETUP["chips"]
+"""The peripherals of each chip, and its board."""
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A constant of a driver, and the fields that it stands for."""
+
+    chip: str
+    file: str
+    name: str
+    says: str
+
+
+def entries(kind: str) -> Iterator[Constant]:
+    """The entries of `structures` or `constants`."""
+    for table in SETUP[kind]:
+        for chip in table["chips"]:
+            yield from (Constant(chip, table["file"], *it) for it in table.items() if it[0] not in ("file", "chips"))
+
+
+def fields_of(entry: Constant) -> Iterator[tuple[tuple[str, str], str, str]]:
+    """Peripheral and register, field, and value of each field of a constant; the value may be empty."""
+    for part in re.split(r"\s*\|\s*", entry.says):
+        peripheral, register, name, value = re.fullmatch(r"@?(\w+)\.([\w.]+)\.(\w+)(?:=(\d+))?", part).groups("")  # type: ignore[union-attr]
+        yield (COMPARED[entry.chip][peripheral], register), name, value
+
+
+def fields_compared(chip: str, peripheral: str) -> dict[str, set[str]]:
+    """The fields of a peripheral that are compared, by register."""
+    found: dict[str, set[str]] = {}
+    for entry in entries("constants"):
+        for (of, register), name, _ in fields_of(entry) if entry.chip == chip else ():
+            if of == peripheral:
+                found.setdefault(register, set()).add(name)
+    return found
+
+
+@dataclass(frozen=True)
+class SvdRegister:
+    """A register in the table: its name, its reset value, and the lowest and highest bit of its fields."""
+
+    name: str
+    reset: int
+    fields: Mapping[str, tuple[int, int]]
+
+
+@dataclass(frozen=True)
+class Svd:
+    """What the table says of a chip.
+
+    Attributes:
+        bases: the address of each peripheral.
+        registers: the registers of each peripheral, by offset; several may share one.
+    """
+
+    bases: dict[str, int] = field(default_factory=dict)
+    registers: dict[str, dict[int, list[SvdRegister]]] = field(default_factory=dict)
+
+    def at(self, address: int) -> list[SvdRegister]:
+        """The registers at an address."""
+        return [it for name, base in self.bases.items() for it in self.registers[name].get(address - base, ())]
+
+    def field(self, peripheral: str, register: str, name: str) -> tuple[int, int]:
+        """The lowest and highest bit of a field."""
+        all_of = {it.name: it.fields for row in self.registers[peripheral].values() for it in row}
+        return all_of[register][name]
+
+
+def read_table(text: str) -> dict[str, Svd]:
+    """The facts of each chip."""
+    chips = {chip: Svd() for chip in COMPARED}
+    block: dict[int, list[SvdRegister]] = {}
+    for line in text.splitlines()[1:]:
+        first, name, value, *more = line.split()
+        if first in chips:
+            registers = chips[first].registers
+            block = registers[name] = registers.get(more[0], {})
+            chips[first].bases[name] = int(value, 16)
+        else:
+            pairs = (place.replace("=", ":").split(":") for place in more)
+            fields = {it: (int(low), int(high)) for it, low, high in pairs}
+            block.setdefault(int(first, 16), []).append(SvdRegister(name, int(value, 16), fields))
+    return chips

@@ -1,0 +1,152 @@
+"""Boards in LabWired, an emulator that nobody here wrote: its chips, and how to talk with images.
+
+LabWired clocks SysTick by the core even where the image chose an eighth of that clock: in STM32F1, F4 and G4 its
+CLKSOURCE = 0 means HCLK/8 (PM0056 4.5.1, PM0214 4.5.1). With a core clock of an eighth its time is right, and
+computing takes 8 times as long. A chip with fewer peripherals is twice as fast.
+"""
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+import labwired
+
+from host_sim.base.paths import image_path
+
+_LEAN = {
+    *("rcc", "gpioa", "gpiob", "gpioc", "systick", "uart1"),
+    *("afio", "flash_ctrl", "pwr", "iwdg", "bxcan1", "nvic"),
+}
+_CONFIGS = Path(labwired.__file__).parent / "configs"
+_BXCAN = """  - id: "bxcan1"
+    type: "bxcan"
+    base_address: 0x40006400
+    size: "1KB"
+    clock: { reg: "apb1enr", bit: 25 }
+"""
+_STEP, _STEPS_MAX = "50us", 2000
+
+
+class Kind(NamedTuple):
+    """A chip of LabWired's that can run the images of one of our boards.
+
+    Attributes:
+        name: Its name there.
+        core_hz: The core clock that the images set.
+        more: A peripheral that its description lacks.
+        lean: Whether to leave out what only a stand-alone robot needs.
+        divisor: Of the core clock, to what SysTick counts on the chip.
+    """
+
+    name: str
+    core_hz: int
+    more: str = ""
+    lean: bool = False
+    divisor: int = 8
+
+
+KINDS: Mapping[str, Kind] = {
+    "blue_pill": Kind("stm32f103", 72_000_000, lean=True),
+    "feather_stm32f405": Kind("stm32f405", 168_000_000, more=_BXCAN),
+    "nucleo_g431rb": Kind("stm32g474re", 80_000_000),
+    "pico": Kind("rp2040", 125_000_000, divisor=1),
+}
+INPUTS: Mapping[str, tuple[str, int]] = {
+    "bumper_left": ("gpiob", 10), "bumper_right": ("gpiob", 11), "button": ("gpiob", 0), "fault": ("gpiob", 12),
+}  # fmt: skip
+"""Contacts of a stand-alone robot, open: at a high level."""
+STAND_ALONE = ("pins", "mute", "body")
+"""Images of robots with sensors and motors on pins."""
+
+
+def write_system(board: str, folder: Path, memories: Mapping[str, int] = {}, *, alone: bool = False) -> str:
+    """Writes LabWired's description of a board.
+
+    Args:
+        board: One of `KINDS`.
+        folder: Where to.
+        memories: Peripherals that are plain memory, for a harness to be that hardware, by their addresses.
+        alone: Whether it is a stand-alone robot, which needs timers and more, and has `INPUTS`.
+    """
+    kind = KINDS[board]
+    text = (_CONFIGS / f"chips/{kind.name}.yaml").read_text().replace('"../peripherals', f'"{_CONFIGS}/peripherals')
+    text, count = re.subn(r"(?m)^cpu_hz: [\d_]+", f"cpu_hz: {kind.core_hz // kind.divisor}", text)
+    assert count == 1, "LabWired describes chips in another format now"
+    head, rest = text.split("peripherals:\n", 1)
+    blocks = re.split(r"(?m)^(?=  - id:)", re.split(r"(?m)^(?:# Regular ADC|analog_pins:)", rest)[0])
+    named = {match[1]: block for block in blocks if (match := re.match(r'  - id: "(\w+)"', block))}
+    kept = (
+        block for name, block in named.items() if name not in memories and (name in _LEAN or alone or not kind.lean)
+    )
+    if memories:
+        rows = (f'  - name: "{name}"\n    base: {base:#x}\n    size: "1KB"\n' for name, base in memories.items())
+        head += "memory_regions:\n" + "".join(rows)
+    (folder / "chip.yaml").write_text(head + "peripherals:\n" + "".join(kept) + kind.more)
+    pins = "".join(
+        f'  - id: "{name}"\n    kind: "button"\n    peripheral: "{port}"\n    pin: {pin}\n    signal: "input"\n'
+        "    active_high: true\n"
+        for name, (port, pin) in INPUTS.items()
+    )
+    system = folder / "system.yaml"
+    board_io = f"\n{pins}" if alone else " []\n"
+    system.write_text(f"name: judged\nchip: {folder}/chip.yaml\nexternal_devices: []\nboard_io:{board_io}")
+    return str(system)
+
+
+class Frame(NamedTuple):
+    """A frame on the bus."""
+
+    id: int
+    data: bytes
+
+
+class Board:
+    """A board in LabWired that runs an image of ours.
+
+    Attributes:
+        sim: LabWired's simulation.
+    """
+
+    def __init__(self, board: str, link: str, folder: Path, memories: Mapping[str, int] = {}) -> None:
+        """Prepares the image at power-up; arguments as for `write_system`."""
+        alone = link in STAND_ALONE
+        self.sim = labwired.Sim(
+            str(image_path(board, link)), system=write_system(board, folder, memories, alone=alone)
+        )
+        for contact in INPUTS if alone else ():
+            self.sim.set_pin(contact, True)
+        self._serial = link == "slcan"
+        self._begun, self._seen = b"", 0
+
+    def flash(self, address: int, data: bytes) -> None:
+        """Writes to the flash, as a probe does."""
+        for at in range(0, len(data), 4):
+            self.sim.write_u32(address + at, int.from_bytes(data[at : at + 4], "little"))
+
+    def listen(self, span: str) -> list[Frame]:
+        """What it sends in a time of its own."""
+        self.sim.run_for(span)
+        return self._lines() if self._serial else self._sent()
+
+    def ask(self, frame: Frame, count: int, span: str = "") -> list[Frame]:
+        """What it sends after a frame: in a time of its own, or until it has sent as many frames as expected."""
+        if self._serial:
+            self.sim.send_bytes(f"t{frame.id:03X}{len(frame.data)}{frame.data.hex().upper()}\r".encode())
+        else:
+            self.sim.inject_can("bxcan1", frame.id, frame.data)
+        heard = self.listen(span or _STEP)
+        for _ in range(0 if span else _STEPS_MAX):
+            heard += self.listen(_STEP) if len(heard) < count else []
+        return heard
+
+    def _lines(self) -> list[Frame]:
+        *lines, self._begun = (self._begun + self.sim.read_uart_bytes()).split(b"\r")
+        texts = [line.decode("ascii") for line in lines]
+        return [Frame(int(text[1:4], 16), bytes.fromhex(text[5:])) for text in texts]
+
+    def _sent(self) -> list[Frame]:
+        new = [it for it in self.sim.frames() if it["seq"] > self._seen]
+        self._seen = new[-1]["seq"] if new else self._seen
+        said = (it["payload"] for it in new if it["payload"].get("direction") == "tx")
+        return [Frame(it["id"], bytes(it["data"])) for it in said]

@@ -1,0 +1,200 @@
+"""A robot of its own on the pins of a Raspberry Pi Pico in rp2040js, an emulator that nobody here wrote.
+
+Its edges of PWM are those at the pins; its encoders turn at the pins, and PIO counts them; its ADC reads samples.
+"""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from host_sim.protocol.codec import Protocol
+from host_sim.protocol.generated import ODOMETER_SPAN, Opcode
+from host_sim.sim.make import make
+from host_sim.sim.pico_pins import PicoOnPins
+from host_sim.sim.run_config import RunConfig
+from host_sim.sim.simulation import Simulation
+from tests.judges.pico_board import SECTOR, flash_of
+from tests.judges.test_starts import page
+from tests.judges.test_starts import record as stored
+
+COUNT = SECTOR // 16 - 1
+FULL = page(COUNT) + page(0) + b"".join(stored(COUNT + 1 + n, bytes((0, 2, *[0] * 6))) for n in range(COUNT))
+"""A store whose two sectors are full, so that the next record needs the first one erased."""
+ROOM = page(1) + stored(1, bytes((0, 2, *[0] * 6)))
+PINS = RunConfig(seed=2, environments=1, robot="emulated", board="pico", body="pins", limit_s=20)
+WORST_TICK_US, PAGE_US = 500, 400
+Start = Callable[..., PicoOnPins]
+
+
+@pytest.fixture
+def start(tmp_path: Path) -> Iterator[Start]:
+    """Starts boards, which end with the test."""
+    boards: list[PicoOnPins] = []
+
+    def started(store: bytes = b"", *options: str) -> PicoOnPins:
+        path = tmp_path / f"flash-{len(boards)}.bin"
+        path.write_bytes(flash_of(store, "pins"))
+        boards.append(PicoOnPins(path, *options))
+        return boards[-1]
+
+    yield started
+    for board in boards:
+        board.close()
+
+
+def board_of(simulation: Simulation) -> PicoOnPins:
+    link = simulation.clients[0].connection.link
+    assert isinstance(link, PicoOnPins)
+    return link
+
+
+def press(board: PicoOnPins) -> None:
+    """Presses the button, and lets go."""
+    for pressed in (True, False):
+        board.robot.set_button(pressed)
+        board.pass_time(0.2)
+
+
+def duties(board: PicoOnPins) -> list[int]:
+    """What its motors get, %."""
+    return list(board.robot.figures()["duty"])
+
+
+def test_it_drives_the_way_of_the_same_firmware_in_a_simulated_kit():
+    """In the first 2 s: later, a sensor's noise falls otherwise."""
+    ways = []
+    for config in (PINS, RunConfig(seed=2, environments=1, body="kit")):
+        with make(config) as simulation:
+            simulation.enter(1)
+            for _ in range(100):
+                simulation.step()
+            ways.append((simulation.arena.bodies[0].pose, simulation.arena.bodies[0].collisions))
+    (pico, hits), (kit, _) = ways
+    assert hits == 0
+    assert abs(pico.x_mm - kit.x_mm) + abs(pico.y_mm - kit.y_mm) < 10
+
+
+def test_a_tick_takes_half_a_millisecond_and_no_beat_is_missed():
+    with make(PINS) as simulation:
+        simulation.enter(1)
+        board = board_of(simulation)
+        board.pico.order("longest")
+        for _ in range(250):
+            simulation.step()
+        (longest,) = board.pico.order("longest")
+    assert float(longest) < WORST_TICK_US + PAGE_US
+
+
+@pytest.mark.parametrize("store", [b"", ROOM, FULL], ids=["blank", "roomy", "full"])
+def test_it_starts_from_any_store_and_rests_until_the_button_is_pressed(start, store):
+    board = start(store)
+    board.pass_time(0.5)
+    assert duties(board) == [0, 0]
+    assert board.robot.shares[2:6] == [1.0] * 4  # both motors brake
+
+    press(board)
+    board.pass_time(1.5)
+
+    assert 0 not in duties(board)
+
+
+def test_the_button_stops_it(start):
+    board = start()
+    press(board)
+    board.pass_time(1.5)
+    press(board)
+    assert duties(board) == [0, 0]
+
+
+@pytest.mark.parametrize(
+    "trouble",
+    [
+        lambda parts: parts.set_bridge_fault(True),
+        lambda parts: parts.set_bridge_fault(True, 1e-7),
+        lambda parts: setattr(parts, "battery_v", 5.4),
+    ],
+    ids=["fault", "spike", "flat battery"],
+)
+def test_trouble_puts_the_bridge_to_sleep(start, trouble):
+    board = start()
+    press(board)
+    board.pass_time(1.5)
+    trouble(board.robot)
+    board.pass_time(0.3)
+    assert board.robot.shares[10] == 0.0
+    assert board.robot.shares[2:6] == [1.0] * 4
+
+
+def test_a_battery_that_is_not_connected_is_flat(start):
+    board = start()
+    board.robot.battery_v = 0.0
+    press(board)
+    board.pass_time(1.5)
+    assert duties(board) == [0, 0]
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_an_encoder_that_counts_against_its_motor_stops_the_robot_within_a_second(side):
+    with make(PINS) as simulation:
+        board = board_of(simulation)
+        board.robot.counts_by[side] = -1
+        simulation.enter(1)
+        for _ in range(50):
+            simulation.step()
+        assert board.robot.shares[10] == 0.0
+
+
+def test_pio_counts_each_edge_of_both_encoders(start):
+    """The program's counts are in its registers Y, the firmware's in its odometers."""
+    board, protocol = start(), Protocol()
+    for more in (40, -25, 1000):
+        board.robot._turn(0, more)
+        board.robot._turn(1, -more)
+        board.pass_time(0.02)
+    assert [int(y) for y in board.pico.order("count 0", "count 1")] == [1015, -1015]
+    board.send(protocol.encode("COMMAND", {"counter": 1, "opcode": Opcode.STOP, "owner": 1}))
+    board.pass_time(0.1)
+    sensed = board._sensed
+    assert sensed is not None
+    decoded = protocol.decode(sensed)
+    assert decoded is not None
+    left, right = decoded.signals["odometer_left"], decoded.signals["odometer_right"]
+    assert left > 0
+    assert (left + right) % ODOMETER_SPAN in (0, ODOMETER_SPAN - 1)  # each rounds down
+
+
+def feel_of(board: PicoOnPins) -> int:
+    """What it says that it feels, resting."""
+    board.pass_time(0.06)
+    sensed = board._sensed
+    assert sensed is not None
+    decoded = Protocol().decode(sensed)
+    assert decoded is not None
+    return decoded.signals["feel"]
+
+
+def test_it_has_three_sensors_and_takes_the_room_s_light_for_no_wall(start):
+    board = start()
+    board.robot.ambient = 2500
+    assert feel_of(board) == 0
+    board.robot.ambient, board.robot.light = 300, [1500] * 5
+    assert feel_of(board) == 0b01110
+
+
+def test_commands_reach_it_at_the_line_s_own_pace(start):
+    board, protocol = start(b"", "paced"), Protocol()
+    board.pass_time(1.0)
+    for counter in (1, 2):
+        board.send(protocol.encode("COMMAND", {"counter": counter, "opcode": Opcode.STOP, "owner": 1}))
+    said = [protocol.decode(frame) for frame in board.pass_time(0.2)]
+    assert [it.signals["counter"] for it in said if it is not None and it.name == "ANSWER"] == [1, 2]
+
+
+def test_a_core_that_hangs_is_reset_and_the_wheels_rest(start):
+    board = start()
+    press(board)
+    board.pass_time(1.5)
+    board.pico.order("hang")
+    board.pass_time(2.5)
+    assert duties(board) == [0, 0]

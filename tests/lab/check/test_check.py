@@ -1,0 +1,182 @@
+"""`tools/octet check`: sound robots pass, one with a defect fails the sentence that it breaks, and no other."""
+
+import json
+import re
+import sys
+import xml.etree.ElementTree as ET
+from types import SimpleNamespace
+
+import pytest
+
+from host_sim.base.errors import UsageError
+from host_sim.cli.main import main
+from host_sim.lab.check import robots
+from host_sim.lab.check.checking import CHECKS, check_robot
+from host_sim.lab.check.sentences import NOT_CHECKED, prose, sentences
+from host_sim.sim.robot_process import PROGRAM
+from host_sim.transport.link import Frame
+from tests.lab.check.canaries import (  # noqa: F401 - they note their robots
+    bytes_and_protection,
+    conversation,
+    messages,
+    owner_and_held,
+    silence_and_lockstep,
+)
+from tests.lab.check.canaries.meddled import CANARIES, Robot
+from tests.lab.check.virtual import EXAMPLE, example, one_for_all, virtual
+
+OF_OTHERS = (
+    "What is asked of a robot has a number",
+    "**stop** (COMMAND).",
+    "**start** with profile and seed",
+    "This repeats every 20 ms",
+    "[A program in Python]",
+    "For example, ",
+    "Whoever knows the protocol",
+    "Its owner computes the same",
+    "Somebody who keeps",
+)
+"""How sentences begin that ask nothing of a robot."""
+
+
+def check(capsys, command, *more):
+    code = main(["check", "--robot-command", command, *map(str, more)])
+    printed = capsys.readouterr()
+    return code, printed.out, printed.err
+
+
+def test_each_sentence_about_a_robot_has_a_number():
+    bare = [text for text in prose() if not re.search(r"\([A-Z]\d+\)", text)]
+
+    assert [text for text in bare if not text.startswith(OF_OTHERS)] == []
+
+
+def test_each_sentence_has_a_check_or_a_reason():
+    of_frames = {"B1", "B3", "B7", "B8", "P1"}
+    rows = {number for number in sentences() if "." in number}
+
+    assert set(sentences()) == set(CHECKS) | set(NOT_CHECKED) | of_frames | rows
+    assert not (set(CHECKS) | of_frames | rows) & set(NOT_CHECKED)
+
+
+def test_the_project_s_robot_passes(capsys):
+    code, out, _ = check(capsys, f"sh -c 'exec {PROGRAM} --node $OCTET_NODE fd:$CAN_CHANNEL'")
+
+    assert code == 0, out
+
+
+def test_a_robot_written_from_the_protocol_passes_and_the_results_are_written(capsys, tmp_path):
+    json_path, junit_path = tmp_path / "robot.json", tmp_path / "robot.xml"
+
+    files = ("--json", json_path, "--junit", junit_path)
+    code, out, _ = check(capsys, f"{sys.executable} {EXAMPLE}", *files, "--node", 3)
+
+    assert code == 0, out
+    cases = json.loads(json_path.read_text())
+    suite = ET.parse(junit_path).getroot()
+    assert len(cases) == len(suite) == len(sentences())
+    assert suite.get("failures") == "0"
+    assert {case["result"] for case in cases} == {"passed", "skipped"}
+
+
+def test_a_robot_that_fails_is_shown_with_its_frames(capsys, tmp_path):
+    defective = tmp_path / "robot.py"
+    defective.write_text(EXAMPLE.read_text().replace("0x4B13", "0x4B14"))
+
+    code, out, _ = check(capsys, f"{sys.executable} {defective}", "--junit", tmp_path / "robot.xml")
+
+    assert code == 1
+    assert "fails T6: HEARTBEAT has the hash" in out
+    assert "layout is 0x4B14, not 0x4B13" in out
+    assert "robot HEARTBEAT counter=" in out
+    assert out.splitlines()[-1].endswith("1 fail: T6")
+    assert "layout is 0x4B14" in ET.parse(tmp_path / "robot.xml").find(".//failure").get("message")
+
+
+def test_what_a_robot_has_said_before_it_is_told_to_stop_is_no_answer_to_that():
+    with virtual(example.Robot)() as talk:
+        talk.link.said.extend(Frame(*frame) for frame in talk.link.robot.report(example.HEARTBEAT))
+
+        CHECKS["T2"](talk)
+
+
+@pytest.mark.parametrize(
+    ("command", "message"),
+    [
+        ("no-such-robot", "cannot start 'no-such-robot': No such file or directory"),
+        ("", "cannot start '': it is empty"),
+        ("sh -c 'echo no bus; exit 3'", "ended with exit code 3 and printed no bus"),
+        ("sleep 60", "the robot does not answer stop within 0.5 s: it sent nothing at all"),
+        ("'", "No closing quotation"),
+    ],
+)
+def test_what_is_no_robot_is_told_in_a_line(capsys, monkeypatch, command, message):
+    monkeypatch.setattr(robots, "WAKE_S", 0.5)
+
+    code, _, err = check(capsys, command)
+
+    assert code == 2
+    assert message in err
+    assert err.count("\n") == 1
+
+
+def test_a_bus_that_is_none_is_told_in_a_line(capsys):
+    assert main(["check", "--bus", "socketcan:no-such-bus"]) == 2
+    assert "cannot open the bus socketcan:no-such-bus" in capsys.readouterr().err
+
+
+def test_a_robot_must_be_named(capsys):
+    assert main(["check"]) == 2
+    assert "--robot-command CMD" in capsys.readouterr().err
+
+
+class Dumb(Robot):
+    """Falls silent for good with its first SENSES, without ending."""
+
+    is_dumb = False
+
+    def step(self, frames, now_ms):
+        said = [] if self.is_dumb else super().step(frames, now_ms)
+        self.is_dumb = self.is_dumb or any(frame_id == example.SENSES for frame_id, _ in frames)
+        return said
+
+
+class Short(Robot):
+    """Sends DRIVE and MEMORY without their last byte."""
+
+    def meddle(self, frame_id, data):
+        return [(frame_id, data[:-1] if frame_id in (example.DRIVE, example.MEMORY) else data)]
+
+
+@pytest.mark.parametrize(("robot", "number"), [(Dumb, "T5"), (Short, "B3")])
+def test_a_robot_whatever_its_defect_is_judged_and_breaks_no_check(robot, number):
+    assert number in {verdict.number for verdict in check_robot(virtual(robot)) if verdict.state == "fails"}
+
+
+def test_where_a_robot_cannot_be_started_its_bus_is_closed_again(monkeypatch):
+    link = SimpleNamespace(closed=0)
+    link.close = lambda: vars(link).update(closed=1)
+    monkeypatch.setattr(robots, "_open", lambda *_: link)
+
+    with pytest.raises(UsageError, match="cannot start"), robots.started("no-such-robot", "virtual:a", 1):
+        pass
+
+    assert link.closed
+
+
+def test_a_good_robot_that_is_there_already_passes():
+    verdicts = check_robot(one_for_all(example.Robot()), missing=("T1", "S6"))
+
+    assert [verdict for verdict in verdicts if verdict.state == "fails"] == []
+    assert {verdict.number for verdict in verdicts if "--robot-command" in verdict.why} == {"T1", "S6"}
+
+
+def test_every_check_has_a_canary():
+    assert sorted(set(CHECKS) - set(CANARIES)) == []
+
+
+@pytest.mark.parametrize("number", sorted(CANARIES))
+def test_a_robot_with_one_defect_fails_that_sentence_and_no_other(number):
+    verdicts = check_robot(virtual(CANARIES[number]))
+
+    assert [verdict.number for verdict in verdicts if verdict.state == "fails"] == [number]

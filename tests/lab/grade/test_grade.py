@@ -1,0 +1,129 @@
+"""`tools/octet grade`: solutions are right, mutants of them are wrong, and nobody else's decision is told."""
+
+import csv
+import json
+import re
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import pytest
+
+from host_sim.base.toml_file import parse_toml
+from host_sim.lab.grade.attempt import TITLES
+from host_sim.lab.grade.grade_command import EXERCISES
+from host_sim.lab.grade.grading import grade
+from tests.runs.support import octet_process
+
+ROOT = Path(__file__).resolve().parents[3]
+SOLUTIONS = Path(__file__).parent / "solutions"
+MUTANTS = {
+    int(number): changes
+    for number, changes in parse_toml((Path(__file__).parent / "mutants.toml").read_text()).items()
+}
+
+
+def solution(number: int) -> str:
+    return (SOLUTIONS / f"{number}.c").read_text()
+
+
+@pytest.fixture(scope="module")
+def graded(tmp_path_factory: pytest.TempPathFactory) -> dict[int, list]:
+    """The grades of each solution, and of its mutants after it."""
+    found = {}
+    for number in TITLES:
+        folder = tmp_path_factory.mktemp(f"exercise{number}")
+        texts = [solution(number), *(solution(number).replace(old, new) for old, new in MUTANTS[number])]
+        assert len(set(texts)) == len(texts), number
+        files = [folder / f"{place}.c" for place in range(len(texts))]
+        for file, text in zip(files, texts, strict=True):
+            file.write_text(text)
+        found[number] = grade(number, 1, files)
+    return found
+
+
+def test_each_exercise_has_a_solution_mutants_and_a_section():
+    page = (ROOT / "docs/exercises.md").read_text()
+
+    assert set(TITLES) == set(MUTANTS) == set(range(1, EXERCISES + 1))
+    assert [f"\n## {number}: {title}\n" in page for number, title in TITLES.items()] == [True] * EXERCISES
+
+
+@pytest.mark.parametrize("number", TITLES)
+def test_the_solution_is_right(graded, number):
+    assert graded[number][0].verdict.status == "pass", graded[number][0].verdict.message
+
+
+@pytest.mark.parametrize("number", TITLES)
+def test_its_mutants_are_wrong(graded, number):
+    survived = [MUTANTS[number][place] for place, it in enumerate(graded[number][1:]) if it.verdict.status == "pass"]
+
+    assert survived == []
+
+
+def test_the_first_wrong_decision_is_told_in_words(graded):
+    assert "front-right" in graded[1][1].verdict.message
+    assert graded[1][1].verdict.message.endswith(
+        ": you chose a turn right by 10 degrees; asked is a turn left by 10 degrees"
+    )
+    assert "asked is a turn to either side by 45 degrees" in graded[4][2].verdict.message
+
+
+def submissions(folder: Path) -> Path:
+    """A right solution, a copy of it with other names, a wrong one, one that does not end, and no C at all."""
+    texts = {
+        "ada": solution(4),
+        "bob": solution(4).replace("*config", "*c").replace("config->", "c->") + "/* all mine */\n",
+        "eve": solution(4).replace("any_side(brain)", "SIDE_LEFT").replace("if (", "if (brain && "),
+        "joe": solution(4).replace("    if (", "    for (;;)\n        ;\n    if ("),
+        "kim": "no C <at all>",
+    }
+    for name, text in texts.items():
+        (folder / name).mkdir(parents=True)
+        (folder / name / "mine.c").write_text(text)
+    return folder
+
+
+def test_a_folder_gives_tables_for_people_and_programs(tmp_path):
+    folder = submissions(tmp_path / "submissions")
+    outputs = [word for it in ("--html", "--csv", "--junit") for word in (it, tmp_path / f"grades.{it[2:]}")]
+
+    done = octet_process("grade", "4", folder, *outputs, "--results", tmp_path / "results")
+
+    statuses = ["pass", "pass", "fail", "fail", "error"]
+    assert done.returncode == 1
+    words = re.findall(r"^\S+/\w+/mine\.c: (right|wrong|no solution)", done.stdout, re.MULTILINE)
+    assert words == ["right", "right", "wrong", "wrong", "no solution"]
+    with (tmp_path / "grades.csv").open(newline="") as file:
+        assert [row["status"] for row in csv.DictReader(file)] == statuses
+    suite = ET.parse(tmp_path / "grades.junit").getroot()
+    assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("5", "2", "1")
+    results = [json.loads(path.read_text()) for path in sorted((tmp_path / "results").iterdir())]
+    assert [(it["version"], it["status"]) for it in results] == [(2, status) for status in statuses]
+    assert "no C &lt;at all&gt;" in (tmp_path / "grades.html").read_text()
+    assert "mine.c" in done.stdout.splitlines()[0].partition("the same but for names and comments: ")[2]
+
+
+def test_the_verdict_is_the_same_again_and_another_with_another_seed(tmp_path):
+    wrong = tmp_path / "wrong.c"
+    wrong.write_text(solution(5).replace(*MUTANTS[5][0]))
+
+    once, again, other = (octet_process("grade", "5", wrong, "--seed", seed).stdout for seed in ("1", "1", "2"))
+
+    assert once == again != other
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("9 x.c", "is not a number from 1 to 8"),
+        ("4 {out}/empty", "no C file is in "),
+        ("4 x.c --html {out}", "it is a folder"),
+    ],
+)
+def test_what_cannot_be_graded_is_refused_in_a_sentence(tmp_path, words, said):
+    (tmp_path / "empty").mkdir()
+
+    done = octet_process("grade", *words.format(out=tmp_path).split())
+
+    assert done.returncode == 2
+    assert said in done.stderr

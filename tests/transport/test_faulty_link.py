@@ -1,0 +1,235 @@
+"""A link with faults: each does to the frames what its name says, and a recorded one does it again."""
+
+import tracemalloc
+from collections import deque
+from random import Random
+
+import pytest
+
+from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.forgery import forgers
+from host_sim.protocol.generated import NOTHING_SENSED, Opcode
+from host_sim.transport.clock import VirtualClock
+from host_sim.transport.faulty_link import FaultyLink, Schedule
+from host_sim.transport.rule import Rule
+
+PROTOCOL = Protocol()
+SENT = [Frame(0x123, bytes([number] * 8)) for number in range(20)]
+
+
+class Mirror:
+    """A far end that sends back what it receives."""
+
+    def __init__(self) -> None:
+        self.heard: list[Frame] = []
+        self.waiting: deque[Frame] = deque()
+
+    def send(self, frame: Frame) -> None:
+        self.heard.append(frame)
+        self.waiting.append(frame)
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        assert timeout_s == 0.0  # with a virtual clock nobody waits
+        return self.waiting.popleft() if self.waiting else None
+
+    def close(self) -> None:
+        self.waiting.clear()
+
+
+class Journey:
+    """Frames that went through a link with faults: what the far end heard, and what came back, with its time."""
+
+    def __init__(self, *rules: str | Rule, seed: int = 1) -> None:
+        self.mirror, self.clock = Mirror(), VirtualClock()
+        parsed = [rule if isinstance(rule, Rule) else Rule.parse(rule) for rule in rules]
+        self.link = FaultyLink(self.mirror, Schedule(parsed, seed, forgers(PROTOCOL)), self.clock)
+        self.back: list[Frame] = []
+        self.times: list[float] = []
+        for frame in SENT:
+            self.link.send(frame)
+            self._listen(0.01)
+        self._listen(1.0)
+
+    def _listen(self, seconds: float) -> None:
+        while (frame := self.link.receive(seconds)) is not None:
+            self.back.append(frame)
+            self.times.append(self.clock.now())
+
+    @property
+    def heard(self) -> list[Frame]:
+        return self.mirror.heard
+
+
+class Flood(Mirror):
+    """A far end that always has one more frame, for as long as anybody could wait."""
+
+    def receive(self, _: float) -> Frame | None:
+        self.heard.append(SENT[0])
+        assert len(self.heard) < 100_000
+        return SENT[0]
+
+
+def test_a_timeout_ends_even_if_frames_that_are_lost_keep_coming():
+    link = FaultyLink(Flood(), Schedule([Rule.parse("drop:100%/from")], 1, forgers(PROTOCOL)))
+
+    assert link.receive(0.001) is None
+
+
+def test_without_a_rule_every_frame_passes_as_it_was():
+    journey = Journey()
+
+    assert (journey.heard, journey.back) == (SENT, SENT)
+
+
+def test_drop_loses_the_frames_that_it_names():
+    journey = Journey("drop@3-5/to")
+
+    assert journey.heard == SENT[:2] + SENT[5:]
+
+
+def test_a_chance_hits_some_frames_and_both_ways():
+    journey = Journey("drop:30%")
+
+    assert len(SENT) > len(journey.heard) > len(journey.back) > 0
+
+
+def test_duplicate_lets_a_frame_arrive_again():
+    journey = Journey("duplicate:2@4/to")
+
+    assert journey.heard == SENT[:3] + [SENT[3]] * 3 + SENT[4:]
+
+
+def test_reorder_lets_later_frames_pass():
+    journey = Journey("reorder:2@4/to")
+
+    assert journey.heard == [*SENT[:3], SENT[4], SENT[5], SENT[3], *SENT[6:]]
+
+
+def test_a_frame_that_nobody_overtakes_arrives_all_the_same():
+    journey = Journey("reorder:5@20/to")
+
+    assert journey.heard == SENT
+
+
+def test_delay_makes_a_frame_late():
+    prompt, late = Journey(), Journey("delay:50ms@20/from")
+
+    assert late.back == SENT
+    assert late.times[-1] - prompt.times[-1] == pytest.approx(0.05, abs=0.001)
+
+
+def test_a_delay_within_bounds_varies_and_keeps_to_them():
+    journey = Journey("delay:5-300ms/to")
+
+    assert sorted(journey.heard) == SENT
+    assert journey.heard != SENT
+
+
+def test_corrupt_changes_one_bit():
+    journey = Journey("corrupt@4/to")
+
+    (changed,) = set(journey.heard) - set(SENT)
+    assert (int.from_bytes(changed.data, "big") ^ int.from_bytes(SENT[3].data, "big")).bit_count() == 1
+
+
+def test_truncate_cuts_a_frame_short():
+    journey = Journey("truncate:3@4/to")
+
+    assert journey.heard[3] == Frame(0x123, SENT[3].data[:3])
+
+
+def test_flood_lets_others_talk():
+    journey = Journey("flood:50@4/to")
+
+    foreign = [frame for frame in journey.heard if frame not in SENT]
+    assert len(foreign) == 50
+    assert [frame for frame in journey.heard if frame in SENT] == SENT
+    assert {len(frame.data) for frame in foreign} == set(range(9))
+
+
+def test_forge_sends_a_command_in_our_name():
+    journey = Journey("forge:stop@4/to")
+
+    (forged,) = set(journey.heard) - set(SENT)
+    decoded = PROTOCOL.decode(forged)
+    assert decoded is not None
+    assert (decoded.name, decoded.signals["opcode"]) == ("COMMAND", Opcode.STOP)
+
+
+def test_forged_senses_are_those_of_the_next_tick():
+    (forger, sent) = forgers(PROTOCOL)("SENSES"), PROTOCOL.encode_senses(NOTHING_SENSED._replace(tick=255), 14)
+
+    forger.hear(sent)
+
+    signals = PROTOCOL.decode(forger.forge(Random(1))).signals
+    assert (signals["tick"], signals["counter"]) == (0, 0)
+
+
+EVERYTHING = (
+    "drop:20%",
+    "duplicate:20%",
+    "reorder:20%",
+    "delay:20%:0-300ms",
+    "corrupt:20%",
+    "truncate:20%",
+    "flood:9%",
+)
+
+
+def test_the_same_seed_makes_the_same_faults():
+    first, again, other = Journey(*EVERYTHING), Journey(*EVERYTHING), Journey(*EVERYTHING, seed=2)
+
+    assert (first.heard, first.back, first.times) == (again.heard, again.back, again.times)
+    assert first.heard != other.heard
+
+
+def test_recorded_faults_happen_again():
+    first = Journey(*EVERYTHING)
+
+    again = Journey(*(Rule.parse(str(rule)) for rule in first.link.schedule.struck))
+
+    assert (again.heard, again.back, again.times) == (first.heard, first.back, first.times)
+    assert first.link.schedule.count == again.link.schedule.count > 20
+
+
+def test_a_fault_takes_a_few_bytes_to_record():
+    schedule = Schedule([Rule.parse("drop:50%"), Rule.parse("duplicate:50%")], 1, forgers(PROTOCOL))
+    tracemalloc.start()
+
+    for _ in range(1000):
+        schedule.passing(SENT[0], "to")
+
+    size, _ = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert schedule.count > 900
+    assert size < 50 * schedule.count
+
+
+def test_of_very_many_faults_the_first_are_recorded_and_all_are_counted(monkeypatch):
+    monkeypatch.setattr("host_sim.transport.faulty_link.RECORD_MAX", 5)
+
+    link = Journey("drop:60%").link
+
+    assert len(link.schedule.struck) == 5 < link.schedule.count
+
+
+def test_a_fault_hits_a_frame_whatever_happened_to_the_others():
+    alone, among_others = Journey("corrupt@9/to"), Journey("drop@2/to", "corrupt@9/to")
+
+    assert alone.heard[8:] == among_others.heard[7:]
+
+
+def test_a_babbling_node_talks_first_and_the_frame_waits():
+    journey = Journey(Rule.parse("babble:3@1/to"))
+
+    assert len(journey.heard) == len(SENT) + 3
+    assert [frame for frame in journey.heard if frame in SENT] != []
+
+
+def test_a_link_that_is_closed_closes_what_it_stands_on():
+    mirror = Mirror()
+    mirror.waiting.append(SENT[0])
+
+    FaultyLink(mirror, Schedule([], 1, forgers(PROTOCOL)), VirtualClock()).close()
+
+    assert not mirror.waiting

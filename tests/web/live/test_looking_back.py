@@ -1,0 +1,130 @@
+"""A live run is looked back at, forked, and once it has ended its page is that of the recorded run."""
+
+import time
+from collections.abc import Callable
+
+import pytest
+from playwright.sync_api import Page
+
+from host_sim.live.server import HAND_OVER_S
+from tests.runs.support import octet
+from tests.web.live.test_server import ask
+from tests.web.support import Watched, pause, run_in, wait_for, wait_for_text
+
+REPEATED = "document.querySelector('#what-if-news').textContent.startsWith('A is')"
+SAME = "A is the recorded run, tick for tick; B is yours to change."
+
+
+@pytest.fixture
+def watched(watch) -> Watched:
+    return watch("--seed", "2")
+
+
+@pytest.fixture
+def page(watched: Watched, open_page: Callable[..., Page]) -> Page:
+    page = open_page(watched.url)
+    wait_for(page, "octet.scene.state.tick > 100")
+    return page
+
+
+def look_back(page: Page, tick: int) -> None:
+    """Drags the slider back."""
+    with page.expect_navigation():
+        page.locator("#scrub").fill(str(tick))
+        page.locator("#scrub").dispatch_event("change")
+    wait_for(page, "window.octet?.data")
+
+
+def recorded(page: Page) -> None:
+    """Waits until the page is that of the recorded run."""
+    page.wait_for_url("**/recorded*")
+    wait_for(page, "window.octet?.data")
+
+
+def test_the_slider_leads_back_to_any_tick_and_a_button_to_the_present(page):
+    look_back(page, 60)
+
+    assert page.evaluate("octet.tick") == 60
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate("octet.scene.state.tick") == 61
+    last = page.evaluate("octet.last")
+    assert last > 100
+    with page.expect_navigation():
+        page.click("#to-live")
+    wait_for(page, "last => octet.scene?.state.tick > last && octet.play.playing", last)
+
+
+def test_the_slider_goes_along_until_a_person_has_it(page):
+    wait_for(page, "document.querySelector('#scrub').max > 100")
+    pause(page)
+    assert page.evaluate("(({ value, max }) => value === max)(document.querySelector('#scrub'))")
+
+    page.evaluate("document.querySelector('#scrub').value = 50")
+    page.locator("#scrub").dispatch_event("input")
+    page.evaluate("octet.draw()")
+
+    assert (page.input_value("#scrub"), page.inner_text("#clock")) == ("50", "0:01.0")
+
+
+def test_what_if_lays_a_copy_of_the_run_so_far_beside_it(page):
+    pause(page)
+    tick = page.evaluate("octet.scene.state.tick")
+    page.keyboard.press("w")
+    recorded(page)
+    wait_for(page, REPEATED)
+
+    assert page.inner_text("#what-if-news") == SAME
+    lab = page.frames[1]
+    wait_for_text(lab, "#parting", "They do the same until one of them ends, at ")
+    assert lab.evaluate("[octet.tick, octet.lanes[0].last, octet.lanes[1].last > octet.tick]") == [tick, tick, True]
+
+
+def test_once_the_run_has_ended_the_page_is_the_recorded_run_and_its_buttons_work(watched, page):
+    assert watched.end() == 0
+
+    recorded(page)
+    wait_for_text(page, "#status", "The run has ended. This is its recording")
+    assert not page.is_visible("#to-live")
+    assert page.evaluate("octet.tick === octet.last && octet.last > 100")
+    page.select_option("#kind", "environment")
+    page.click("#before")
+    assert page.evaluate("octet.tick < octet.last")
+    assert page.evaluate("JSON.parse(document.querySelector('#run').textContent).ticks") == page.evaluate(
+        "octet.last + 1"
+    )
+    page.keyboard.press("w")
+    wait_for(page, REPEATED)
+    assert page.inner_text("#what-if-news") == SAME
+
+
+def test_what_it_becomes_is_the_page_in_the_folder_of_the_run(watched, page):
+    assert watched.end() == 0
+    recorded(page)
+    again = watched.out / "again.html"
+
+    assert octet("replay", watched.out / "run.log", "--html", again).returncode == 0
+
+    shown = page.evaluate("({ ...JSON.parse(document.querySelector('#run').textContent), title: null })")
+    assert shown == run_in(again)
+
+
+def test_a_page_that_fetches_no_recording_ends_a_run_late_and_is_no_part_of_its_time(watch, open_page):
+    began = time.monotonic()
+    watched = watch("--seed", "2")
+    page = open_page(watched.url)
+    wait_for(page, "octet.scene.state.tick > 10")
+    page.evaluate("void (window.fetch = () => Promise.reject(new Error('no network')))")
+    passed_s = time.monotonic() - began
+
+    assert watched.end() == 0
+
+    assert time.monotonic() - began > passed_s + HAND_OVER_S
+    assert watched.summary()["wall_s"] < passed_s + HAND_OVER_S / 2
+
+
+def test_the_recording_is_for_those_who_may_watch(watched):
+    host, port = watched.url.split("/")[2].split(":")
+    address = (host, int(port), "")
+
+    assert ask(address, "/recorded").status == 403
+    assert ask(address, f"/recorded?{watched.url.partition('?')[2]}").status == 404  # nobody watches: no tick yet
