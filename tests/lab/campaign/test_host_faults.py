@@ -197,7 +197,7 @@ def test_a_cell_that_need_not_be_noticed_is_repeated_as_one():
 
 def test_a_run_whose_memory_file_vanishes_writes_it_again_and_says_so(tmp_path, monkeypatch):
     memory = tmp_path / "robot.mem"
-    monkeypatch.setattr("host_sim.report.replay_page.write_page", lambda *_: memory.unlink())
+    monkeypatch.setattr("host_sim.cli.outputs.Outputs.page", lambda _: memory.unlink())
 
     words = ("--environments", "1", "--limit-s", "5", "--bus", "none", "--quiet", "--out", tmp_path / "out")
     done = octet("run", *words, "--memory", memory)
