@@ -20,10 +20,10 @@ FILES = {
     "tests/world/test_far.py": "from host_sim.world import far\n",
     "tests/world/test_lonely_things.py": "",
     "tests/runs/test_far_runs.py": "import tests.world.test_far\n",
-    "host_sim/web/core/kept.js": "",
+    "host_sim/web/core/storage.js": "",
     "host_sim/web/core/model.ts": "",
     "host_sim/web/core/alone.js": "",
-    "host_sim/web/core/app.js": 'import { kept } from "./kept.js";\nimport type { Model } from "./model.ts";\n',
+    "host_sim/web/core/app.js": 'import { kept } from "./storage.js";\nimport type { Model } from "./model.ts";\n',
     "host_sim/web/head.html": '<link rel="stylesheet" href="style.css">\n',
     "host_sim/web/page.html": '{head.html}<script src="core/app.js"></script>\n',
     "host_sim/web/style.css": "",
@@ -77,7 +77,7 @@ def test_a_file_concerns_the_tests_that_name_it_and_not_those_that_name_one_like
     assert found_for(project, "tools/words") == ({"tests/tools/test_words.py"}, 0)
 
 
-@pytest.mark.parametrize("changed", ["core/kept.js", "core/model.ts", "texts/de.json", "style.css"])
+@pytest.mark.parametrize("changed", ["core/storage.js", "core/model.ts", "texts/de.json", "style.css"])
 def test_what_a_page_is_made_of_concerns_the_tests_of_the_page(project, changed):
     assert found_for(project, f"host_sim/web/{changed}") == ({"tests/web/test_page.py"}, 0)
 

@@ -114,11 +114,11 @@ def test_the_arena_is_what_a_replay_shows_first(recorded: Path, open_page):
 
 def test_an_arena_that_is_small_or_covered_is_found(recorded: Path, open_page):
     page = open_page(recorded.as_uri())
-    page.evaluate("document.querySelector('#stage').append(document.querySelector('.lens'))")
-    page.evaluate("document.querySelector('.lens').style = 'position: absolute; left: 12px; top: 60px'")
+    page.evaluate("document.querySelector('#stage').append(document.querySelector('.viewport'))")
+    page.evaluate("document.querySelector('.viewport').style = 'position: absolute; left: 12px; top: 60px'")
 
     assert len(too_small(page, {(1366, 657): (720, 540)}, "#arena")) == 1
-    page.evaluate("document.querySelector('.lens').remove()")
+    page.evaluate("document.querySelector('.viewport').remove()")
     assert too_small(page, {(1366, 657): (720, 540)}, "#arena") == []
     page.evaluate("document.querySelector('#floor').style.width = '500px'")
     assert len(too_small(page, {(1366, 657): (720, 540)}, "#arena")) == 1

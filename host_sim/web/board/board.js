@@ -1,10 +1,10 @@
 // @ts-check
 /* The board of a class: how to join, and who has reached which goals. */
 
-import { buttonOf, made } from "../core/building.js";
+import { buttonOf, made } from "../core/dom.js";
 import { byId, contextOf, setText, typedById } from "../core/elements.js";
-import { hideToken } from "../core/kept.js";
 import { inEachLanguage, languageCode, robotWords, say, wordsOf } from "../core/language.js";
+import { hideToken } from "../core/storage.js";
 import { SIDES } from "../generated.js";
 
 /**

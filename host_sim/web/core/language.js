@@ -1,10 +1,10 @@
 // @ts-check
 /* The texts of the page in the reader's language: the browser's, or the one chosen here before. */
 
-import { made } from "./building.js";
+import { made } from "./dom.js";
 import { byId } from "./elements.js";
-import { keep, kept } from "./kept.js";
 import { ENGLISH, filled } from "./phrases.js";
+import { keep, kept } from "./storage.js";
 
 /**
  * The words of one language, as in texts/: those of the page, and those in which it says what it hears in English from

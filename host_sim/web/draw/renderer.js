@@ -16,12 +16,12 @@ const FOOD_MM = 50;
 export class Renderer {
   /**
    * @param {HTMLCanvasElement} canvas
-   * @param {Lens} [lens] - Says which part of the arena to show; without one, all of it.
+   * @param {Viewport} [viewport] - Says which part of the arena to show; without one, all of it.
    */
-  constructor(canvas, lens) {
+  constructor(canvas, viewport) {
     this.canvas = canvas;
-    this.lens = lens;
-    lens?.watch(this);
+    this.viewport = viewport;
+    viewport?.watch(this);
     /** @type {Scene | undefined} - The scene that was drawn last. */
     this.scene = undefined;
     /** The upper left corner of what is in view, and its middle, mm. */
@@ -103,8 +103,8 @@ export class Renderer {
       this.canvas.height = height;
     }
     const whole = Math.min(width / (measures.width + 2 * MARGIN_MM), height / (measures.height + 2 * MARGIN_MM));
-    this.scale = whole * (this.lens?.zoom ?? 1);
-    const middle = this.lens?.middleOf(scene) ?? { x: 0, y: 0 };
+    this.scale = whole * (this.viewport?.zoom ?? 1);
+    const middle = this.viewport?.middleOf(scene) ?? { x: 0, y: 0 };
     const [across, down] = [width / this.scale, height / this.scale];
     const { corner, scale } = this;
     corner.x = Math.max(-MARGIN_MM, Math.min(middle.x - across / 2, measures.width + MARGIN_MM - across));

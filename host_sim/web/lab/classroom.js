@@ -1,10 +1,10 @@
 // @ts-check
 /* The page of a pupil: in a class its name and goals go to the board; elsewhere they become a code to type there. */
 
-import { buttonOf, made } from "../core/building.js";
+import { buttonOf, made } from "../core/dom.js";
 import { byId, setText } from "../core/elements.js";
-import { hideToken, keep, kept } from "../core/kept.js";
 import { inEachLanguage, say } from "../core/language.js";
+import { hideToken, keep, kept } from "../core/storage.js";
 import { PLANS } from "../lessons/plans.js";
 
 const REPORT_MS = 3000;

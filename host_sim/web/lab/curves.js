@@ -1,7 +1,7 @@
 // @ts-check
 /* The curves of the runs over time, and the table of their results. */
 
-import { made } from "../core/building.js";
+import { made } from "../core/dom.js";
 import { byId, typedById } from "../core/elements.js";
 import { heard, inEachLanguage, nameIn, say, robotWords } from "../core/language.js";
 import { paletteOf } from "../core/palette.js";

@@ -78,7 +78,7 @@ export class Laboratory extends PlayingPage {
 
   /** @param {Experiment} experiment - Of the run to add and to simulate. */
   addLane(experiment) {
-    const lane = new ShownRun(experiment, byId("floors"), this.lens);
+    const lane = new ShownRun(experiment, byId("floors"), this.viewport);
     this.lanes.push(lane);
     lane.canvas.addEventListener("pointerdown", () => this.select(lane), { capture: true });
     lane.canvas.addEventListener("focus", () => this.select(lane));

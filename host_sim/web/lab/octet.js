@@ -2,7 +2,7 @@
 /* octet.html: runs of the real firmware in this page, side by side; each change leads to another future. */
 
 import { SidePanel } from "./side_panel.js";
-import { buttonOf } from "../core/building.js";
+import { buttonOf } from "../core/dom.js";
 import { byId, isForPage, mayMove, setText, typedById } from "../core/elements.js";
 import { LANGUAGES, heard, inEachLanguage, languageCode, nameIn, say } from "../core/language.js";
 import { LabEditor } from "./lab_editor.js";

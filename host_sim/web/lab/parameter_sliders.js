@@ -1,7 +1,7 @@
 // @ts-check
 /* A slider for each parameter of the robot. */
 
-import { buttonOf, made } from "../core/building.js";
+import { buttonOf, made } from "../core/dom.js";
 import { byId } from "../core/elements.js";
 import { heard, inEachLanguage, say } from "../core/language.js";
 import { PARAMETERS } from "../generated.js";

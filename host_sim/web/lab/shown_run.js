@@ -1,7 +1,7 @@
 // @ts-check
 /* One of the runs shown side by side: its experiment, its results, and its arena. */
 
-import { made } from "../core/building.js";
+import { made } from "../core/dom.js";
 import { heard, say } from "../core/language.js";
 import { setText } from "../core/elements.js";
 import { OPCODE, PARAMETERS, PROFILES } from "../generated.js";
@@ -27,9 +27,9 @@ export class ShownRun {
   /**
    * @param {Experiment} experiment
    * @param {HTMLElement} parent - Where its arena goes.
-   * @param {Lens} lens - Says which part of the arena to show.
+   * @param {Viewport} viewport - Says which part of the arena to show.
    */
-  constructor(experiment, parent, lens) {
+  constructor(experiment, parent, viewport) {
     this.experiment = experiment;
     this.number = lanes;
     lanes += 1;
@@ -39,7 +39,7 @@ export class ShownRun {
     this.caption = made("figcaption", []);
     this.figure = made("figure", [this.canvas, this.caption], { class: "lane" });
     parent.append(this.figure);
-    this.renderer = new Renderer(this.canvas, lens);
+    this.renderer = new Renderer(this.canvas, viewport);
     /** @type {RunData | undefined} */
     this.data = undefined;
     /** @type {Scene | undefined} */

@@ -1,7 +1,7 @@
 // @ts-check
 /* The choice of a new run's world: a picture of each world's first environment. */
 
-import { made } from "../core/building.js";
+import { made } from "../core/dom.js";
 import { byId, typedById } from "../core/elements.js";
 import { heard } from "../core/language.js";
 import { RunData } from "../core/run_data.js";

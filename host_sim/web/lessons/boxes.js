@@ -1,7 +1,7 @@
 // @ts-check
 /* Seven boxes, one for each pattern with something in the way: the turn that the robot knows, and how many beads are in it. */
 
-import { made } from "../core/building.js";
+import { made } from "../core/dom.js";
 import { robotWords, say } from "../core/language.js";
 import { CELL_COUNT, SIDE } from "../generated.js";
 import { makeButton, pictureOf, showSide, sideName } from "../panel/cells_view.js";

@@ -2,7 +2,7 @@
 /* The course: the open lesson and its goals, which are checked against the runs. */
 
 import { byId } from "../core/elements.js";
-import { keep, kept } from "../core/kept.js";
+import { keep, kept } from "../core/storage.js";
 import { LessonView } from "./lesson_view.js";
 import { inEachLanguage, languageCode, wordsOf } from "../core/language.js";
 import { PLANS } from "./plans.js";

@@ -1,7 +1,7 @@
 // @ts-check
 /* A dot for each run: how long it took, for two behaviours one above the other, with the interval of each mean. */
 
-import { buttonOf, choiceOf, made } from "../core/building.js";
+import { buttonOf, choiceOf, made } from "../core/dom.js";
 import { heard, say } from "../core/language.js";
 import { filled } from "../core/phrases.js";
 import { PROFILES } from "../generated.js";

@@ -2,7 +2,7 @@
 /* A lesson in the page: its question, its steps, its goals and what it needs. */
 
 import { byId, setText } from "../core/elements.js";
-import { buttonOf, choiceOf, made, termsOf } from "../core/building.js";
+import { buttonOf, choiceOf, made, termsOf } from "../core/dom.js";
 import { filled } from "../core/phrases.js";
 import { PLANS } from "./plans.js";
 import { toolOf } from "./tools.js";

@@ -6,7 +6,7 @@ import { heard, languageCode, say } from "../core/language.js";
 import { filled } from "../core/phrases.js";
 import { SENSORS } from "../core/sensors.js";
 import { PARAMETERS } from "../generated.js";
-import { buttonOf, choiceOf, made } from "../core/building.js";
+import { buttonOf, choiceOf, made } from "../core/dom.js";
 import { Boxes } from "./boxes.js";
 import { DotPlot } from "./dot_plot.js";
 import { settingAt, ticksPerObstacle } from "./evidence.js";

@@ -5,7 +5,7 @@ import { pictureOf } from "../panel/cells_view.js";
 import { byId } from "../core/elements.js";
 import { CELL_COUNT } from "../generated.js";
 import { binary } from "../core/phrases.js";
-import { made, termsOf } from "../core/building.js";
+import { made, termsOf } from "../core/dom.js";
 
 /**
  * @typedef {import("../core/language.js").Texts["lessons"]} Texts

@@ -2,8 +2,8 @@
 /* The WebSocket of a live run: connects, and reconnects. */
 
 import { byId, setText } from "../core/elements.js";
-import { hideToken } from "../core/kept.js";
 import { say } from "../core/language.js";
+import { hideToken } from "../core/storage.js";
 
 const RECONNECT_MS = 1000;
 const GOING_AWAY = 1001;

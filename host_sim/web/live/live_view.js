@@ -8,7 +8,7 @@ import { Controls } from "./controls.js";
 import { DragController } from "../edit/drag_controller.js";
 import { byId, setText, typedById } from "../core/elements.js";
 import { FaultMenu } from "../panel/fault_menu.js";
-import { Lens } from "../draw/lens.js";
+import { Viewport } from "../draw/viewport.js";
 import { LessonsView } from "../panel/lessons_view.js";
 import { Panel } from "../panel/panel.js";
 import { Renderer } from "../draw/renderer.js";
@@ -26,7 +26,7 @@ export class LiveView {
    */
   constructor(scene, send, onChange) {
     this.scene = scene;
-    this.renderer = new Renderer(typedById("arena", HTMLCanvasElement), new Lens(onChange));
+    this.renderer = new Renderer(typedById("arena", HTMLCanvasElement), new Viewport(onChange));
     this.editor = new ArenaEditor(scene, send, onChange);
     this.drag = new DragController(this.renderer, this.editor);
     this.panel = new Panel((cell, side) => send({ do: "write", node: scene.node, cell, side }));

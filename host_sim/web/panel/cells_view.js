@@ -1,7 +1,7 @@
 // @ts-check
 /* The eight cells: for each pattern its picture, what was learned, when, and how often it was used. */
 
-import { buttonOf, made } from "../core/building.js";
+import { buttonOf, made } from "../core/dom.js";
 import { CELL_COUNT, REASON, SIDE, SIDES } from "../generated.js";
 import { inEachLanguage, robotWords, say } from "../core/language.js";
 import { binary } from "../core/phrases.js";

@@ -1,7 +1,7 @@
 // @ts-check
 /* The list of what was learned, the newest first. */
 
-import { made } from "../core/building.js";
+import { made } from "../core/dom.js";
 import { byId } from "../core/elements.js";
 import { languageCode, robotWords, say } from "../core/language.js";
 import { lessonSentence } from "../core/phrases.js";

@@ -2,7 +2,7 @@
 /* The article's listing, with the line highlighted that the robot executes. */
 
 import { pictureOf } from "./cells_view.js";
-import { made } from "../core/building.js";
+import { made } from "../core/dom.js";
 import { byId, setText } from "../core/elements.js";
 import { inEachLanguage, robotWords, say } from "../core/language.js";
 import { REASON, SIDE } from "../generated.js";

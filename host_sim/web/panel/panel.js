@@ -3,7 +3,7 @@
 
 import { SteadyStates } from "./steady_states.js";
 import { CellsView } from "./cells_view.js";
-import { made } from "../core/building.js";
+import { made } from "../core/dom.js";
 import { byId, setText } from "../core/elements.js";
 import { REASON_KEYS } from "../core/palette.js";
 import { inEachLanguage, nameIn, robotWords, say } from "../core/language.js";

@@ -1,7 +1,7 @@
 // @ts-check
 /* Chooses which of several robots the panel shows: a button for each, and keys. Hidden if there is only one robot. */
 
-import { buttonOf } from "../core/building.js";
+import { buttonOf } from "../core/dom.js";
 import { byId, isForPage } from "../core/elements.js";
 import { inEachLanguage, say } from "../core/language.js";
 

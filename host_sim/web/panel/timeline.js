@@ -1,7 +1,7 @@
 // @ts-check
 /* The strip above the scrubber: a mark for every event that one can jump to. */
 
-import { made } from "../core/building.js";
+import { made } from "../core/dom.js";
 import { byId, contextOf } from "../core/elements.js";
 import { inEachLanguage, nameIn } from "../core/language.js";
 import { REASON } from "../generated.js";

@@ -1,7 +1,7 @@
 // @ts-check
 /* A field for a program, with line numbers, the current line highlighted and the line of a mistake marked. */
 
-import { made } from "../core/building.js";
+import { made } from "../core/dom.js";
 import { setText } from "../core/elements.js";
 
 /** The text is in `field`. */

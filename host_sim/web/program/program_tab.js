@@ -1,7 +1,7 @@
 // @ts-check
 /* The tab with a program for a robot, which runs beside the firmware, step by step if desired. */
 
-import { buttonOf, choiceOf, made, termsOf } from "../core/building.js";
+import { buttonOf, choiceOf, made, termsOf } from "../core/dom.js";
 import { byId, setText } from "../core/elements.js";
 import { inEachLanguage, speak, wordsOf } from "../core/language.js";
 import { filled } from "../core/phrases.js";

@@ -3,7 +3,7 @@
 
 import { byId, isForPage, setText, typedById } from "../core/elements.js";
 import { inEachLanguage, say } from "../core/language.js";
-import { Lens } from "../draw/lens.js";
+import { Viewport } from "../draw/viewport.js";
 import { explainMarks } from "../panel/timeline.js";
 
 /**
@@ -23,7 +23,7 @@ export class PlayingPage {
     this.frameAt = undefined;
     /** Whether there is anything new to draw. */
     this.stale = true;
-    this.lens = new Lens(() => (this.stale = true));
+    this.viewport = new Viewport(() => (this.stale = true));
     this.scrub = typedById("scrub", HTMLInputElement);
     this.marks = typedById("marks", HTMLCanvasElement);
     this.scrub.min = `${first}`;

@@ -28,7 +28,7 @@ class Player extends PlayingPage {
     this.data = data;
     /** @type {number | undefined} - The tick that the memory is compared with. */
     this.pinned = undefined;
-    this.renderer = new Renderer(typedById("arena", HTMLCanvasElement), this.lens);
+    this.renderer = new Renderer(typedById("arena", HTMLCanvasElement), this.viewport);
     this.panel = new Panel();
     this.lessonsView = new LessonsView();
     this.scene = new Scene(data.measures, data.sceneAt(data.first), data.statesAt(data.first));

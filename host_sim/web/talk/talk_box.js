@@ -1,7 +1,7 @@
 // @ts-check
 /* The box for conversations: the choice of a speaker, what was said, and an input line. */
 
-import { buttonOf, made } from "../core/building.js";
+import { buttonOf, made } from "../core/dom.js";
 import { setText } from "../core/elements.js";
 import { inEachLanguage, LANGUAGES, languageCode, say } from "../core/language.js";
 

@@ -129,7 +129,7 @@ def test_two_fingers_zoom(recorded, open_page):
     for kind, apart in (("touchStart", 30), ("touchMove", 45), ("touchMove", 60), ("touchEnd", 0)):
         touch(kind, apart)
 
-    assert page.evaluate("octet.lens.zoom") == pytest.approx(2, abs=0.3)
+    assert page.evaluate("octet.viewport.zoom") == pytest.approx(2, abs=0.3)
 
 
 FIRST_LOOK = """() => {

@@ -15,7 +15,7 @@ const ARROW_SHARE = 0.15;
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 /** One for all arenas of a page, whose buttons are zoom-in, zoom-out and follow. */
-export class Lens {
+export class Viewport {
   /** @param {() => void} onChange - Called when the arenas are to be drawn anew. */
   constructor(onChange) {
     this.onChange = onChange;
