@@ -27,7 +27,7 @@ examples:
   tools/octet calibrate --set body_track_mm=163 --bus socketcan:can0
   tools/octet calibrate --robot emulated --seed 3        an emulated Blue Pill in a kit body, beside the true values
 
-An impossible result is refused, and the old values stay. Without a PC, use the button: see docs/hardware.md.
+An impossible result is refused, and the old values stay. Without a PC, use the button: see docs/build.md.
 """
 
 
