@@ -3,6 +3,11 @@
 LabWired clocks SysTick by the core even where the image chose an eighth of that clock: in STM32F1, F4 and G4 its
 CLKSOURCE = 0 means HCLK/8 (PM0056 4.5.1, PM0214 4.5.1). With a core clock of an eighth its time is right, and
 computing takes 8 times as long. A chip with fewer peripherals is twice as fast.
+
+In other ways, too, it differs from the manuals, so these are not judged there: flash writes land as in RAM and erases
+do nothing (PM0075, RM0090 3, RM0440 5); bxCAN sends in no time, never fails and has no FIFO 1 (RM0008 24); FDCAN and
+the independent watchdog are missing; a UART takes 9 cycles a byte and has no overrun (RM0008 27). Its pytest plug-in,
+which would turn an exception into a skip, is switched off.
 """
 
 import re
