@@ -7,8 +7,6 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page
 
-from host_sim.base.paths import WEB
-from tests.runs.support import ROOT
 from tests.web.fake_run import HOME, FakeRun, robot_state
 from tests.web.looks import (
     ARENA,
@@ -133,27 +131,6 @@ def test_the_replay_has_all_that_matters_in_view_even_while_it_compares(recorded
         resize(page, size)
         assert out_of_view(page, REPLAY, size) == [], size
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), size
-
-
-def variables(block: str) -> dict[str, str]:
-    """The variables that a block of the style sheet sets."""
-    return dict(re.findall(r"(--[\w-]+): ([^;]+);", block))
-
-
-def wrong_in_design(page: str) -> list[str]:
-    """Rows of the table of variables that the style sheet contradicts."""
-    blocks = re.findall(r":root \{\n(.*?)\n *\}", (WEB / "style.css").read_text(), re.DOTALL)
-    light, dark = map(variables, blocks[:2])
-    rows = re.findall(r"^\| `(--[\w-]+)` \| `([^`]+)` \| (?:`([^`]+)` )?\|", page, re.MULTILINE)
-    assert len(rows) > 20
-    return [name for name, bright, dim in rows if (light[name], dark.get(name, "")) != (bright, dim)]
-
-
-def test_the_design_is_documented_as_it_is():
-    page = (ROOT / "docs/page.md").read_text()
-
-    assert wrong_in_design(page) == []
-    assert wrong_in_design(page.replace("`#12161b`", "`#12161c`").replace("`4px`", "`5px`")) == ["--s1", "--ground"]
 
 
 def out_of_legend(page: Page) -> list[str]:
