@@ -16,16 +16,15 @@ from host_sim.report.bus_load import COMFORTABLE, load_tables
 _HEAD = """\
 # The wire
 
-For whoever writes a robot, a body or a tool that talks on the bus. `python -m host_sim.report.protocol_page` prints
-this page, generated from [`octet.dbc`](../hal/protocol/octet.dbc) as the code is. Any tool that reads DBC files can
-decode the traffic:
+For those who write a robot, a body or a tool that talks on the bus. `python -m host_sim.report.protocol_page` prints
+this page from [`octet.dbc`](../hal/protocol/octet.dbc), which any tool that reads DBC files can use:
 
 ```sh
 tools/run --environments 1 --limit-s 2 --quiet
 head -n 20 out/run.log | .venv/bin/cantools decode --single-line hal/protocol/octet.dbc
 ```
 
-`octet.dbc` has the identifiers of node 1; [`tools/octet dbc`](logs.md#dbc-files) prints a file for any nodes.
+[`tools/octet dbc`](logs.md#dbc-files) prints a file for nodes other than 1.
 
 ## A conversation
 
@@ -76,8 +75,7 @@ meanwhile, only the newest are used (S6).
 
 A robot started with `lockstep` follows the sender's clock: silence is then not a fault (L1), and the robot takes the
 SENSES of tick n + 1 only after those of tick n (L2). The same SENSES again are answered by the same DRIVE again, and
-change nothing (L3): on a bus that loses frames, a simulator only needs to repeat. The same holds for a COMMAND, in
-lockstep or not (L4).
+change nothing (L3). The same holds for a COMMAND, in lockstep or not (L4).
 
 ## Owner
 
@@ -88,29 +86,26 @@ it stops (O7). Each is counted in FAULTS (O8).
 
 ## What it was told
 
-Whoever knows the protocol can send a command in the owner's name, with the next counter, and the robot obeys. So once
-a second HEALTH reports a check value: `held` covers all commands that the robot has carried out (H1). Its owner
-computes the same from the answers that it got, and detects a foreign command within a second. If SENSES come for the
-tick that the robot took last, with another CRC, `held` is continued over their bytes 1 to 7 and no longer matches:
-somebody else sends SENSES (H6). One damaged frame in 256 has a valid CRC: in a second in which frames were damaged,
-these SENSES may have to come twice (H6).
+Somebody else may send a command in the owner's name, and the robot obeys. So once a second HEALTH reports a check
+value: `held` covers all commands that the robot has carried out (H1). Its owner computes the same from the answers
+that it got. If SENSES come for the tick that the robot took last, with another CRC, `held` is continued over their
+bytes 1 to 7 and no longer matches (H6). One damaged frame in 256 has a valid CRC: in a second in which frames were
+damaged, these SENSES may have to come twice (H6).
 
 In lockstep `held` also covers the SENSES that the robot has taken since its **start**, and the DRIVEs that answered
-them, except the last (H8): those that were altered on their way and have a valid CRC are detected within a second,
-too. On its own clock the robot may miss some, and on its own pins it senses for itself: there SENSES are left out
-(H9).
+them, except the last (H8). On its own clock the robot may miss some, and on its own pins it senses for itself: there
+SENSES are left out (H9).
 
 The check over commands is the lower half of a CRC-32, that of Ethernet and zip (`zlib.crc32` in Python), 0 over
 nothing (H2). Each COMMAND carried out, except **get** and **report**, continues it over the frame's bytes 1 to 7
 (H3); a **stop** without an owner sets it to 0 (H4). While the robot has no owner, HEALTH continues it over the eight
-cells, too (H5): so the report that ends a run also proves its memory. The check over SENSES is another CRC-32, over
+cells, too (H5). The check over SENSES is another CRC-32, over
 their bytes 1 to 7, each combined by XOR with that byte of the DRIVE that answered the SENSES before; the first follow
 none (H8). **start**, **resume** and a **stop** without an owner set it to 0 (H8). `held` is both, combined by XOR
 (H8). For example, after `{start}` alone, `held` is 0x{held:04X}.
 
-Somebody who keeps the robot's answer back could compute a **start** whose seed leaves these 16 bits unchanged. So the
-ANSWER to **stop** has more: in `value` all 32 bits over the commands before it, which show a replaced command, and in
-`which` the sum of their opcodes, modulo 256, which shows one too many (H7).
+A **start** could be computed whose seed leaves these 16 bits unchanged. So the ANSWER to **stop** has in `value` all
+32 bits over the commands before it, and in `which` the sum of their opcodes, modulo 256 (H7).
 
 ## Identifiers
 
@@ -132,9 +127,8 @@ _LOAD = f"""
 ## Bus load
 
 The worst case, stuff bits and interframe space included; in brackets, for robots that ask for RANGES. A bus whose
-regular traffic stays within {COMFORTABLE:.0%} delivers every frame in time; n robots load it n times as much as one.
-Messages without a row come as needed.
-`canbusload` [measures the load](logs.md#other-programs).
+regular traffic stays within {COMFORTABLE:.0%} delivers every frame in time. `canbusload`
+[measures the load](logs.md#other-programs).
 
 """
 

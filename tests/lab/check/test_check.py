@@ -32,9 +32,9 @@ OF_OTHERS = (
     "This repeats every 20 ms",
     "[A program in Python]",
     "For example, ",
-    "Whoever knows the protocol",
+    "Somebody else may send",
     "Its owner computes the same",
-    "Somebody who keeps",
+    "A **start** could be computed",
 )
 """How sentences begin that ask nothing of a robot."""
 
