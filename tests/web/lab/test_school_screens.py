@@ -147,6 +147,7 @@ def test_what_is_cut_what_overlaps_and_what_is_empty_is_found(page):
     found = "\n".join(faults(page))
     page.evaluate("document.querySelector('#planted').remove()")
 
+    assert out_of_view(page, ("#floors", "#no-such-thing"), (100, 100))[1:] == ["#no-such-thing is not shown"]
     assert "cut: doing" in found
     assert "memory on desk" in found
     assert "reference: 0." in found
