@@ -1,6 +1,6 @@
-"""The behaviour in C that the robot of a log had: in its user's file, or in the log's world file.
+"""The behaviour in a file that the robot of a log had: in its user's file, or in the log's world file.
 
-Opening a log compiles nothing that came with it, unless its user says so.
+Opening a log compiles nothing that came with it, unless its user says so. A program is no danger.
 """
 
 import argparse
@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
 from host_sim.cli.parsing import file_path
+from host_sim.sim.run_config import PROGRAM_FILE
 
 if TYPE_CHECKING:
     from host_sim.protocol.codec import Frame, Protocol
+    from host_sim.sim.in_process_link import Program
     from host_sim.sim.own_brain import OwnBrain
     from host_sim.sim.world_record import WorldRecord
 
@@ -20,27 +22,31 @@ if TYPE_CHECKING:
 def add_source_options(parser: argparse.ArgumentParser) -> None:
     """Adds the options that say where the source is."""
     add = parser.add_argument
-    add("--profile", type=file_path, metavar="MINE.C", help="the behaviour in C that the robot had")
-    trusted = "if there was one: compile and run its source as it came with the log"
+    add("--profile", type=file_path, metavar="FILE", help="the C file or program that was the robot's behaviour")
+    trusted = "if it was a C file: compile and run its source as it came with the log"
     add("--compile", action="store_true", help=trusted)
 
 
-def own_of(arguments: argparse.Namespace, record: "WorldRecord | None") -> "OwnBrain | None":
-    """The behaviour, compiled; None if the options and the world file name none.
+def own_of(arguments: argparse.Namespace, record: "WorldRecord | None") -> "OwnBrain | Program | None":
+    """The behaviour, compiled if it is in C; None if the options and the world file name none.
 
     Raises:
         UsageError: It cannot be compiled; or nobody has said which file it is, or to compile the recorded source.
     """
+    from host_sim.sim.in_process_link import Program, read_program
     from host_sim.sim.own_brain import own_brain, own_copy
 
     recorded = record.own if record else None
     if arguments.profile:
-        own = own_brain(arguments.profile)
+        is_program = arguments.profile.suffix == PROGRAM_FILE
+        own = read_program(arguments.profile) if is_program else own_brain(arguments.profile)
         if recorded and own.source.sha256 != recorded.sha256:
             sys.stderr.write(f"octet: {arguments.profile} differs from {recorded}, which the robot had\n")
         return own
     if recorded is None:
         return None
+    if recorded.name.endswith(PROGRAM_FILE):
+        return Program(recorded.name, recorded.text)
     if arguments.compile:
         return own_copy(recorded)
     trusted = "or, if you trust those who sent the log, --compile, which takes the source that came with it"

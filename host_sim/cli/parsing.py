@@ -148,13 +148,14 @@ def file_path(text: str) -> Path:
     return Path(text)
 
 
-def word_or_file(words: Sequence[str], ending: str) -> Callable[[str], str]:
-    """An argument type: one of these words, or the name of a file with this ending."""
+def word_or_file(words: Sequence[str], endings: tuple[str, ...]) -> Callable[[str], str]:
+    """An argument type: one of these words, or the name of a file with one of these endings."""
 
     def parse(text: str) -> str:
-        if text in words or text.endswith(ending):
+        if text in words or text.endswith(endings):
             return text
-        raise argparse.ArgumentTypeError(f"there is no {text!r}: {meant(text, words)}, or name a {ending} file")
+        files = " or ".join(endings)
+        raise argparse.ArgumentTypeError(f"there is no {text!r}: {meant(text, words)}, or name a {files} file")
 
     return parse
 

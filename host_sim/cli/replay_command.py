@@ -87,20 +87,21 @@ def _compare(arguments: argparse.Namespace) -> int:
     from host_sim.recording.log_reader import nodes_in, read_log
     from host_sim.recording.replay import replay, report
     from host_sim.recording.world_file import read_world, world_path
+    from host_sim.sim.in_process_link import Program
 
     log, first_node = arguments.log, arguments.node
     lines, world = read_log(log, arguments.channel), world_path(log)
     record = read_world(world) if world.exists() and not arguments.no_world else None
-    program, own, equal = record.program if record else None, own_of(arguments, record), True
+    own, equal = own_of(arguments, record), True
     nodes = sorted({first_node, *(node for node in nodes_in(lines) if node > first_node)})
     for node in nodes:
         protocol = Protocol(node)
-        outcome = replay(lines, protocol, program, own)
+        outcome = replay(lines, protocol, own)
         print(report(outcome, f"{log}, node {node}" if len(nodes) > 1 else str(log), protocol))
         equal = equal and outcome.difference is None
         if outcome.difference and not outcome.drives and not own:
             check_own(arguments, (line.frame for line in lines), protocol)
-        if outcome.difference and not program:
+        if outcome.difference and not isinstance(own, Program):
             where = f"--node {node} --at {outcome.difference.time_us / 1e6:.6f}".rstrip("0").rstrip(".")
             where += f" --profile {shlex.quote(own.name)}" if own else ""
             print(as_called(f"  debugger  tools/octet debug {shlex.quote(str(log))} {where}"))

@@ -14,7 +14,7 @@ from host_sim.cli.parsing import file_path, number, settings, word_or_file
 from host_sim.protocol.words import NODE_MAX
 from host_sim.sim.access import PICO, check_robot
 from host_sim.sim.option import Option, flag_of, option, options_of
-from host_sim.sim.run_config import C_FILE, RunConfig
+from host_sim.sim.run_config import C_FILE, PROGRAM_FILE, RunConfig
 from host_sim.transport.link import BIT_RATE
 from host_sim.transport.rule import read_rules
 from host_sim.world.body_kinds import PINS
@@ -49,7 +49,7 @@ _GROUPS = {
     ),
     "the world": ("worlds", "physics"),
     "the robot, and the bus that it is on": (
-        *("bus", "bitrate", "robot_command", "program", "board", "node", "owner", "reconnect_s", "fast", "gdb"),
+        *("bus", "bitrate", "robot_command", "board", "node", "owner", "reconnect_s", "fast", "gdb"),
     ),
     "faults, and when a result is doubtful": ("faults", "fault_seed", "unanswered_max", "gap_max_s", "late_max"),
 }
@@ -167,8 +167,8 @@ def _argument(it: Any, row: Option) -> dict[str, Any]:
     text = f"{row.text} ({'; '.join(values)})" if values else row.text
     how: dict[str, Any] = {"help": text.replace("%", "%%"), "metavar": row.metavar}
     how["type"] = number(*row.limits, kind) if row.limits else _PARSERS.get(kind, str)
-    if row.ending:
-        how["type"] = word_or_file(row.choices, row.ending)
+    if row.endings:
+        how["type"] = word_or_file(row.choices, row.endings)
     elif row.choices:
         how["choices"] = row.choices
     if row.const is not None:
@@ -188,7 +188,6 @@ def _check(options: RunOptions) -> None:
     if options.robot_command and (options.bus == "none" or options.robot != "spawn"):
         other = "--bus none" if options.bus == "none" else f"--robot {options.robot}"
         raise UsageError(f"--robot-command starts a program on fd or socketcan: leave {other} out")
-    _check_program(options)
     _check_gdb(options)
     if options.board and options.robot != "emulated":
         raise UsageError(f"--board {options.board} is for --robot emulated: add that, or leave --board out")
@@ -209,18 +208,12 @@ def _check_gdb(options: RunOptions) -> None:
         raise UsageError(
             "--gdb starts the robot, on a socket pair or in QEMU: leave --bus and --robot out, or take qemu"
         )
-    for name in ("real_time", "watch", "robots", "robot_command", "program") if options.gdb else ():
+    if options.gdb and options.profile.endswith(PROGRAM_FILE):
+        raise UsageError(f"--gdb stops in C, and {options.profile} is a program: leave --gdb out")
+    for name in ("real_time", "watch", "robots", "robot_command") if options.gdb else ():
         if getattr(options, name) != getattr(RunOptions, name):
             flag = flag_of(name, options_of(RunOptions)[name][1])
             raise UsageError(f"--gdb stops one robot, and nobody else waits for it: leave {flag} out")
-
-
-def _check_program(options: RunOptions) -> None:
-    """Refuses options that do not apply to a robot with a program."""
-    for name in ("robot", "robot_command", "profile", "board") if options.program else ():
-        if getattr(options, name) != getattr(RunConfig, name):
-            flag = flag_of(name, options_of(RunOptions)[name][1])
-            raise UsageError(f"--program needs a robot that is started here: leave {flag} out")
 
 
 def _check_fleet(options: RunOptions) -> None:

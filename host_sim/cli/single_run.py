@@ -202,11 +202,11 @@ def conduct(options: RunOptions) -> None:
 
 
 def _tell_of_programs(options: RunOptions, simulation: Simulation) -> None:
-    for client in simulation.clients if (options.program or options.own) and options.verbose else ():
+    for client in simulation.clients if options.source and options.verbose else ():
         with suppress(OctetError):  # the robot has ended, which was reported
             _, stopped, told = client.connection.status().partition("the program: ")
             if options.program:
-                print(f"program   {options.program}: {told if stopped else 'still running at the time limit'}")
+                print(f"program   {options.profile}: {told if stopped else 'still running at the time limit'}")
             for line in client.connection.printed().splitlines():
                 print(f"printed   {line}")
 
@@ -291,8 +291,7 @@ def _check_trust(summary: Summary) -> None:
 def _print_robot(options: RunOptions, client: RobotClient) -> None:
     if options.verbose:
         bus = _WHERE.get(client.connection.bus, f"on {client.connection.bus}")
-        brain = f"program {options.program}" if options.program else f"profile {options.profile}"
-        print(f"robot     {client.node} {bus}, {brain}, seed {options.seed}")
+        print(f"robot     {client.node} {bus}, profile {options.profile}, seed {options.seed}")
 
 
 def _first_memories(options: RunOptions, loaded: Sequence[Memory | None]) -> list[Memory | None]:

@@ -9,7 +9,7 @@ from host_sim.protocol.codec import MEMORY_IDS, DecodedFrame, Frame, Protocol, n
 from host_sim.protocol.generated import Fault, Opcode, Reason
 from host_sim.protocol.memory_report import MemoryReport
 from host_sim.recording.log_reader import LogReader, Recorded, check_protocol, first_memory
-from host_sim.sim.in_process_link import InProcessLink, OwnLink, ProgrammedLink
+from host_sim.sim.in_process_link import InProcessLink, Program
 
 if TYPE_CHECKING:
     from host_sim.sim.own_brain import OwnBrain
@@ -56,16 +56,16 @@ class Replay:
     unanswered: int = 0
 
 
-def replay(log: LogReader, protocol: Protocol, program: bytes | None = None, own: "OwnBrain | None" = None) -> Replay:
+def replay(log: LogReader, protocol: Protocol, own: "OwnBrain | Program | None" = None) -> Replay:
     """Feeds the frames sent to one robot in a log to the firmware, and compares drives and memories.
 
-    The firmware has its own brain, or a program or a behaviour of its user as its brain.
+    The firmware has its own brain, or a behaviour in a file of its user.
 
     Raises:
         UsageError: The log is of another protocol, has no heartbeat of this node, or holds a damaged frame.
     """
     check_protocol(log, protocol)
-    comparison = Comparison(log, protocol, program, own)
+    comparison = Comparison(log, protocol, own)
     for line in log:
         if line.frame.id in MEMORY_IDS and line.frame.id != protocol.id_of("MEMORY"):
             comparison.feed(line.frame)  # another robot's memory
@@ -88,19 +88,13 @@ class Comparison:
         unanswered: Number of senses so far that were sent in real time and not answered.
     """
 
-    def __init__(
-        self, log: LogReader, protocol: Protocol, program: bytes | None, own: "OwnBrain | None" = None
-    ) -> None:
+    def __init__(self, log: LogReader, protocol: Protocol, own: "OwnBrain | Program | None") -> None:
         self.drives = 0
         self.stopped = False
         self.unanswered = 0
         self._log, self._protocol = log, protocol
         node, memory = protocol.node, first_memory(log, protocol)
-        self._link: InProcessLink
-        if own:
-            self._link = OwnLink(own, node, memory=memory)
-        else:
-            self._link = ProgrammedLink(program, node, memory=memory) if program else InProcessLink(node, memory)
+        self._link = own.robot(node, memory) if own else InProcessLink(node, memory)
         self._states: dict[bytes, _Path] = {}  # possible states of the robot; empty: the link's state
         self._waiting: list[Frame] = []
         self._faults = 0

@@ -97,7 +97,7 @@ def summarize(
 
 def source_of(config: RunConfig) -> dict[str, dict[str, str]]:
     """The entry `own` of a summary; nothing for a built-in behaviour."""
-    own = config.own and config.own.source
+    own = config.source
     return {"own": {"name": own.name, "sha256": own.sha256}} if own else {}
 
 

@@ -26,7 +26,7 @@ _FORMAT = 1
 _SIZE_MAX = 16_000_000
 _TEXT_MAX = 1000
 _AS_BYTES = "surrogateescape"
-_C_NAME = re.compile(r"[^/\0]+\.c")
+_OWN_NAME = re.compile(r"[^/\0]+\.(c|bas)")
 _FRONT_EXTRA_MAX_MM = 100.0
 _SEED_MAX, _TICK_MAX, _NUMBER_MAX = 2**32 - 1, 2**53, 1_000_000
 
@@ -51,7 +51,6 @@ def world_text(record: WorldRecord) -> str:
         "front_extra_mm": record.world.params.front_extra_mm,
         **_world_content(record.world),
         **({"body": dict(record.kind.traits)} if record.kind else {}),
-        **({} if record.program is None else {"program": record.program.decode(errors=_AS_BYTES)}),
         **({"own": _own_content(record.own)} if record.own else {}),
         "environments": [begun._asdict() for begun in record.begun],
         "edits": [{"tick": tick, **edit_to(edit)} for tick, edit in record.edits],
@@ -99,27 +98,25 @@ def _record(content: dict[str, Any]) -> WorldRecord:
         [_refused(entry) for entry in _objects(content, "refused")] if "refused" in content else [],
         _world(content),
         _kind(content.get("body", IDEAL)),
-        _program(content.get("program")),
-        _own(content["own"]) if "own" in content else None,
+        _own(content),
     )
-
-
-def _program(text: Any) -> bytes | None:
-    if text is not None and not isinstance(text, str):
-        raise ValueError("program must be a text")
-    return None if text is None else text.encode(errors=_AS_BYTES)
 
 
 def _own_content(own: Source) -> dict[str, str]:
     return {"name": own.name, "sha256": own.sha256, "source": own.text.decode(errors=_AS_BYTES)}
 
 
-def _own(content: Any) -> Source:
-    name, source = (content.get(key) if isinstance(content, dict) else None for key in ("name", "source"))
-    if not isinstance(source, str) or not isinstance(name, str) or not _C_NAME.fullmatch(name):
-        raise ValueError("own must have the name of a C file, without folders, and its source as texts")
+def _own(content: dict[str, Any]) -> Source | None:
+    """The behaviour in a file; formerly, a program had neither a name nor a SHA-256."""
+    former = {"name": "program.bas", "source": content["program"]} if "program" in content else None
+    entry = content.get("own", former)
+    if entry is None:
+        return None
+    name, source = (entry.get(key) if isinstance(entry, dict) else None for key in ("name", "source"))
+    if not isinstance(source, str) or not isinstance(name, str) or not _OWN_NAME.fullmatch(name):
+        raise ValueError("own must have the name of a .c or .bas file, without folders, and its source as texts")
     own = Source(name, source.encode(errors=_AS_BYTES))
-    if content.get("sha256") != own.sha256:
+    if entry is not former and entry.get("sha256") != own.sha256:
         raise ValueError("the source of own does not have its sha256")
     return own
 

@@ -43,8 +43,8 @@ def laboratory(
     nodes = [track.node for track in trajectory.tracks]
     if record is None:
         return {"why": "What if? needs the world of the run, which is not known here."}
-    if other := record.own or ("a program" if record.program is not None else ""):
-        return {"why": f"What if? runs the firmware's own brain, and the brain of this run was {other}."}
+    if record.own:
+        return {"why": f"What if? runs the firmware's own brain, and the brain of this run was {record.own}."}
     if record.world.crates is not None:
         return {"why": "What if? cannot repeat this run: pymunk moved its crates."}
     if nodes != list(range(1, len(nodes) + 1)) or len(nodes) > PAGE_ROBOTS_MAX:

@@ -17,6 +17,7 @@ from host_sim.transport.link import BIT_RATE
 from host_sim.transport.rule import Rule
 
 if TYPE_CHECKING:
+    from host_sim.sim.in_process_link import Program
     from host_sim.sim.own_brain import OwnBrain
 
 ROBOTS = ("spawn", "external", "qemu", "emulated", "observe")
@@ -47,7 +48,6 @@ class Access:
         board: One of `BOARDS` or `PICO`, for an emulated robot; empty for the first.
         pins: Whether an emulated robot senses and drives by itself, through its pins.
         command: Program to start as each robot; empty for the firmware.
-        program: The file with the program that is each robot's brain; empty for the firmware's own.
         bitrate: Bits a second, for a bus that is set up when opened.
         reconnect_s: Time to wait for a bus that is gone, s of wall-clock time.
         owner: Owner ID of this simulator.
@@ -57,6 +57,7 @@ class Access:
         fault_seed: Seed for the faults.
         gdb: Whether the robot is started in gdb.
         own: The user's behaviour of the robots; None for the firmware's.
+        program: The program that is each robot's brain; None for none.
         fast: Whether a robot with such a behaviour may run in this process, where its mistakes are not contained.
 
     Raises:
@@ -69,7 +70,6 @@ class Access:
     board: str = ""
     pins: bool = False
     command: str = ""
-    program: str = ""
     bitrate: int = BIT_RATE
     reconnect_s: float = 0.0
     owner: int = 1
@@ -79,6 +79,7 @@ class Access:
     fault_seed: int = 1
     gdb: bool = False
     own: "OwnBrain | None" = None
+    program: "Program | None" = None
     fast: bool = False
 
     def __post_init__(self) -> None:

@@ -14,14 +14,7 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.codec import Protocol
 from host_sim.sim.access import BOARDS, PICO, Access
-from host_sim.sim.in_process_link import (
-    PROGRAMMED_PROCESS,
-    InProcessLink,
-    OwnLink,
-    ProgrammedLink,
-    Relay,
-    RelayedLink,
-)
+from host_sim.sim.in_process_link import InProcessLink, Relay, RelayedLink
 from host_sim.transport.clock import VirtualClock, WallClock
 from host_sim.transport.link import LineStats, Link
 
@@ -178,13 +171,9 @@ class Connector:
         return Connection(WatchedLink(link, robot, bus, stats), bus, robot.status, line=stats)
 
     def _in_process(self, node: int) -> Connection:
-        bus, program = self._access.bus, self._access.program
-        if not program:
-            own = self._access.own
-            link = OwnLink(own, node, self._relay) if own else InProcessLink(node, relay=self._relay)
-            return Connection(link, bus, link.status, answers_at_once=True)
-        programmed = ProgrammedLink(Path(program), node, self._relay)
-        return Connection(programmed, bus, programmed.status, programmed.printed, answers_at_once=True)
+        brain = self._access.own or self._access.program
+        link = brain.robot(node, relay=self._relay) if brain else InProcessLink(node, relay=self._relay)
+        return Connection(link, self._access.bus, link.status, link.printed, answers_at_once=True)
 
     def _over_socket_pair(self, node: int) -> Connection:
         import socket  # noqa: PLC0415 - see above
@@ -215,11 +204,10 @@ class Connector:
     def _process(self, link: str, node: int, pass_fds: Sequence[int] = ()) -> "RobotProcess":
         from host_sim.sim.robot_process import PROGRAM, RobotProcess  # noqa: PLC0415 - see above
 
-        brain, own = self._access.program, self._access.own
-        program = own.process if own else PROGRAMMED_PROCESS if brain else PROGRAM
-        process = RobotProcess(link, node, pass_fds, program, brain)
-        if own:
-            process.mistake = own.mistake
+        brain = self._access.own or self._access.program
+        process = RobotProcess(link, node, pass_fds, brain.command if brain else [PROGRAM])
+        if self._access.own:
+            process.mistake = self._access.own.mistake
         self._stack.callback(process.close)
         return process
 

@@ -18,6 +18,7 @@ from host_sim.base.files import read_bytes
 from host_sim.base.paths import BUILD
 from host_sim.protocol.codec import MEMORY_IDS, Frame
 from host_sim.protocol.generated import PROGRAM_TEXT_MAX
+from host_sim.sim.world_record import Source
 from host_sim.transport.link import FrameSocket, Link, SocketLink
 
 if TYPE_CHECKING:
@@ -203,6 +204,10 @@ class InProcessLink:
         """As in `Connection`."""
         return "runs in this process"
 
+    def printed(self) -> str:
+        """As in `Connection`."""
+        return ""
+
     def hear_others(self) -> None:
         """Passes on memories from others that the robot has not received yet."""
         if self._relay is not None:
@@ -236,16 +241,9 @@ class OwnLink(InProcessLink):
     """A robot with a behaviour of its user, in this process."""
 
     def __init__(
-        self, own: "OwnBrain", node: int = 1, relay: Relay | None = None, memory: Sequence[int] = (0,) * 8
+        self, own: "OwnBrain", node: int = 1, memory: Sequence[int] = (0,) * 8, relay: Relay | None = None
     ) -> None:
-        """Starts a robot.
-
-        Args:
-            own: The behaviour.
-            node: 1..31.
-            relay: Relays memories from other robots; None if it is alone.
-            memory: Its initial eight cells.
-        """
+        """As in `InProcessLink`, with the behaviour."""
         super().__init__(node, memory, own.library, relay)
         self._own = own
 
@@ -266,24 +264,13 @@ class ProgrammedLink(InProcessLink):
     """A robot with a program, in this process."""
 
     def __init__(
-        self, program: Path | bytes, node: int = 1, relay: Relay | None = None, memory: Sequence[int] = (0,) * 8
+        self, program: "Program", node: int = 1, memory: Sequence[int] = (0,) * 8, relay: Relay | None = None
     ) -> None:
-        """Starts a robot.
-
-        Args:
-            program: The file with its program, or its text.
-            node: 1..31.
-            relay: Relays memories from other robots; None if it is alone.
-            memory: Its initial eight cells.
-
-        Raises:
-            UsageError: The file cannot be read, or the program has an error; the message names it and its line.
-            OctetError: The library cannot be loaded.
-        """
-        self._text = program if isinstance(program, bytes) else read_program(program)
-        super().__init__(node, memory, library=PROGRAMMED_LIBRARY, relay=relay)
+        """As in `InProcessLink`; raises UsageError if the program has an error, with its line."""
+        self._text = program.text
+        super().__init__(node, memory, PROGRAMMED_LIBRARY, relay)
         if told := self.told():
-            raise UsageError(f"{'the program of the run' if isinstance(program, bytes) else program}, {told}")
+            raise UsageError(f"{program.name}, {told}")
 
     def _open(self, node: int, memory: bytes) -> Any:
         return self._library.programmed_open(node, memory, self._text, len(self._text))
@@ -305,30 +292,50 @@ class ProgrammedLink(InProcessLink):
         return f"runs in this process, the program: {self.told() or 'runs'}"
 
 
-def read_program(path: Path) -> bytes:
-    """The text of a program.
+@dataclass(frozen=True)
+class Program:
+    """A program in a file, as a robot's brain.
+
+    Attributes:
+        name: The name of its file, for people.
+        text: Its text.
+    """
+
+    name: str
+    text: bytes
+
+    @property
+    def source(self) -> Source:
+        """What is recorded of it."""
+        return Source(Path(self.name).name, self.text)
+
+    @property
+    def command(self) -> list[Path | str]:
+        """The robot as a process, as `robot_process.PROGRAM`."""
+        return [PROGRAMMED_PROCESS, self.name]
+
+    def robot(self, node: int = 1, memory: Sequence[int] = (0,) * 8, relay: Relay | None = None) -> ProgrammedLink:
+        """The robot in this process; raises as `ProgrammedLink`."""
+        return ProgrammedLink(self, node, memory, relay)
+
+
+def read_program(path: Path) -> Program:
+    """Reads a program; raises UsageError as `read_source`, or if it has an error."""
+    program = Program(os.fspath(path), read_source(path, PROGRAM_TEXT_MAX - 1))
+    with closing(program.robot()):
+        return program
+
+
+def read_source(path: Path, size_max: int) -> bytes:
+    """The text of a behaviour in a file.
 
     Raises:
-        UsageError: The file cannot be read, or is not text.
+        UsageError: The file cannot be read, is too large, or is not text.
     """
     try:
-        text = read_bytes(path, PROGRAM_TEXT_MAX - 1)
+        text = read_bytes(path, size_max)
     except OSError as error:
         raise UsageError(f"cannot read {path}: {error.strerror}") from None
     if b"\0" in text:
-        raise UsageError(f"{path} is not a program: it is not text")
+        raise UsageError(f"{path} is no behaviour: it is not text")
     return text
-
-
-def check_program(program: str) -> None:
-    """Refuses a program with an error.
-
-    Args:
-        program: The file with it; empty for none.
-
-    Raises:
-        UsageError: As `ProgrammedLink`.
-    """
-    if program:
-        with closing(ProgrammedLink(Path(program))):
-            pass

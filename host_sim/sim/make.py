@@ -90,8 +90,7 @@ def assemble(clients: Sequence[RobotClient], config: RunConfig, memories: Sequen
         physics=config.chosen_physics,
         kind=config.chosen_body,
     )
-    simulation.record.program = config.program_text
-    simulation.record.own = config.own.source if config.own else None
+    simulation.record.own = config.source
     return simulation
 
 

@@ -13,7 +13,7 @@ class Option:
         text: Description for people.
         limits: Its minimum and maximum; None if it is not a number, or has choices.
         choices: The permitted values; empty if any.
-        ending: Files whose names end in it are permitted, too; empty for none.
+        endings: Files whose names end in one of these are permitted, too.
         metavar: The placeholder of its value in the help text.
         unset: Description of the default, if its value does not say enough.
         flag: Its name on the command line, if it differs from the field's.
@@ -25,7 +25,7 @@ class Option:
     text: str
     limits: tuple[float, float] | None = None
     choices: tuple[Any, ...] = ()
-    ending: str = ""
+    endings: tuple[str, ...] = ()
     metavar: str | None = None
     unset: str = ""
     flag: str = ""
@@ -37,7 +37,7 @@ class Option:
         """Whether a value is one of the choices and within the limits."""
         if self.limits is not None:
             return bool(self.limits[0] <= value <= self.limits[1])
-        return not self.choices or value in self.choices or bool(self.ending and value.endswith(self.ending))
+        return not self.choices or value in self.choices or bool(self.endings and value.endswith(self.endings))
 
     @property
     def range(self) -> str:

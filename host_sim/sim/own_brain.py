@@ -18,10 +18,11 @@ from pathlib import Path
 from typing import Any
 
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.base.files import read_bytes, write_bytes
+from host_sim.base.files import write_bytes
 from host_sim.base.image_build import build_image
 from host_sim.base.paths import BUILD, PACKAGE, ROOT
 from host_sim.base.system import lock_at_once
+from host_sim.sim.in_process_link import OwnLink, Relay, read_source
 from host_sim.sim.world_record import Source
 
 OWN_HEADERS = PACKAGE / "program" / "own"
@@ -89,6 +90,15 @@ class OwnBrain:
     def source(self) -> Source:
         """What is recorded of it."""
         return Source(Path(self.name).name, self.text)
+
+    @property
+    def command(self) -> list[Path]:
+        """The robot as a process, as in `Program`."""
+        return [self.process]
+
+    def robot(self, node: int = 1, memory: Sequence[int] = (0,) * 8, relay: Relay | None = None) -> OwnLink:
+        """The robot in this process; raises as `OwnLink`."""
+        return OwnLink(self, node, memory, relay)
 
     @property
     def library(self) -> Path:
@@ -187,11 +197,7 @@ def own_brain(source: Path) -> OwnBrain:
         UsageError: The file cannot be read or compiled, is no behaviour, or uses what a robot does not have.
         OctetError: Something that must be built or installed is missing.
     """
-    try:
-        text = read_bytes(source, _SIZE_MAX)
-    except OSError as error:
-        raise UsageError(f"cannot read {source}: {error.strerror}") from None
-    return compiled(text, os.fspath(source))
+    return compiled(read_source(source, _SIZE_MAX), os.fspath(source))
 
 
 def own_copy(source: Source) -> OwnBrain:
@@ -204,8 +210,6 @@ def own_copy(source: Source) -> OwnBrain:
 
 def compiled(text: bytes, name: str) -> OwnBrain:
     """As `own_brain`, of a source and the name of its file."""
-    if b"\0" in text:
-        raise UsageError(f"{name} is no C source: it is not text")
     brain = OwnBrain(name, text, _CACHE / _key(text, name))
     if (brain.folder / "checked.o").exists():
         os.utime(brain.folder)

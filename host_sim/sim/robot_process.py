@@ -33,7 +33,7 @@ class RobotProcess:
     """
 
     def __init__(
-        self, link: str, node: int, pass_fds: Sequence[int] = (), program: Path = PROGRAM, brain: str = ""
+        self, link: str, node: int, pass_fds: Sequence[int] = (), program: Sequence[Path | str] = (PROGRAM,)
     ) -> None:
         """Starts the robot and waits until it listens.
 
@@ -41,14 +41,13 @@ class RobotProcess:
             link: Its link, as on the firmware's command line: `socketcan:vcan0`, `fd:5`.
             node: Node number, 1..31.
             pass_fds: File descriptors that it inherits.
-            program: The firmware.
-            brain: The file with the program that is its brain; empty for the firmware's own.
+            program: The firmware, and its first arguments.
 
         Raises:
             OctetError: The program is missing.
             RobotError: The process ended, or was not ready in time; the message has what it printed.
         """
-        command = [os.fspath(program), *([brain] if brain else []), "--with-parent", "--node", str(node), link]
+        command = [*map(str, program), "--with-parent", "--node", str(node), link]
         try:
             self._process = subprocess.Popen(
                 command,

@@ -21,7 +21,9 @@ from host_sim.world.names import CRATES, FAST, PHYSICS, PYMUNK, RANDOM, WORLD_NA
 from host_sim.world.worlds import world_of
 
 if TYPE_CHECKING:
+    from host_sim.sim.in_process_link import Program
     from host_sim.sim.own_brain import OwnBrain
+    from host_sim.sim.world_record import Source
 
 FLEET_MAX = 100_000
 """Maximum number of robots of a fleet."""
@@ -29,8 +31,8 @@ FLEET_MAX = 100_000
 WORLDS = ("one", "own", "hall")
 """Whether the robots of a run share one world, each has its own, or all share a hall of as many as they need."""
 
-C_FILE = ".c"
-"""The ending of a file with a user's behaviour."""
+C_FILE, PROGRAM_FILE = ".c", ".bas"
+"""The endings of files with a user's behaviour, and with a program in the language of the article's listing."""
 
 _SEEDS = (0, 2**32 - 1)
 _OWNER_MAX = 255
@@ -79,21 +81,14 @@ class RunConfig:
     )
     profile: str = option(
         "article",
-        "the robot's behaviour, or a C file of your own, which tools/octet new begins",
+        "the robot's behaviour; a C file of your own, which tools/octet new begins; or a program in the article's "
+        "language, such as host_sim/program/examples/article.bas",
         choices=PROFILES,
-        ending=C_FILE,
+        endings=(C_FILE, PROGRAM_FILE),
         metavar="PROFILE",
     )
     fast: bool = option(
         False, "a behaviour of your own runs in this process, without the checks of its memory", fleet=False
-    )
-    program: str = option(
-        "",
-        "the robot's brain is this program, in the language of the article's listing, such as "
-        "host_sim/program/examples/article.bas",
-        metavar="FILE",
-        unset="the firmware's own",
-        fleet=False,
     )
     settings: dict[str, int] = option(
         {}, "set a parameter; may be repeated", flag="--set", metavar="NAME=VALUE", unset="what --help-all lists"
@@ -208,9 +203,9 @@ class RunConfig:
             raise UsageError("--robot observe watches one robot: use tools/octet watch --bus BUS --robot observe")
         if self.world == CRATES and (self.is_fleet or self.physics == FAST):
             raise UsageError(f"only pymunk can push what --world {CRATES} has: no --physics {FAST}, and no fleet")
-        if self.profile.endswith(C_FILE):
+        if self.profile.endswith((C_FILE, PROGRAM_FILE)):
             self._check_own()
-        elif self.fast:
+        if self.fast and not self.profile.endswith(C_FILE):
             raise UsageError(
                 "--fast is for a behaviour of your own: name it with --profile mine.c, or leave --fast out"
             )
@@ -221,11 +216,14 @@ class RunConfig:
             )
 
     def _check_own(self) -> None:
-        """Refuses what a behaviour in a C file cannot be combined with."""
-        for name in ("robot_command", "program"):
-            if getattr(self, name):
-                flag = flag_of(name, options_of(RunConfig)[name][1])
-                raise UsageError(f"--profile {self.profile} is built into the firmware: leave {flag} out")
+        """Refuses what a behaviour in a file cannot be combined with."""
+        if self.robot_command:
+            raise UsageError(f"--profile {self.profile} is built into the firmware: leave --robot-command out")
+        if self.profile.endswith(PROGRAM_FILE) and (self.robot != "spawn" or self.is_fleet):
+            raise UsageError(
+                f"--profile {self.profile} is a program, for up to {NODE_MAX} robots that are started here, in one "
+                "world: name a built-in behaviour or a C file instead"
+            )
         if self.fast and self.bus not in ("auto", "none"):
             raise UsageError(f"--fast runs the robot in this process: leave --bus {self.bus} out")
         if self.fast and self.robot != "spawn":
@@ -257,11 +255,8 @@ class RunConfig:
         Raises:
             UsageError: There is no such world, body, program or behaviour.
         """
-        for name in ("chosen_world", "chosen_body", "own"):
+        for name in ("chosen_world", "chosen_body", "own", "program"):
             getattr(self, name)
-        from host_sim.sim.in_process_link import check_program  # noqa: PLC0415 - help needs no generated code
-
-        check_program(self.program)
 
     @cached_property
     def access(self) -> Access:
@@ -269,12 +264,13 @@ class RunConfig:
         # Drawn from the seed: simulators on one bus rarely share an ID, and a repeated run has the same log.
         drawn = Random(self.seed).randint(1, _OWNER_MAX) if self.robot == "external" else 1
         return Access(
-            *(self.bus, self.robot, self.nodes, self.board, self.body == PINS, self.robot_command, self.program),
+            *(self.bus, self.robot, self.nodes, self.board, self.body == PINS, self.robot_command),
             *(self.bitrate, self.reconnect_s, self.owner or drawn, not self.real_time),
             *(Limits(self.unanswered_max, self.gap_max_s, self.late_max), tuple(map(Rule.parse, self.faults))),
             fault_seed=self.fault_seed,
             gdb=self.gdb,
             own=self.own,
+            program=self.program,
             fast=self.fast,
         )
 
@@ -287,6 +283,21 @@ class RunConfig:
 
         return own_brain(Path(self.profile))
 
+    @cached_property
+    def program(self) -> "Program | None":
+        """The program in the file that `profile` names, None for other behaviours; raises UsageError."""
+        if not self.profile.endswith(PROGRAM_FILE):
+            return None
+        from host_sim.sim.in_process_link import read_program  # noqa: PLC0415 - help needs no generated code
+
+        return read_program(Path(self.profile))
+
+    @property
+    def source(self) -> "Source | None":
+        """What is recorded of a behaviour in a file; None for a built-in one."""
+        brain = self.own or self.program
+        return brain.source if brain else None
+
     def with_seed(self, seed: int) -> "RunConfig":
         """The same run with another seed, and with the same behaviour even if its file has changed since."""
         other = replace(self, seed=seed)
@@ -295,7 +306,9 @@ class RunConfig:
 
     @property
     def profile_name(self) -> str:
-        """The profile by its name on the bus."""
+        """The profile by its name on the bus; a robot with a program takes any."""
+        if self.profile.endswith(PROGRAM_FILE):
+            return RunConfig.profile
         return OWN if self.profile.endswith(C_FILE) else self.profile
 
     @cached_property
@@ -312,13 +325,6 @@ class RunConfig:
     def scheduled(self) -> tuple[Change, ...]:
         """The scheduled changes; raises UsageError if there is no such change."""
         return tuple(map(Change.parse, self.changes))
-
-    @cached_property
-    def program_text(self) -> bytes | None:
-        """The robots' program, None for the firmware's own; raises UsageError if it cannot be read."""
-        from host_sim.sim.in_process_link import read_program  # noqa: PLC0415 - see above
-
-        return read_program(Path(self.program)) if self.program else None
 
     @property
     def chosen_physics(self) -> str:

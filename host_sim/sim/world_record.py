@@ -90,7 +90,7 @@ class Edited(NamedTuple):
 
 
 class Source(NamedTuple):
-    """A behaviour in C of its user: the name of its file, without folders, and its text."""
+    """A behaviour in a file of its user, C or a program: the name of the file, without folders, and its text."""
 
     name: str
     text: bytes
@@ -118,7 +118,6 @@ class WorldRecord:
         refused: Scheduled changes that could not be made, in order.
         world: The world from which the environments were drawn.
         kind: Properties of the robots' bodies; None: ideal.
-        program: The program that is each robot's brain; None for the firmware's own.
         own: The user's behaviour of the robots; None for the firmware's own.
         happened: Scheduled changes that were made, in order; they are also among the edits.
     """
@@ -132,7 +131,6 @@ class WorldRecord:
     refused: list[Refused] = field(default_factory=list)
     world: World = field(default_factory=lambda: world_of(RANDOM))
     kind: BodyKind | None = None
-    program: bytes | None = None
     own: Source | None = None
     happened: list[str] = field(default_factory=list, compare=False)
 

@@ -21,7 +21,7 @@ def test_the_figures_stand_as_they_were_printed():
 
 @pytest.mark.parametrize("seed", range(1, 21))
 def test_the_article_s_program_learns_the_cells_that_the_firmware_learns(seed):
-    program = run(RunConfig(seed=seed, program=str(ARTICLE)))
+    program = run(RunConfig(seed=seed, profile=str(ARTICLE)))
 
     assert program.memories == run(RunConfig(seed=seed)).memories
 
@@ -36,7 +36,7 @@ def without_pause(tmp_path):
 
 @pytest.mark.parametrize("seed", [1, 4, 7])
 def test_without_its_pause_it_sends_the_firmware_s_frames_byte_for_byte(seed, without_pause):
-    program = run(RunConfig(seed=seed, program=without_pause))
+    program = run(RunConfig(seed=seed, profile=without_pause))
 
     assert program.log_sha256 == run(RunConfig(seed=seed)).log_sha256
 
@@ -44,24 +44,24 @@ def test_without_its_pause_it_sends_the_firmware_s_frames_byte_for_byte(seed, wi
 def test_on_a_real_body_it_goes_the_firmware_s_way(without_pause):
     config = {"seed": 2, "environments": 1, "body": "kit", "settings": {"step_mm": 12}}
 
-    assert run(RunConfig(program=without_pause, **config)).log_sha256 == run(RunConfig(**config)).log_sha256
+    assert run(RunConfig(profile=without_pause, **config)).log_sha256 == run(RunConfig(**config)).log_sha256
 
 
 def test_behind_a_link_it_sends_the_same_frames():
-    config = {"seed": 3, "environments": 2, "program": str(ARTICLE)}
+    config = {"seed": 3, "environments": 2, "profile": str(ARTICLE)}
 
     assert run(RunConfig(bus="fd", **config)).log_sha256 == run(RunConfig(**config)).log_sha256
 
 
 def test_several_robots_have_a_program_each():
-    done = run(RunConfig(seed=1, environments=1, robots=3, program=str(ARTICLE)))
+    done = run(RunConfig(seed=1, environments=1, robots=3, profile=str(ARTICLE)))
 
     assert len(set(done.memories)) > 1
 
 
 @pytest.mark.parametrize("name", [path.name for path in EXAMPLES.iterdir()])
 def test_each_example_has_no_mistake(name):
-    run(RunConfig(environments=1, limit_s=10, program=str(EXAMPLES / name)))
+    run(RunConfig(environments=1, limit_s=10, profile=str(EXAMPLES / name)))
 
 
 def written(folder: Path, text: str) -> str:
@@ -74,7 +74,7 @@ def test_a_mistake_is_told_with_its_line_before_anything_is_begun(tmp_path, caps
     program = written(tmp_path, "x = 1\nrTrun 5\n")
     out = tmp_path / "out"
 
-    assert main(["run", "--program", program, "--out", str(out), "--bus", "none"]) == 2
+    assert main(["run", "--profile", program, "--out", str(out), "--bus", "none"]) == 2
 
     told = capsys.readouterr()
     expected = "expected a command, a label, or a variable with = after it"
@@ -87,26 +87,26 @@ def test_a_program_that_loops_for_ever_is_stopped_and_told(bus, tmp_path, capsys
     program = written(tmp_path, "rForward 2\nwhile true\nwend\n")
 
     short = ["--environments", "1", "--limit-s", "3"]
-    assert main(["run", "--program", program, "--out", str(tmp_path), "--bus", bus, *short]) == 0
+    assert main(["run", "--profile", program, "--out", str(tmp_path), "--bus", bus, *short]) == 0
 
     assert 'line 2: "while": expected rForward, rTurn or delay in the loop' in capsys.readouterr().out
 
 
 def test_a_file_that_cannot_be_a_program_is_refused(tmp_path):
     with pytest.raises(UsageError, match=r"no\.bas"):
-        run(RunConfig(program=str(tmp_path / "no.bas")))
+        run(RunConfig(profile=str(tmp_path / "no.bas")))
     with pytest.raises(UsageError, match=r"own\.bas"):
-        run(RunConfig(program=written(tmp_path, "x = 1\n" * 3000)))
-    with pytest.raises(UsageError, match=r"own\.bas is not a program: it is not text"):
-        run(RunConfig(program=written(tmp_path, "x = 1\0")))
+        run(RunConfig(profile=written(tmp_path, "x = 1\n" * 3000)))
+    with pytest.raises(UsageError, match=r"own\.bas is no behaviour: it is not text"):
+        run(RunConfig(profile=written(tmp_path, "x = 1\0")))
 
 
 @pytest.mark.parametrize(
     "other",
-    [["--robot", "qemu"], ["--profile", "never"], ["--robot-command", "true", "--bus", "fd"], ["--robots", "40"]],
+    [["--robot", "qemu"], ["--fast"], ["--robot-command", "true", "--bus", "fd"], ["--robots", "40"], ["--gdb"]],
 )
 def test_what_does_not_go_with_a_program_is_refused(other, capsys):
-    assert main(["run", "--program", str(ARTICLE), *other]) == 2
+    assert main(["run", "--profile", str(ARTICLE), *other]) == 2
     assert capsys.readouterr().err.count("\n") == 1
 
 
@@ -114,13 +114,16 @@ def test_a_replay_runs_the_program_again_that_was_there_then(tmp_path, capsys):
     program = written(tmp_path, (EXAMPLES / "one_rule.bas").read_text())
     out = tmp_path / "out"
     words = ["--environments", "1", "--limit-s", "9", "--bus", "none", "--out", str(out)]
-    assert main(["run", "--program", program, *words]) == 0
+    assert main(["run", "--profile", program, *words]) == 0
     written(tmp_path, "rTurn 5\n")
 
     assert main(["replay", str(out / "run.log")]) == 0
     assert main(["replay", str(out / "run.log"), "--no-world"]) == 1
+    assert main(["replay", str(out / "run.log"), "--profile", program]) == 1
 
-    assert "drives, no difference" in capsys.readouterr().out
+    told = capsys.readouterr()
+    assert "drives, no difference" in told.out
+    assert f"{program} differs from own.bas (SHA-256 " in told.err
 
 
 PRINTS = """n = 0
@@ -137,7 +140,7 @@ print "not complete";
 def test_what_a_program_prints_is_in_the_run_s_output(bus, tmp_path, capsys):
     program = written(tmp_path, PRINTS)
 
-    assert main(["run", "--program", program, "--out", str(tmp_path), "--bus", bus, "--environments", "1"]) == 0
+    assert main(["run", "--profile", program, "--out", str(tmp_path), "--bus", bus, "--environments", "1"]) == 0
 
     lines = capsys.readouterr().out.splitlines()
     assert [line for line in lines if line.startswith("printed")] == ["printed   step 1", "printed   step 3"]
@@ -148,7 +151,7 @@ def test_a_program_that_prints_without_end_is_no_trouble(bus, tmp_path, capsys):
     program = written(tmp_path, "while true\nrForward 1\nfor i = 1 to 999\nprint i, i, i\nnext\nwend\n")
     words = ["--environments", "1", "--limit-s", "5", "--bus", bus]
 
-    assert main(["run", "--program", program, "--out", str(tmp_path), *words]) == 0
+    assert main(["run", "--profile", program, "--out", str(tmp_path), *words]) == 0
 
     lines = [line for line in capsys.readouterr().out.splitlines() if line.startswith("printed")]
     assert lines[-1].split()[1] == lines[-1].split()[3]
@@ -160,7 +163,7 @@ def test_a_program_that_asks_for_distances_is_sent_them(bus, tmp_path, capsys):
     text = "while rRange() > 6\nrForward 1\nwend\nprint rRange() > 2, rFeel() & 4\n"
     words = ["--environments", "1", "--seed", "1", "--bus", bus, "--out", str(tmp_path)]
 
-    assert main(["run", "--program", written(tmp_path, text), *words]) == 0
+    assert main(["run", "--profile", written(tmp_path, text), *words]) == 0
 
     assert "printed   1 4" in capsys.readouterr().out
     assert main(["replay", str(tmp_path / "run.log")]) == 0
@@ -210,6 +213,6 @@ def test_a_course_s_program_runs(name, tmp_path, capsys):
     program = written(tmp_path, COURSE[name])
     words = ["--environments", "1", "--limit-s", "60", "--bus", "none", "--out", str(tmp_path)]
 
-    assert main(["run", "--program", program, *words]) == 0
+    assert main(["run", "--profile", program, *words]) == 0
 
     assert "expected" not in capsys.readouterr().out

@@ -40,7 +40,6 @@ def record() -> WorldRecord:
         list(EDITS),
         [Refused(12, "plant@1s", "the robot stands there")],
         world,
-        program="\u201cx = 1\u201d\n".encode() + b"\xff",
         own=Source("mine.c", b"int x; /* \xff */\n"),
     )
 
@@ -50,6 +49,13 @@ def test_what_was_written_is_read(tmp_path):
     write_world(record(), path)
     assert path.name == "run.world.json"
     assert read_world(path) == record()
+
+
+def test_a_program_without_a_name_is_read_as_it_was_written_before(tmp_path):
+    path = tmp_path / "run.world.json"
+    path.write_text(json.dumps({**GOOD, "program": "x = 1\n"}))
+
+    assert read_world(path).own == Source("program.bas", b"x = 1\n")
 
 
 @pytest.mark.parametrize("name", ["corridors", "small"])

@@ -241,7 +241,7 @@ def crashing_robot(folder: Path, then: str) -> RobotProcess:
     program = folder / "robot"
     program.write_text(f"#!/bin/sh\necho octet-robot: node 1 listens\n{then}\n")
     program.chmod(0o755)
-    return RobotProcess("fd:0", 1, program=program)
+    return RobotProcess("fd:0", 1, program=[program])
 
 
 @pytest.mark.parametrize(

@@ -116,7 +116,7 @@ REFUSED = {
     "real time": (("--real-time",), "leave --real-time out"),
     "another robot": (("--robot", "emulated"), "leave --robot out"),
     "a robot of one's own": (("--robot-command", "./robot"), "leave --robot-command out"),
-    "a program": (("--program", "mine.bas"), "leave --program out"),
+    "a program": (("--profile", "mine.bas"), "name a built-in behaviour or a C file"),
     "a node number": (("--node", "5"), "leave --node out"),
     "the reference physics": (("--physics", "pymunk"), "leave --physics pymunk out"),
     "a compressed log": (("--compress-log",), "leave --compress-log out"),

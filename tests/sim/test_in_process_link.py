@@ -8,7 +8,7 @@ import pytest
 from host_sim.base.errors import OctetError
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import Opcode, Senses
-from host_sim.sim.in_process_link import InProcessLink, ProgrammedLink, Relay, RelayedLink
+from host_sim.sim.in_process_link import InProcessLink, Program, Relay, RelayedLink
 
 KNOWS = (0, 1, 0, 0, 2, 0, 0, 0)
 
@@ -45,7 +45,7 @@ def test_what_was_taken_can_be_put_back_before_what_c_code_has_got():
     assert link.taken() == []
 
 
-@pytest.mark.parametrize("wake", [InProcessLink, lambda: ProgrammedLink(b"while true\nrTurn 5\nrForward 1\nwend\n")])
+@pytest.mark.parametrize("wake", [InProcessLink, Program("a.bas", b"while true\nrTurn 5\nrForward 1\nwend\n").robot])
 def test_a_robot_that_goes_back_to_a_state_does_the_same_again(wake):
     link, protocol = wake(), Protocol()
     start = {"counter": 1, "opcode": Opcode.START, "owner": 1, "profile": 0, "seed": 7, "lockstep": 1}

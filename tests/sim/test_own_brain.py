@@ -145,7 +145,7 @@ FILES = {
     "two_brains": (f"{source()}{NEXT}{STEP}", "error: redefinition of 'own_next'"),
     "another_type": ("int own_next(void);\n", "error: conflicting types for 'own_next'"),
     "a_static_one": (source().replace("\nstruct action own", "\nstatic struct action own"), "own_next"),
-    "bytes": ("\0\1\2", "is no C source"),
+    "bytes": ("\0\1\2", "is no behaviour"),
     "a_main_of_its_own": (f"{source()}int main(void);\nint main(void)\n{{\n return 0;\n}}\n", "main"),
 }
 
@@ -239,7 +239,6 @@ def test_a_robot_without_the_file_refuses_the_profile():
     [
         ["--robot", "qemu", "--fast"],
         ["--robot-command", "true", "--bus", "fd"],
-        ["--program", "x.bas"],
         ["--fast", "--bus", "fd"],
     ],
 )

@@ -64,12 +64,13 @@ def _debug(arguments: argparse.Namespace) -> int:
     from host_sim.recording.log_reader import read_log
     from host_sim.recording.world_file import read_world, world_path
     from host_sim.sim.debugger import LOG_SCRIPT, OCTET_DEBUG, Gdb, debug_program, gdb_command
+    from host_sim.sim.in_process_link import Program
 
     world = world_path(arguments.log)
     record = read_world(world) if world.exists() else None
-    if record and record.program:
-        raise UsageError(f"the brain in {arguments.log} is a program, not C: the page shows it step by step")
     own, protocol = own_of(arguments, record), Protocol(arguments.node)
+    if isinstance(own, Program):
+        raise UsageError(f"the brain in {arguments.log} is a program, not C: the page shows it step by step")
     feed = Feed(read_log(arguments.log, arguments.channel), protocol, own)
     if own is None:
         check_own(arguments, (it.frame for it in feed.heard if it.frame), protocol)

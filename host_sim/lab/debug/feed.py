@@ -123,7 +123,7 @@ class Feed:
 
     def _read_real_time(self, lines: list[Recorded]) -> list[Heard]:
         told = {id(it.frame): it for it in self._ticks(lines)}
-        hearing, heard = _Hearing(self._log, self._protocol, None, self._own), [Heard(0, 0, None)]
+        hearing, heard = _Hearing(self._log, self._protocol, self._own), [Heard(0, 0, None)]
         for frame in hearing.follow(lines):
             last = heard[-1]
             heard.append(Heard(last.tick, last.time_us, None) if frame is None else told[id(frame)])

@@ -196,6 +196,7 @@ def test_who_leaves_the_debugger_ends_the_run(tmp_path):
         ("debug {program} --tick 3", "is a program, not C"),
         ("run --gdb --real-time", "leave --real-time out"),
         ("run --gdb --robots 2", "leave --robots out"),
+        ("run --gdb --profile x.bas", "leave --gdb out"),
         ("run --gdb --watch", "leave --watch out"),
         ("run --gdb --bus socketcan:vcan0 --robot external", "leave --bus and --robot out"),
     ],
@@ -204,7 +205,7 @@ def test_what_cannot_be_debugged_is_refused_in_a_sentence(log, tmp_path, words, 
     program = tmp_path / "program/run.log"
     if "{program}" in words:
         bas = ROOT / "host_sim/program/examples/article.bas"
-        run = ["run", "--program", bas, "--bus", "none", "--environments", "1", "--limit-s", "2", "--quiet"]
+        run = ["run", "--profile", bas, "--bus", "none", "--environments", "1", "--limit-s", "2", "--quiet"]
         octet_process(*run, "--out", program.parent).check_returncode()
 
     done = octet_process(*(word.format(log=log, program=program) for word in words.split()))

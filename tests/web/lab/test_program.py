@@ -143,7 +143,7 @@ def test_the_page_sends_the_frames_of_the_command_line(page, tmp_path):
     wanted = experiment("article", seed=6)
     wanted["robots"] = [{**wanted["robots"][0], "program": ARTICLE}]
     options = ("--seed", "6", "--environments", "2", "--limit-s", "20", "--bus", "none", "--out", tmp_path)
-    octet("run", "--program", ROOT / "host_sim/program/examples/article.bas", *options)
+    octet("run", "--profile", ROOT / "host_sim/program/examples/article.bas", *options)
 
     (log,) = page.evaluate(LOGS, [wanted])
 
