@@ -113,7 +113,7 @@ class RunOptions(RunConfig):
         robot = {"qemu": ["images"], "emulated": emulated}.get(self.robot, ["run"])
         robot = ["run", *robot] if self.profile.endswith(C_FILE) and robot != ["run"] else robot
         if self.gdb:
-            robot = ["debug-images" if self.robot == "qemu" else "debug"]
+            robot = {"spawn": ["debug"], "emulated": ["emulator", "debug-images"]}.get(self.robot, ["debug-images"])
         return robot if self.listen is None else [*robot, "classroom"]
 
 
@@ -203,11 +203,14 @@ def _check(options: RunOptions) -> None:
 
 def _check_gdb(options: RunOptions) -> None:
     """Refuses what cannot wait for a robot at a breakpoint."""
-    here = {"spawn": ("auto", "fd"), "qemu": ("auto", "none", "fd")}
+    here = {"spawn": ("auto", "fd"), **dict.fromkeys(("qemu", "emulated"), ("auto", "none", "fd"))}
     if options.gdb and options.bus not in here.get(options.robot, ()):
         raise UsageError(
-            "--gdb starts the robot, on a socket pair or in QEMU: leave --bus and --robot out, or take qemu"
+            "--gdb starts the robot, on a socket pair or in an emulator: leave --bus and --robot out, or take qemu "
+            "or emulated"
         )
+    if options.gdb and (options.board == PICO or options.body == PINS):
+        raise UsageError("--gdb is not for a pico or a body on pins: leave --gdb out, or name another board")
     if options.gdb and options.profile.endswith(PROGRAM_FILE):
         raise UsageError(f"--gdb stops in C, and {options.profile} is a program: leave --gdb out")
     for name in ("real_time", "watch", "robots", "robot_command") if options.gdb else ():

@@ -112,6 +112,7 @@ class EmulatedBoard(TimedBoard):
     """A board whose chip is emulated here.
 
     Attributes:
+        image: The `.elf` file.
         hardware: Core, memories and peripherals.
         resets: Cause of each reset so far, after that of power-up.
     """
@@ -137,6 +138,7 @@ class EmulatedBoard(TimedBoard):
             BoardError: The image did something that the hardware does not allow.
         """
         super().__init__()
+        self.image = image
         self.resets: list[str] = []
         self._serial = serial
         self._reset_cause: str | None = None

@@ -29,6 +29,11 @@ _TRANSLATED_MAX = 16 << 20
 _STACKED = tuple(getattr(arm, f"UC_ARM_REG_{name}") for name in ("R0", "R1", "R2", "R3", "R12", "LR", "PC", "XPSR"))
 """Registers that the hardware stacks on exception entry, from the lowest address."""
 
+REGISTERS = (*(f"r{number}" for number in range(13)), "sp", "lr", "pc", "xpsr")
+"""The core's registers as a debugger numbers them."""
+
+_NUMBERED = [getattr(arm, f"UC_ARM_REG_{name.upper()}") for name in REGISTERS]
+_PC = REGISTERS.index("pc")
 _RETURN_TO_THREAD = 0xFFFFFFF9
 _NMI, _HARD_FAULT, _FIRST_INTERRUPT = 2, 3, 16
 _IBUSERR, _PRECISERR, _STKERR, _UNDEFINSTR, _INVSTATE = 1 << 8, 1 << 9, 1 << 12, 1 << 16, 1 << 17
@@ -79,6 +84,10 @@ class Core:
         acknowledge: Returns the number of the pending interrupt that is taken next, which then is pending no longer;
             None if there is none.
         on_exception: Called with the number of the active exception when it changes; 0 for none.
+        halts: Whether it halts before the next instruction, for a debugger.
+        on_halt: Called where it halts; returns whether to halt again after one instruction.
+        is_halt_asked: Returns whether a debugger asks for a halt; called often.
+        breakpoints: The addresses at which it halts, with Unicorn's hooks for them.
     """
 
     def __init__(self, clock: Clock, vectors: int) -> None:
@@ -92,6 +101,11 @@ class Core:
         self.wakes: Callable[[], bool] = lambda: True
         self.acknowledge: Callable[[], int | None] = lambda: None
         self.on_exception: Callable[[int], None] = lambda _number: None
+        self.halts, self._is_at_breakpoint = False, False
+        self.on_halt: Callable[[], bool] = lambda: False
+        self.is_halt_asked: Callable[[], bool] = lambda: False
+        self.breakpoints: dict[int, Any] = {}
+        self._resumed_at: int | None = None
         self._nmi = False
         self._active: list[tuple[int, int]] = []  # exceptions, with the stack pointers of what they interrupted
         self._clock, self._begin = clock, vectors
@@ -145,6 +159,7 @@ class Core:
         """Starts at the reset vector."""
         self._asleep = False
         self._in_fault = self._nmi = False
+        self._blocks.counted_to = 0
         self._active.clear()
         self._uc.reg_write(arm.UC_ARM_REG_PRIMASK, 0)
         self.vectors = self._begin
@@ -181,19 +196,88 @@ class Core:
         """
         self._blocks.stopping = False
         self._take_exception()
-        while not self._blocks.stopping:
+        self.halts = self.halts or self.is_halt_asked()
+        while not self._blocks.stopping or self._blocks.counted_to:
             if self._asleep:
                 self._sleep()
                 continue
-            try:
-                _check(self._library.uc_emu_start(self._engine, self._pc | _THUMB, 0, 0, 0))
-            except UcError as error:
-                self._pc = self._uc.reg_read(arm.UC_ARM_REG_PC)
-                self._end_block(error)
-                continue
+            self._resumed_at = self._pc & ~_THUMB if self.halts else None
+            self.halts = self.halts and self.on_halt()
+            self._execute(1 if self.halts else 0)
+
+    def _execute(self, count: int) -> None:
+        """Executes a number of instructions; 0: until something ends that."""
+        begin = self._pc & ~_THUMB
+        try:
+            _check(self._library.uc_emu_start(self._engine, self._pc | _THUMB, 0, 0, count))
+        except UcError as error:
             self._pc = self._uc.reg_read(arm.UC_ARM_REG_PC)
-            self._clock.raise_failure()
-            self._asleep = self._uc.mem_read(self._pc - len(_WFI), len(_WFI)) == _WFI
+            self._blocks.counted_to = 0
+            self._end_block(error)
+            return
+        self._pc = self._uc.reg_read(arm.UC_ARM_REG_PC)
+        self._clock.raise_failure()
+        if self._is_at_breakpoint or (count and begin < self._pc < self._blocks.end):
+            self._blocks.counted_to = self._blocks.end
+        self._asleep = not self._is_at_breakpoint and self._uc.mem_read(self._pc - len(_WFI), len(_WFI)) == _WFI
+        self._is_at_breakpoint = False
+
+    def register(self, number: int) -> int:
+        """The value of one of `REGISTERS` while it is halted; raises ValueError if there is no such register."""
+        if number >= len(REGISTERS):
+            raise ValueError(number)
+        value: int = self._pc & ~_THUMB if number == _PC else self._uc.reg_read(_NUMBERED[number])
+        return value
+
+    def set_register(self, number: int, value: int) -> None:
+        """Changes a register; otherwise as `register`."""
+        if value == self.register(number):
+            return
+        self._uc.reg_write(_NUMBERED[number], value)
+        if number == _PC:
+            self._pc, self._asleep, self._blocks.counted_to = value, False, 0
+
+    def read(self, address: int, size: int) -> bytes:
+        """Reads memory; raises ValueError if not all of it is. Registers are not read: reading changes some."""
+        self._check_memory(address, size, uc.UC_PROT_READ)
+        return bytes(self._uc.mem_read(address, size))
+
+    def write_ram(self, address: int, data: bytes) -> None:
+        """Writes memory; raises ValueError if not all of it can be written by the image, too."""
+        self._check_memory(address, len(data), uc.UC_PROT_WRITE)
+        self._uc.mem_write(address, data)
+
+    def _check_memory(self, address: int, size: int, access: int) -> None:
+        access |= uc.UC_PROT_EXEC  # which registers lack
+        regions = [(begin, end) for begin, end, allowed in self._uc.mem_regions() if allowed & access == access]
+        if not any(begin <= address and address + size - 1 <= end for begin, end in regions):
+            raise ValueError(address)
+
+    def add_breakpoint(self, address: int) -> None:
+        """Makes it halt before it executes the instruction there."""
+        if address not in self.breakpoints:
+            self.breakpoints[address] = self._uc.hook_add(
+                uc.UC_HOOK_CODE, self._on_breakpoint, None, address, address
+            )
+            self._uc.ctl_flush_tb()
+
+    def drop_breakpoint(self, address: int) -> None:
+        """Takes a breakpoint away, if there is one."""
+        if address in self.breakpoints:
+            self._uc.hook_del(self.breakpoints.pop(address))
+            self._uc.ctl_flush_tb()
+
+    def clear_breakpoints(self) -> None:
+        """Takes all breakpoints away."""
+        for address in list(self.breakpoints):
+            self.drop_breakpoint(address)
+
+    def _on_breakpoint(self, _uc: object, address: int, _size: int, _data: object) -> None:
+        if address == self._resumed_at:
+            self._resumed_at = None
+            return
+        self.halts = self._is_at_breakpoint = True
+        self._uc.emu_stop()
 
     def _sleep(self) -> None:
         """Skips from event to event until one wakes the core."""

@@ -19,6 +19,7 @@ from host_sim.transport.clock import VirtualClock, WallClock
 from host_sim.transport.link import LineStats, Link
 
 if TYPE_CHECKING:
+    from host_sim.emulator.board import EmulatedBoard
     from host_sim.emulator.pins_board import SensesByPins
     from host_sim.sim.debugger import Gdb
     from host_sim.sim.qemu import SerialEmulator
@@ -109,19 +110,27 @@ class Connector:
         return Connection(emulator.link, name, emulator.status, pid=emulator.pid, deadline_s=_EMULATED_S)
 
     def _in_qemu_with_gdb(self) -> Connection:
-        from host_sim.base.paths import ROOT  # noqa: PLC0415 - see above
-        from host_sim.sim.debugger import Gdb  # noqa: PLC0415 - see above
         from host_sim.sim.qemu import Qemu  # noqa: PLC0415 - see above
 
-        image = self._image("feather_stm32f405", "slcan")
-        folder = self._stack.enter_context(TemporaryDirectory(prefix="octet-gdb-"))
-        qemu = Qemu(image, gdb=Path(folder) / "gdb")
+        image, path = self._image("feather_stm32f405", "slcan"), self._gdb_socket()
+        qemu = Qemu(image, gdb=path)
         self._stack.callback(qemu.close)
-        attach = ["-d", os.fspath(ROOT), "-ex", f"target remote {folder}/gdb", "-ex", "break respond_to_senses"]
-        gdb = Gdb([os.fspath(image), *attach], "gdb-multiarch")
-        self._stack.callback(gdb.close)
+        gdb = self._attach_gdb(image, path)
         qemu.link.explain = gdb.account_for_silence
         return Connection(qemu.link, "qemu", gdb.status, pid=qemu.pid, deadline_s=_IN_DEBUGGER_S)
+
+    def _gdb_socket(self) -> Path:
+        return Path(self._stack.enter_context(TemporaryDirectory(prefix="octet-gdb-"))) / "gdb"
+
+    def _attach_gdb(self, image: Path, path: Path) -> "Gdb":
+        """Starts gdb on the socket of an emulator that runs an image."""
+        from host_sim.base.paths import ROOT  # noqa: PLC0415 - see above
+        from host_sim.sim.debugger import Gdb  # noqa: PLC0415 - see above
+
+        attach = ["-d", os.fspath(ROOT), "-ex", f"target remote {path}", "-ex", "break respond_to_senses"]
+        gdb = Gdb([os.fspath(image), *attach], "gdb-multiarch")
+        self._stack.callback(gdb.close)
+        return gdb
 
     def _in_gdb(self, node: int, link: str, pass_fds: Sequence[int]) -> "Gdb":
         from host_sim.sim.debugger import OCTET_ROBOT, Gdb, debug_program  # noqa: PLC0415 - see above
@@ -150,7 +159,17 @@ class Connector:
             return self._on_pins(start_robot(name, image=self._image), name)
         board = start_board(name, image=self._image)
         self._stack.callback(board.close)
-        return Connection(board, f"emulated {name}", board.status, deadline_s=_EMULATED_S)
+        connection = Connection(board, f"emulated {name}", board.status, deadline_s=_EMULATED_S)
+        return self._with_gdb(connection, board) if self._access.gdb else connection
+
+    def _with_gdb(self, connection: Connection, board: "EmulatedBoard") -> Connection:
+        from host_sim.emulator.gdb_stub import GdbStub  # noqa: PLC0415 - see above
+
+        path = self._gdb_socket()
+        stub = GdbStub(board.hardware.core, path)
+        self._stack.callback(stub.close)
+        stub.check_client = self._attach_gdb(board.image, path).status
+        return replace(connection, deadline_s=_IN_DEBUGGER_S)
 
     def _on_pins(self, board: "SensesByPins", name: str) -> Connection:
         self._stack.callback(board.close)

@@ -187,8 +187,8 @@ class RunConfig:
 
     gdb: bool = option(
         False,
-        "start the robot in gdb; the world waits as long as it stands at a breakpoint. With --robot qemu, attach "
-        "gdb-multiarch to the image",
+        "start the robot in gdb; the world waits as long as it stands at a breakpoint. With --robot qemu or "
+        "emulated, attach gdb-multiarch to the image",
         commands=("run",),
         fleet=False,
     )

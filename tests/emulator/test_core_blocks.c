@@ -127,3 +127,19 @@ TEST(no_block_begins_once_something_has_failed)
     TEST_ASSERT_EQUAL_UINT(1, emulator.stops);
     assert_instructions(0);
 }
+
+/* A debugger has halted after two of four instructions, and lets the core execute one, then the rest. */
+TEST(the_rest_of_a_block_in_which_a_debugger_halted_is_not_counted_again)
+{
+    execute(0, 8);
+    TEST_ASSERT_EQUAL_UINT64(PROGRAM + 8, blocks.end);
+    blocks.counted_to = blocks.end;
+    blocks.stopping = true;
+    execute(4, 2);
+    execute(6, 2);
+    TEST_ASSERT_EQUAL_UINT64(0, blocks.counted_to);
+    TEST_ASSERT_EQUAL_UINT(0, emulator.stops);
+    assert_instructions(4);
+    execute(8, 2);
+    TEST_ASSERT_EQUAL_UINT(1, emulator.stops);
+}

@@ -29,11 +29,16 @@ void core_on_block(void *emulator, uint64_t address, uint32_t size, void *contex
     struct core_blocks *blocks = context;
     uint32_t instructions;
 
+    if (blocks->counted_to != 0) {
+        blocks->counted_to = address + size < blocks->counted_to ? blocks->counted_to : 0;
+        return;
+    }
     if (blocks->stopping || blocks->clock->failed) {
         (void)blocks->stop(emulator);
         return;
     }
     instructions = look_up(blocks, emulator, address, size)->count;
     blocks->instructions += instructions;
+    blocks->end = address + size;
     clock_execute(blocks->clock, instructions);
 }

@@ -20,6 +20,9 @@ struct core_blocks {
     struct board_clock *clock;   /* one cycle for each instruction */
     uint64_t instructions;       /* executed so far */
     bool stopping;               /* begin no further block */
+    uint64_t end;                /* address after the block that was counted last */
+    uint64_t counted_to;         /* if a debugger has halted within it: the same address, else 0. The rest of the
+                                    block is not counted again, and ends whatever happens */
     int (*stop)(void *emulator);                                                     /* Unicorn's uc_emu_stop */
     int (*read)(void *emulator, uint64_t address, void *bytes, uint64_t size);   /* Unicorn's uc_mem_read */
     struct core_block kept[BLOCKS_KEPT];
