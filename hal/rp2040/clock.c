@@ -55,7 +55,7 @@ static bool start_pll(volatile struct pll_registers *pll, uint32_t block, uint32
     RESETS.reset |= block;
     clock_release(block);
     pll->fbdiv_int = factor;
-    pll->pwr &= ~(uint32_t)(PLL_OFF | PLL_VCO_OFF);
+    pll->pwr &= ~((uint32_t)PLL_OFF | PLL_VCO_OFF);
     if (!await(&pll->cs, READY))
         return false;
     pll->prim = dividers;

@@ -1,8 +1,6 @@
 /* The store in the last two sectors of the flash. A write is a whole page of it, whose other bits are 1 and stay. */
 #include "hal/flash_store/flash.h"
 
-#include <string.h>
-
 #include "hal/port/cortex_m/uart.h"
 #include "hal/rp2040/rom.h"
 
@@ -12,18 +10,12 @@ enum {
     FLASH_UNIT = 16
 };
 
-extern const volatile uint8_t SECTORS[];
+extern const volatile uint32_t SECTORS[];
 
-static const volatile uint8_t *place(unsigned page, uint32_t offset)
+/* Where a page begins among the sectors, in bytes. */
+static uint32_t place(unsigned page)
 {
-    unsigned sector = page < FLASH_PAGES ? SECTOR_COUNT - FLASH_PAGES + page : page - FLASH_PAGES;
-
-    return &SECTORS[sector * ROM_SECTOR + offset];
-}
-
-static uint32_t in_flash(const volatile uint8_t *at)
-{
-    return SECTORS_AT + (uint32_t)(at - SECTORS);
+    return (page < FLASH_PAGES ? SECTOR_COUNT - FLASH_PAGES + page : page - FLASH_PAGES) * ROM_SECTOR;
 }
 
 bool flash_exists(void)
@@ -43,48 +35,40 @@ uint32_t flash_unit(void)
 
 int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
 {
-    const volatile uint32_t *at = (const volatile uint32_t *)(const volatile void *)place(page, offset);
-
     for (uint32_t i = 0; i < count / 4; i++)
-        words[i] = at[i];
+        words[i] = SECTORS[(place(page) + offset) / 4 + i];
     return 0;
 }
 
-static int compare(unsigned page, uint32_t offset, const uint8_t bytes[], uint32_t count)
+static int write_unit(uint32_t begin, const uint32_t words[FLASH_UNIT / 4])
 {
-    const volatile uint8_t *at = place(page, offset);
+    uint32_t page[ROM_PAGE / 4], at = begin % ROM_PAGE / 4;
 
-    for (uint32_t i = 0; i < count; i++)
-        if (at[i] != bytes[i])
+    for (uint32_t i = 0; i < ROM_PAGE / 4; i++)
+        page[i] = i - at < FLASH_UNIT / 4 ? words[i - at] : UINT32_MAX;
+    rom_write(SECTORS_AT + begin - 4 * at, page);
+    line_pump();
+    for (uint32_t i = 0; i < FLASH_UNIT / 4; i++)
+        if (SECTORS[begin / 4 + i] != words[i])
             return -1;
     return 0;
 }
 
 int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t count)
 {
-    uint8_t bytes[ROM_PAGE];
     int result = 0;
 
-    for (uint32_t done = 0; done < count && result == 0; done += FLASH_UNIT) {
-        uint32_t at = (offset + done) % ROM_PAGE;
-
-        memset(bytes, 0xFF, sizeof bytes);
-        memcpy(&bytes[at], &words[done / 4], FLASH_UNIT);
-        rom_write(in_flash(place(page, offset + done - at)), bytes);
-        line_pump();
-        result = compare(page, offset + done, &bytes[at], FLASH_UNIT);
-    }
+    for (uint32_t done = 0; done < count && result == 0; done += FLASH_UNIT)
+        result = write_unit(place(page) + offset + done, &words[done / 4]);
     return result;
 }
 
 int flash_erase(unsigned page)
 {
-    const volatile uint8_t *at = place(page, 0);
-
-    rom_erase(in_flash(at));
+    rom_erase(SECTORS_AT + place(page));
     line_pump();
-    for (uint32_t i = 0; i < ROM_SECTOR; i++)
-        if (at[i] != 0xFF)
+    for (uint32_t i = 0; i < ROM_SECTOR / 4; i++)
+        if (SECTORS[place(page) / 4 + i] != UINT32_MAX)
             return -1;
     return 0;
 }

@@ -2,13 +2,13 @@
 
 #include "hal/rp2040/registers.h"
 
-static const uint32_t TRIGGER = 1u << 31;
+enum { TRIGGER_AT = 31 };
 
 /* By the watchdog: the core's own request resets the core alone, and leaves no trace of its reason. */
 void leave_by_reset(void)
 {
     __asm__ volatile("dsb" ::: "memory");
-    WATCHDOG.ctrl = TRIGGER;
+    WATCHDOG.ctrl = 1u << TRIGGER_AT;
     for (;;)
         continue;
 }

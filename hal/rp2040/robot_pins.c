@@ -156,7 +156,8 @@ static uint16_t convert(uint32_t channel)
 
 void pins_measure(uint16_t light[FEEL_COUNT])
 {
-    light[0] = light[FEEL_COUNT - 1] = 0;
+    light[0] = 0;
+    light[FEEL_COUNT - 1] = 0;
     light[1] = convert(BOARD_PROXIMITY_FRONT_RIGHT_CHANNEL);
     light[2] = convert(BOARD_PROXIMITY_FRONT_CHANNEL);
     light[3] = convert(BOARD_PROXIMITY_FRONT_LEFT_CHANNEL);

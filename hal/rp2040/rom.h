@@ -14,7 +14,7 @@ bool rom_exists(void);
 void rom_erase(uint32_t offset);
         /* Erases the sector at that offset in the flash, in some 50 ms, at most 400 ms. */
 
-void rom_write(uint32_t offset, const uint8_t page[ROM_PAGE]);
+void rom_write(uint32_t offset, const uint32_t page[ROM_PAGE / 4]);
         /* Clears the bits of a page that are 0 in page, which lies in RAM; in some 0.5 ms, at most 3 ms. */
 
 #endif

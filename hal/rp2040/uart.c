@@ -26,7 +26,8 @@ static struct {
 static void transmit(void)
 {
     while (queue.count > 0 && !(UART0.uartfr & FR_TXFF)) {
-        UART0.uartdr = queue.bytes[queue.first++];
+        UART0.uartdr = queue.bytes[queue.first];
+        queue.first++;
         queue.count--;
     }
 }
