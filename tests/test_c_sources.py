@@ -21,12 +21,12 @@ FOLDERS = ("firmware", "hal", "host_sim")
 # What no program of the host can be made of. The tests of images run the first two.
 NOT_ON_THE_HOST = {
     "hal/port/cortex_m/startup.c": "written in the core's own assembler, and in symbols of the linker script",
-    "hal/port/cortex_m/leave.c": "as above",
+    "hal/port/cortex_m/reset_chip.c": "as above",
     "hal/pins_body/body_main.c": "a main of its own; tests/image/test_body_node.py runs it",
     "hal/stm32/stm32g431/nmi.c": "written in the core's own assembler; what it calls is tested as flash_forgives",
     "hal/rp2040/boot2.c": "as above; tests/judges/test_pico.py runs it",
     "hal/rp2040/divide.c": "as above; tests/judges/test_pico.py runs it",
-    "hal/rp2040/leave.c": "it never ends; tests/judges/test_pico.py runs it",
+    "hal/rp2040/reset_chip.c": "it never ends; tests/judges/test_pico.py runs it",
     "hal/rp2040/rom.c": "it calls the boot ROM; tests/judges/test_pico.py runs it",
     "hal/port/cortex_m/build_id.c": "a text in the image, and no code",
     **{

@@ -40,8 +40,8 @@ static int32_t counts_left(const struct motion *motion)
     if (motion->kind == MOTION_REST)
         return 0;
     if (is_turn(motion))
-        return motion->turn_left / WHEELS_TURN_UNIT - owed_counts(&motion->apart);
-    return motion->way_left - owed_counts(&motion->together);
+        return motion->turn_left / WHEELS_TURN_UNIT - backlog_counts(&motion->apart);
+    return motion->way_left - backlog_counts(&motion->together);
 }
 
 /* The wheel speed that covers counts in one tick, rounded, and at most the limit. */
@@ -63,7 +63,7 @@ void motion_start(struct motion *motion)
 void motion_lift(struct motion *motion)
 {
     motion->referenced = false;
-    motion->apart = (struct owed){.counts = 0};
+    motion->apart = (struct backlog){.counts = 0};
     motion->together = motion->apart;
 }
 
@@ -166,20 +166,20 @@ static void follow(struct motion *motion, int32_t left, int32_t right, unsigned 
     judge_standing(&motion->left, left, motion->kind == MOTION_REST ? 0 : ticks);
     judge_standing(&motion->right, right, motion->kind == MOTION_REST ? 0 : ticks);
     judge_way(motion, left - right, left + right);
-    owed_settle(&motion->apart, left - right, ticks);
-    owed_settle(&motion->together, left + right, ticks);
+    backlog_roll(&motion->apart, left - right, ticks);
+    backlog_roll(&motion->together, left + right, ticks);
 }
 
 /* Takes commands off pace_left, since even late wheels obey them in the end; all if half the speed is not reached. */
 static void judge_pace(struct motion *motion, unsigned ticks)
 {
-    uint32_t told = wheels_magnitude(motion->apart.told[0]) * ticks;
+    uint32_t told = wheels_magnitude(motion->apart.commanded[0]) * ticks;
 
     if (!motion_tells(motion))
         return;
     motion->pace_left = (uint16_t)(told < motion->pace_left ? motion->pace_left - told : 0u);
     if (motion->apart.same >= SPEED_TICKS
-        && 2 * wheels_magnitude(motion->apart.rolled) < wheels_magnitude(motion->apart.told[0]))
+        && 2 * wheels_magnitude(motion->apart.rolled) < wheels_magnitude(motion->apart.commanded[0]))
         motion->pace_left = 0;
 }
 
@@ -210,7 +210,7 @@ void motion_track(struct motion *motion, const struct senses *senses)
 static bool has_turned(const struct motion *motion, const struct config *config)
 {
     uint32_t degree = wheels_turn_per_degree(config);
-    int32_t owed = owed_counts(&motion->apart) * WHEELS_TURN_UNIT;
+    int32_t owed = backlog_counts(&motion->apart) * WHEELS_TURN_UNIT;
 
     if (wheels_magnitude(motion->apart.rolled) <= STOPPED_COUNTS && wheels_magnitude(motion->turn_left) <= degree / 2)
         return true;
@@ -232,7 +232,7 @@ bool motion_ended(const struct motion *motion, const struct config *config, cons
 /* The rest of an unfinished turn is dropped: made up for much later, it would be a surprise. */
 static void leave_turn(struct motion *motion, const struct config *config)
 {
-    int32_t owed = owed_counts(&motion->apart) * WHEELS_TURN_UNIT;
+    int32_t owed = backlog_counts(&motion->apart) * WHEELS_TURN_UNIT;
 
     if (is_turn(motion) && wheels_magnitude(motion->turn_left - owed) > wheels_turn_per_degree(config) / 2)
         motion->turn_left = 0;
@@ -286,7 +286,7 @@ void motion_begin(struct motion *motion, const struct config *config, const stru
     motion->rest_ticks = action->rest_ticks;
     motion->turn_left =
         wheels_limited(motion->turn_left + action->turn_deg * (int32_t)wheels_turn_per_degree(config), TURN_LIMIT);
-    motion->way_left = (int16_t)(action->forward_mm * WHEELS_COUNTS_PER_MM + owed_counts(&motion->together));
+    motion->way_left = (int16_t)(action->forward_mm * WHEELS_COUNTS_PER_MM + backlog_counts(&motion->together));
     allow(motion, config);
     if (motion->astray > limit)
         motion->astray = limit;   /* wheels that obey again are soon believed */
@@ -309,8 +309,8 @@ void motion_drive(struct motion *motion, const struct config *config, struct dri
         counts = -counts;
     if (stands(motion, config))
         motion->ticks_left = 0;
-    owed_tell(&motion->apart, is_turn(motion) ? counts : 0);
-    owed_tell(&motion->together, is_turn(motion) ? 0 : counts);
+    backlog_command(&motion->apart, is_turn(motion) ? counts : 0);
+    backlog_command(&motion->together, is_turn(motion) ? 0 : counts);
     drive->left_mm_s = speed;
     drive->right_mm_s = is_turn(motion) ? (int16_t)-speed : speed;
 }

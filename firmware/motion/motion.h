@@ -5,7 +5,7 @@
 #define OCTET_MOTION_H
 
 #include "firmware/brain.h"
-#include "firmware/motion/owed.h"
+#include "firmware/motion/odometry_backlog.h"
 
 enum motion_kind { MOTION_REST, MOTION_STEP, MOTION_BACK, MOTION_TURN, MOTION_TURN_UNTIL_FOOD, MOTION_GLANCE };
         /* The kind of an action. Where a glance ends is not judged. */
@@ -28,8 +28,8 @@ struct motion {
     uint8_t kind;              /* of the current action: an enum motion_kind */
     bool referenced;           /* the odometers above are valid */
     uint8_t rest_ticks;        /* rest still to come before the action ends */
-    struct owed apart;         /* left wheel less right wheel */
-    struct owed together;      /* left wheel plus right wheel */
+    struct backlog apart;      /* left wheel less right wheel */
+    struct backlog together;   /* left wheel plus right wheel */
     struct standing left;
     struct standing right;
 };

@@ -15,7 +15,7 @@ enum {
     COUNTS_1000 = (int)(1608495439LL * TURNS / WHEEL_COUNT_256),
     /* Units of the feed-forward (push per count of a stair) and of the dead band (push). */
     FORWARD_1000 = (int)(1000LL * WHEEL_NOMINAL_MV * WHEEL_COUNT_256 / (PUSH * STAIR_BEATS * WHEEL_PERIOD_MS * 256)),
-    DEAD_10 = (int)(10LL * WHEEL_NOMINAL_MV * TRAIT_DEAD_OF / TRAIT_DEAD_BY / PUSH)
+    DEAD_10 = (int)(10LL * WHEEL_NOMINAL_MV * CALIBRATION_DEAD_OF / CALIBRATION_DEAD_BY / PUSH)
 };
 
 /* A staircase: the motors rest, and settle on each level before they are measured there. */
@@ -37,19 +37,20 @@ static int32_t rounded(int32_t dividend, int32_t divisor)
     return divisor > 0 ? (dividend + divisor / 2) / divisor : 0;
 }
 
-/* Stores a trait; a value out of range refuses the whole measurement. */
-static void take(struct calibration *calibration, struct traits *traits, unsigned number, int32_t value)
+/* Stores a value; one out of range refuses the whole measurement. */
+static void take(struct calibration *calibration, struct calibration_values *values, unsigned number, int32_t value)
 {
     if (calibration->refused != 0)
         return;
-    if (!traits_fit((uint8_t)number, (uint32_t)value)) {   /* negative values become too large */
+    if (!calibration_fit((uint8_t)number, (uint32_t)value)) {   /* negative values become too large */
         calibration->refused = (uint8_t)number;
         calibration->found = value;
     }
-    traits->value[number - TRAIT_FIRST] = (uint8_t)value;
+    values->value[number - CALIBRATION_FIRST] = (uint8_t)value;
 }
 
-static bool measure_light(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits)
+static bool measure_light(struct calibration *calibration, const struct calibrate_look *look,
+                          struct calibration_values *values)
 {
     if (!look->senses)
         return false;
@@ -60,8 +61,8 @@ static bool measure_light(struct calibration *calibration, const struct calibrat
         return false;
     for (unsigned i = 0; i < FEEL_COUNT; i++)
         if ((look->has >> i & 1) != 0)
-            take(calibration, traits, BODY_NEAR_RIGHT + i,
-                 rounded((int32_t)calibration->light[i], TRAIT_LIGHT * LIGHT_TICKS));
+            take(calibration, values, BODY_NEAR_RIGHT + i,
+                 rounded((int32_t)calibration->light[i], CALIBRATION_LIGHT * LIGHT_TICKS));
     return true;
 }
 
@@ -73,7 +74,7 @@ static int32_t counted(const uint16_t *marks, unsigned stair)
 
 /* Returns the motor's lag after the step, ms; negative if it did not follow. Once the slope is in range, no sum can
  * overflow. */
-static int32_t take_motor(struct calibration *calibration, unsigned side, struct traits *traits)
+static int32_t take_motor(struct calibration *calibration, unsigned side, struct calibration_values *values)
 {
     const uint16_t *marks = calibration->marks[side];
     int32_t low = counted(marks, STAIR_LOW), high = counted(marks, STAIR_HIGH), more = high - low;
@@ -83,17 +84,18 @@ static int32_t take_motor(struct calibration *calibration, unsigned side, struct
 
     if (ahead > 2 * back || back > 2 * ahead)
         more = 0;   /* it hardly turns in one direction: that is refused */
-    take(calibration, traits, BODY_FORWARD_LEFT + side, rounded(step, more * FORWARD_1000 / 1000));
+    take(calibration, values, BODY_FORWARD_LEFT + side, rounded(step, more * FORWARD_1000 / 1000));
     if (calibration->refused != 0)
         return 0;
     if (low > more || low < -more)
         low = more;   /* no motor counts like that: its dead band comes out of range, without an overflow */
-    take(calibration, traits, BODY_DEAD_LEFT + side,
+    take(calibration, values, BODY_DEAD_LEFT + side,
          rounded((push - rounded(step / 64 * low, more) * 64) * 10, DEAD_10));
     return rounded((high - counted(marks, STAIR_HIGH_SETTLES)) * STAIR_BEATS * WHEEL_PERIOD_MS, more);
 }
 
-static bool measure_motors(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits)
+static bool measure_motors(struct calibration *calibration, const struct calibrate_look *look,
+                           struct calibration_values *values)
 {
     unsigned stairs = calibration->beats / STAIR_BEATS, stair = (stairs - 1) % CALIBRATE_STAIRS;
 
@@ -104,8 +106,8 @@ static bool measure_motors(struct calibration *calibration, const struct calibra
     calibration->both_mv[stair] = (uint16_t)(calibration->both_mv[stair] + look->battery_mv);
     if (stairs < 2 * CALIBRATE_STAIRS)
         return false;
-    take(calibration, traits, BODY_LAG_MS,
-         rounded(take_motor(calibration, 0, traits) + take_motor(calibration, 1, traits), 2));
+    take(calibration, values, BODY_LAG_MS,
+         rounded(take_motor(calibration, 0, values) + take_motor(calibration, 1, values), 2));
     return true;
 }
 
@@ -120,14 +122,15 @@ static void turn(struct calibration *calibration, const struct calibrate_look *l
     }
 }
 
-static bool measure_track(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits)
+static bool measure_track(struct calibration *calibration, const struct calibrate_look *look,
+                          struct calibration_values *values)
 {
     int32_t turned;
     bool sees;
 
     turn(calibration, look);
     if (calibration->beats >= TURN_BEATS) {
-        take(calibration, traits, BODY_TRACK_MM, 0);
+        take(calibration, values, BODY_TRACK_MM, 0);
         return true;
     }
     if (!look->senses)
@@ -143,22 +146,24 @@ static bool measure_track(struct calibration *calibration, const struct calibrat
     turned = calibration->turned - calibration->first;
     if ((uint32_t)turned > TURNED_MAX)
         turned = 0;   /* no wheels turn like that, and none backward */
-    take(calibration, traits, BODY_TRACK_MM, rounded(turned * 1000, COUNTS_1000));
+    take(calibration, values, BODY_TRACK_MM, rounded(turned * 1000, COUNTS_1000));
     return true;
 }
 
-static bool measure(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits)
+static bool measure(struct calibration *calibration, const struct calibrate_look *look,
+                    struct calibration_values *values)
 {
     if (calibration->measures == MEASURE_LIGHT)
-        return measure_light(calibration, look, traits);
+        return measure_light(calibration, look, values);
     if (calibration->measures == MEASURE_MOTORS)
-        return measure_motors(calibration, look, traits);
-    return measure_track(calibration, look, traits);
+        return measure_motors(calibration, look, values);
+    return measure_track(calibration, look, values);
 }
 
-bool calibrate_beat(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits)
+bool calibrate_beat(struct calibration *calibration, const struct calibrate_look *look,
+                    struct calibration_values *values)
 {
-    struct traits found = *traits;
+    struct calibration_values found = *values;
 
     if (!measure(calibration, look, &found)) {
         calibration->beats++;
@@ -166,7 +171,7 @@ bool calibrate_beat(struct calibration *calibration, const struct calibrate_look
     }
     calibration->measures = MEASURE_NOTHING;
     if (calibration->refused == 0)
-        *traits = found;
+        *values = found;
     return true;
 }
 

@@ -9,7 +9,7 @@
 #define OCTET_CALIBRATE_H
 
 #include "hal/pins_body/pins.h"
-#include "hal/pins_body/traits.h"
+#include "hal/pins_body/calibration_values.h"
 
 enum { MEASURE_NOTHING, MEASURE_LIGHT, MEASURE_MOTORS, MEASURE_TRACK, MEASURE_ENDS };
 
@@ -44,9 +44,10 @@ void calibrate_begin(struct calibration *calibration, uint8_t measures);
 void calibrate_interrupt(struct calibration *calibration);
         /* Aborts the measurement. */
 
-bool calibrate_beat(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits);
+bool calibrate_beat(struct calibration *calibration, const struct calibrate_look *look,
+                    struct calibration_values *values);
         /* Call every 5 ms while it measures. True: it has ended. An impossible result is refused and changes no
-           trait; otherwise store the traits. */
+           value; otherwise store the values. */
 
 int32_t calibrate_duty(const struct calibration *calibration);
         /* Duty of both motors in the next beat; 0: the wheels' controllers drive them. */

@@ -1,10 +1,10 @@
 /* A body on pins: implements hal.h on the microcontroller's pins. */
 #include "hal/can_body/port.h"
+#include "hal/pins_body/body_parameters.h"
 #include "hal/pins_body/button.h"
 #include "hal/pins_body/guard.h"
 #include "hal/pins_body/pins.h"
 #include "hal/pins_body/telemetry.h"
-#include "hal/pins_body/upkeep.h"
 
 enum {
     BEATS = 4,             /* in a tick of 20 ms: */
@@ -23,7 +23,7 @@ struct hal {
     struct guard guard;
     struct proximity proximity;
     struct button button;
-    struct upkeep upkeep;
+    struct body_parameters parameters;
     int16_t told_mm_s[PINS_SIDES];
     uint8_t beat, tick;
     uint16_t bursts;       /* as of the last tick */
@@ -46,8 +46,8 @@ int hal_open(struct hal **hal, int argc, char *const argv[])
         result = telemetry_open(&port);
     if (result < 0)
         return result;
-    traits_load(&body.upkeep.traits);
-    upkeep_use(&body.upkeep, &body.proximity, body.wheels);
+    calibration_load(&body.parameters.values);
+    parameters_apply(&body.parameters, &body.proximity, body.wheels);
     pins_open();
     body.calibrates = pins_button();
     port_ready(&port);
@@ -67,7 +67,7 @@ static void rest(struct hal *hal)
 /* Runs a beat of the current measurement, if there is one. */
 static void measure(struct hal *hal, const struct guard_look *seen)
 {
-    struct calibration *calibration = &hal->upkeep.calibration;
+    struct calibration *calibration = &hal->parameters.calibration;
     const struct calibrate_look look = {
         .counts = {seen->counts[0], seen->counts[1]}, .battery_mv = seen->battery_mv,
         .senses = hal->beat == BEAT_DARK, .back = hal->proximity.back, .has = PINS_SENSORS,
@@ -78,10 +78,10 @@ static void measure(struct hal *hal, const struct guard_look *seen)
         calibrate_interrupt(calibration);
     if (calibration->measures == MEASURE_NOTHING)
         return;
-    if (calibrate_beat(calibration, &look, &hal->upkeep.traits)) {
+    if (calibrate_beat(calibration, &look, &hal->parameters.values)) {
         rest(hal);
-        upkeep_use(&hal->upkeep, &hal->proximity, hal->wheels);
-        hal->upkeep.unkept = calibration->refused == 0;
+        parameters_apply(&hal->parameters, &hal->proximity, hal->wheels);
+        hal->parameters.unstored = calibration->refused == 0;
     } else {
         hal->told_mm_s[0] = calibrate_mm_s(calibration);
         hal->told_mm_s[1] = (int16_t)-hal->told_mm_s[0];
@@ -103,8 +103,8 @@ static void run_wheels(struct hal *hal)
     for (unsigned side = 0; side < PINS_SIDES; side++) {
         int32_t duty = wheel_run(&hal->wheels[side], look.counts[side], hal->told_mm_s[side], battery_mv);
 
-        if (hal->upkeep.calibration.measures == MEASURE_MOTORS)
-            duty = calibrate_duty(&hal->upkeep.calibration);
+        if (hal->parameters.calibration.measures == MEASURE_MOTORS)
+            duty = calibrate_duty(&hal->parameters.calibration);
         hal->guard.duty[side] = guard_forbids(&hal->guard) ? 0 : duty;
         pins_push(side, hal->guard.duty[side]);
     }
@@ -147,12 +147,12 @@ static bool pass_beat(struct hal *hal)
 /* In calibration mode, a start selects a measurement instead. */
 static bool is_told(struct hal *hal, struct command *command)
 {
-    struct calibration *calibration = &hal->upkeep.calibration;
+    struct calibration *calibration = &hal->parameters.calibration;
     bool busy = hal->running || calibration->measures != MEASURE_NOTHING;
 
     if (hal->told_track) {
         hal->told_track = false;
-        *command = (struct command){OPCODE_SET, WHEEL_TRACK_MM, upkeep_trait(&hal->upkeep, BODY_TRACK_MM)};
+        *command = (struct command){OPCODE_SET, WHEEL_TRACK_MM, parameters_value(&hal->parameters, BODY_TRACK_MM)};
         return true;
     }
     if (!button_look(&hal->button, pins_button(), busy, command))
@@ -172,7 +172,7 @@ static bool is_told(struct hal *hal, struct command *command)
 
 static void live(const struct hal *hal)
 {
-    port_alive(guard_forbids(&hal->guard) || (hal->upkeep.calibration.refused != 0 && !hal->running));
+    port_alive(guard_forbids(&hal->guard) || (hal->parameters.calibration.refused != 0 && !hal->running));
 }
 
 /* For what may erase a page: that stalls the machine for up to 40 ms, during which no motor may be pushed. */
@@ -195,10 +195,10 @@ static enum input_kind take_order(struct hal *hal, struct input *in)
         live(hal);
     }
     if (hal->asked) {
-        if (!hal->running && hal->upkeep.calibration.measures == MEASURE_NOTHING)
+        if (!hal->running && hal->parameters.calibration.measures == MEASURE_NOTHING)
             let_go(hal);
-        upkeep_serve(&hal->upkeep, &in->command, hal->running);
-        upkeep_use(&hal->upkeep, &hal->proximity, hal->wheels);
+        parameters_serve(&hal->parameters, &in->command, hal->running);
+        parameters_apply(&hal->parameters, &hal->proximity, hal->wheels);
     }
     return kind;
 }
@@ -237,16 +237,16 @@ static void store_later(struct hal *hal)
         return;
     if (hal->unstored)
         (void)store(hal, PORT_AT_REST);
-    if (hal->upkeep.unkept)
+    if (hal->parameters.unstored)
         let_go(hal);
-    upkeep_store(&hal->upkeep);
+    parameters_store(&hal->parameters);
 }
 
 static void tell(struct hal *hal, const struct output *out)
 {
     hal->told = *out;
     if (hal->asked)
-        upkeep_answer(&hal->upkeep, &hal->told);
+        parameters_answer(&hal->parameters, &hal->told);
     telemetry_output(&hal->told, hal->asked);
 }
 
@@ -255,8 +255,8 @@ int hal_send(struct hal *hal, const struct output *out)
     tell(hal, out);
     hal->running = out->report.running;
     if (hal->running)
-        calibrate_interrupt(&hal->upkeep.calibration);
-    if (!out->has_drive || hal->upkeep.calibration.measures != MEASURE_NOTHING)
+        calibrate_interrupt(&hal->parameters.calibration);
+    if (!out->has_drive || hal->parameters.calibration.measures != MEASURE_NOTHING)
         return 0;
     if (out->drive.reason == REASON_STOP)
         rest(hal);
@@ -278,7 +278,7 @@ int hal_load(struct hal *hal, uint8_t memory[CELL_COUNT])
 
 int hal_store(struct hal *hal, const uint8_t memory[CELL_COUNT], bool at_rest)
 {
-    bool rests = at_rest && hal->upkeep.calibration.measures == MEASURE_NOTHING;
+    bool rests = at_rest && hal->parameters.calibration.measures == MEASURE_NOTHING;
 
     for (unsigned p = 0; p < CELL_COUNT; p++)
         hal->memory[p] = memory[p];

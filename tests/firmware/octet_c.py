@@ -16,7 +16,7 @@ _HEADERS = [
     "firmware/random.h",
     "firmware/brain.h",
     "firmware/caution.h",
-    "firmware/motion/owed.h",
+    "firmware/motion/odometry_backlog.h",
     "firmware/motion/motion.h",
     "firmware/perception.h",
     "firmware/sharing.h",

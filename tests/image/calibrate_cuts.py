@@ -3,7 +3,7 @@
     .venv/bin/python -m tests.image.calibrate_cuts
     .venv/bin/python -m tests.image.calibrate_cuts --board nucleo_g431rb --again-every 1
 
-All pages of memory and traits are full, so that they are erased on the way. After one of N cuts the robot goes on
+All pages of memory and values are full, so that they are erased on the way. After one of N cuts the robot goes on
 and stores all anew, and each write of that is cut, too. Prints how many cuts left what was known before, how many
 what was being stored, and how many anything else; the exit code is 1 if any did. A board without a body on pins has
 its memory only.
@@ -20,7 +20,7 @@ from host_sim.emulator.board import EmulatedBoard, start_board
 from host_sim.emulator.chips import CHIPS
 from host_sim.emulator.flash_kinds import FlashG4
 from host_sim.emulator.pins_board import PinsBoard, start_robot
-from host_sim.lab.calibrate.calibration import STEPS, TRAITS
+from host_sim.lab.calibrate.calibration import CALIBRATION_VALUES, STEPS
 from host_sim.lab.calibrate.places import Places
 from host_sim.protocol.generated import Side
 from host_sim.protocol.words import BODY_PARAMETERS
@@ -28,7 +28,7 @@ from host_sim.sim.access import BOARDS
 from tests.image.support import Talk
 
 State = tuple[tuple[int, ...], tuple[int, ...]]
-"""The eight cells; the traits in their order."""
+"""The eight cells; the calibration values in their order."""
 
 Step = Callable[[], None]
 
@@ -39,7 +39,7 @@ RECORD, WRITE_MAX = 16, 8
 """Bytes of the store's, and of the longest write."""
 
 OF_EACH_RECORD = ("body_track_mm", "body_lag_ms")
-"""A trait of each record of them."""
+"""A value of each record of them."""
 
 _UP_S = {True: 0.15, False: 0.6}  # an erase each of three small pages, or of a large one
 _STORED_S, _LONGEST_S = 0.1, 60.0
@@ -148,8 +148,8 @@ class Robot:
     def knows(self) -> State:
         self.talk.heard.clear()
         self.talk.ask()
-        traits = TRAITS.values() if isinstance(self.board, PinsBoard) else ()
-        return self.talk.memory, tuple(self.get(row.number) for row in traits)
+        rows = CALIBRATION_VALUES.values() if isinstance(self.board, PinsBoard) else ()
+        return self.talk.memory, tuple(self.get(row.number) for row in rows)
 
     def measure(self, places: Places, step: str) -> None:
         places.put(step)
@@ -164,7 +164,7 @@ class Robot:
         """Something new for each of its stores."""
         steps: list[Step] = [partial(self.learn, side)]
         if isinstance(self.board, PinsBoard):
-            steps += [partial(self.set, name, TRAITS[name].minimum + side) for name in OF_EACH_RECORD]
+            steps += [partial(self.set, name, CALIBRATION_VALUES[name].minimum + side) for name in OF_EACH_RECORD]
         return steps
 
     def fill(self, store: int, page: int) -> None:

@@ -15,7 +15,7 @@ from host_sim.client.frame_log import NoLog
 from host_sim.client.robot_client import RobotClient
 from host_sim.emulator.pins_board import start_robot
 from host_sim.lab.calibrate import calibrate_command
-from host_sim.lab.calibrate.calibration import STEPS, TRAITS, Calibration
+from host_sim.lab.calibrate.calibration import CALIBRATION_VALUES, STEPS, Calibration
 from host_sim.lab.calibrate.places import Places
 from host_sim.protocol.codec import Protocol
 from host_sim.protocol.generated import Side
@@ -64,19 +64,21 @@ def rig(tmp_path):
 
 def test_what_it_measures_is_near_the_truth_and_survives_a_loss_of_power(rig):
     assert [rig.measure(step) for step in STEPS] == ["", "", ""]
-    found, true = rig.calibration.traits(), rig.places.true_traits()
-    for name, row in TRAITS.items():
+    found, true = rig.calibration.stored_values(), rig.places.true_values()
+    for name, row in CALIBRATION_VALUES.items():
         assert abs(found[name] - true[name]) <= max(abs(row.default - true[name]) / 4, 1.0), name
-    assert sum(abs(row.default - true[name]) > 2 for name, row in TRAITS.items()) >= 5
+    assert sum(abs(row.default - true[name]) > 2 for name, row in CALIBRATION_VALUES.items()) >= 5
     rig.board.cut_power()
     rig.board.pass_time(0.1)
-    assert rig.calibration.traits() == found
+    assert rig.calibration.stored_values() == found
 
 
 def test_a_sensor_without_its_wire_is_refused_by_name_and_the_old_values_stay(rig):
     rig.board.robot.wiring.rewire("PROXIMITY_FRONT")
     assert rig.measure("light") == "body_near_front cannot be 0 1/256: it is 20 to 250"
-    assert set(rig.calibration.traits().items()) == {(name, row.default) for name, row in TRAITS.items()}
+    assert set(rig.calibration.stored_values().items()) == {
+        (name, row.default) for name, row in CALIBRATION_VALUES.items()
+    }
 
 
 def test_a_motor_without_its_encoder_is_refused(rig):
@@ -108,7 +110,7 @@ def test_the_button_held_at_power_up_measures_light(rig):
     rig.places.wait(0.5)
     rig.board.robot.set_button(False)
     rig.places.wait(2.5)
-    assert rig.calibration.get("body_near_front") == round(rig.places.true_traits()["body_near_front"])
+    assert rig.calibration.get("body_near_front") == round(rig.places.true_values()["body_near_front"])
 
 
 @pytest.fixture(scope="module", params=BOARDS)

@@ -10,7 +10,7 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.protocol.codec import crc8
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.resimulation import resimulate
-from tests.runs.endurance.doomed import Witness, run_doomed, with_full_disk
+from tests.runs.endurance.interrupted_runs import Witness, run_interrupted, with_full_disk
 from tests.runs.support import octet, start_octet, wait_until
 
 SHORT = ("--environments", "1", "--limit-s", "20", "--bus", "none", "--quiet")
@@ -79,10 +79,10 @@ def test_of_a_run_that_was_killed_all_but_the_last_64_kb_are_there(tmp_path):
 def test_on_a_full_disk_the_run_ends_in_order_and_what_fitted_can_be_read(tmp_path, size):
     witness = Witness()
 
-    fate = run_doomed(tmp_path, with_full_disk(size), witness, "--compress-log")
+    outcome = run_interrupted(tmp_path, with_full_disk(size), witness, "--compress-log")
 
     part = tmp_path / "out/run.log.gz.part"
-    assert (fate.status, fate.is_orderly) == (1, True), fate.errors
+    assert (outcome.status, outcome.is_orderly) == (1, True), outcome.errors
     assert part.stat().st_size == size
     assert sum(1 for _ in read_log(part)) > size // 40
 

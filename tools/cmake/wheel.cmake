@@ -2,7 +2,7 @@
 # include the page, the flash images, the interfaces to C, completions and man pages.
 set(tree host_sim/tree)
 set(targets octet octet_models octet_world_shared octet_fleet_shared octet_loop_shared octet_programmed_shared
-  octet_told_shared)
+  octet_driven_shared)
 if(OCTET_HAS_LINKS)
   list(APPEND targets octet-program octet-robot)
 endif()

@@ -45,13 +45,20 @@ def read_interfaces() -> None:
     c_interface.FOLDER = TREE / "cffi"
     from host_sim.emulator.c_models import c_models  # noqa: PLC0415
     from host_sim.emulator.core import unicorn_calls  # noqa: PLC0415
-    from host_sim.lab.gymnasium_envs import told_worlds  # noqa: PLC0415
+    from host_sim.lab.gymnasium_envs import driven_worlds  # noqa: PLC0415
     from host_sim.sim import native_fleet, native_loop  # noqa: PLC0415
     from host_sim.sim.in_process_link import InProcessLink  # noqa: PLC0415 - some read them when they are imported
     from host_sim.world.world_library import world_library  # noqa: PLC0415
 
     InProcessLink().close()
-    for load in (c_models, unicorn_calls, told_worlds.loaded, native_fleet.loaded, native_loop.loaded, world_library):
+    for load in (
+        c_models,
+        unicorn_calls,
+        driven_worlds.loaded,
+        native_fleet.loaded,
+        native_loop.loaded,
+        world_library,
+    ):
         load()
 
 

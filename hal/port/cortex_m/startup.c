@@ -4,8 +4,8 @@
 
 #include "hal/port/cortex_m/core.h"
 #include "hal/port/cortex_m/crash.h"
-#include "hal/port/cortex_m/leave.h"
 #include "hal/port/cortex_m/mcu.h"
+#include "hal/port/cortex_m/reset_chip.h"
 #include "hal/port/cortex_m/systick.h"
 
 #ifndef OCTET_INTERRUPTS
@@ -67,7 +67,7 @@ __attribute__((used)) void startup_begin(void)   /* called by the assembly above
     memset(bss_start, 0, (size_t)((char *)bss_end - (char *)bss_start));
     systick_start(mcu_start(), mcu_systick_divisor());
     (void)main(0, NULL);
-    leave_by_reset();   /* main returns if its body cannot be opened: restart */
+    reset_chip();   /* main returns if its body cannot be opened: restart */
 }
 
 /* The stack may be corrupt: starts a new one in the half without the core's exception frame. */
@@ -88,5 +88,5 @@ __attribute__((naked)) void startup_crash(void)
 __attribute__((used)) void startup_crashed(const uint32_t *frame)
 {
     crash_keep(SCB.icsr & ICSR_VECTOR, frame, stack_bottom, stack_top);
-    leave_by_reset();
+    reset_chip();
 }

@@ -21,7 +21,7 @@ from host_sim.world.geometry import SimParams
 from host_sim.world.layouts import generate
 
 _FLEET, _TICKS, _BLOCK_TICKS, _ENDLESS = 1000, 2000, 256, 10**9
-_ARENAS, _STEPS, _DEEDS = 1000, 200, 3
+_ARENAS, _STEPS, _ACTIONS = 1000, 200, 3
 
 _TEMPLATE = os.fspath(OWN_HEADERS / "mine.c")
 
@@ -107,7 +107,7 @@ def _steps_per_second(step_ticks: int | None) -> float:
         "octet/Arena-v0", num_envs=_ARENAS, vectorization_mode="vector_entry_point", step_ticks=step_ticks
     )
     envs.reset(seed=1)
-    actions = np.random.default_rng(1).integers(_DEEDS, size=(_STEPS, _ARENAS))
+    actions = np.random.default_rng(1).integers(_ACTIONS, size=(_STEPS, _ARENAS))
     began = time.process_time()
     for action in actions:
         envs.step(action)

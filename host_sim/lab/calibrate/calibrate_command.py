@@ -69,12 +69,12 @@ def _check(arguments: argparse.Namespace) -> None:
 
 def _setting(text: str) -> tuple[str, int]:
     from host_sim.base.errors import meant
-    from host_sim.lab.calibrate.calibration import TRAITS
+    from host_sim.lab.calibrate.calibration import CALIBRATION_VALUES
 
     name, _, value = text.partition("=")
-    if name not in TRAITS:
-        raise UsageError(f"there is no {name!r} to set: {meant(name, TRAITS)}")
-    row = TRAITS[name]
+    if name not in CALIBRATION_VALUES:
+        raise UsageError(f"there is no {name!r} to set: {meant(name, CALIBRATION_VALUES)}")
+    row = CALIBRATION_VALUES[name]
     if not value.isdecimal() or not row.minimum <= int(value) <= row.maximum:
         raise UsageError(
             f"{name} must be a whole number from {row.minimum} to {row.maximum} {row.unit}, not {value!r}"
@@ -85,12 +85,12 @@ def _setting(text: str) -> tuple[str, int]:
 def _calibrate(arguments: argparse.Namespace) -> int:
     with ExitStack() as stack:
         calibration, places = _reached(stack, arguments)
-        before = calibration.traits()
+        before = calibration.stored_values()
         for name, value in arguments.settings.items():
             calibration.set(name, value)
         steps: Sequence[str] = () if arguments.show or arguments.set else arguments.steps or list(STEPS)
         refused = [step for step in steps if not _measures(calibration, places, step, ask=not arguments.yes)]
-        _print(before, calibration.traits(), places.true_traits() if places else {})
+        _print(before, calibration.stored_values(), places.true_values() if places else {})
     return int(bool(refused))
 
 
@@ -136,12 +136,18 @@ def _measures(calibration: "Calibration", places: "Places | None", step: str, *,
 
 
 def _print(before: Mapping[str, int], after: Mapping[str, int], true: Mapping[str, float]) -> None:
-    from host_sim.lab.calibrate.calibration import TRAITS
+    from host_sim.lab.calibrate.calibration import CALIBRATION_VALUES
     from host_sim.lab.table import aligned
 
     head = ("", "before", "now", *(("true",) if true else ()), "unit")
     rows = [
-        (name, str(before[name]), str(after[name]), *((f"{true[name]:.1f}",) if true else ()), TRAITS[name].unit)
-        for name in TRAITS
+        (
+            name,
+            str(before[name]),
+            str(after[name]),
+            *((f"{true[name]:.1f}",) if true else ()),
+            CALIBRATION_VALUES[name].unit,
+        )
+        for name in CALIBRATION_VALUES
     ]
     print("\n".join(aligned([head, *rows], right=range(1, len(head) - 1))))

@@ -10,7 +10,9 @@ from host_sim.protocol.words import BODY_PARAMETERS
 STEPS = ("light", "motors", "track")
 """The measurements, numbered from 1 as in body_measure."""
 
-TRAITS = {name: row for name, row in BODY_PARAMETERS.items() if name not in ("body_measure", "body_refused")}
+CALIBRATION_VALUES = {
+    name: row for name, row in BODY_PARAMETERS.items() if name not in ("body_measure", "body_refused")
+}
 """The parameters that a body stores."""
 
 _LONGEST_S = 60.0
@@ -52,9 +54,9 @@ class Calibration:
         """
         self.client.dialogue.command("set", parameter=BODY_PARAMETERS[name].number, value=value)
 
-    def traits(self) -> dict[str, int]:
+    def stored_values(self) -> dict[str, int]:
         """All stored values, by name."""
-        return {name: self.get(name) for name in TRAITS}
+        return {name: self.get(name) for name in CALIBRATION_VALUES}
 
     def measure(self, step: str) -> str:
         """Runs a measurement.

@@ -4,7 +4,7 @@ from math import pi
 
 from host_sim.base.errors import UsageError
 from host_sim.emulator.pins_board import PinsBoard
-from host_sim.lab.calibrate.calibration import TRAITS
+from host_sim.lab.calibrate.calibration import CALIBRATION_VALUES
 from host_sim.protocol.words import SENSORS
 from host_sim.world.arena import Arena
 from host_sim.world.body_kinds import body_kind
@@ -64,12 +64,12 @@ class Places:
             self._body.move(0.0, 0.0)
             self._tick += 1
 
-    def true_traits(self) -> dict[str, float]:
+    def true_values(self) -> dict[str, float]:
         """The values without measurement error, by name. Those of a nominal body are the defaults."""
         ffi, kit = self._board.robot.ffi, self._body.kit
         names = [ffi.string(row.name).decode() for row in self._library.KIT_TRAITS]
         trait = dict(zip(names, kit.trait, strict=True))
-        planned = {name: float(row.default) for name, row in TRAITS.items()}
+        planned = {name: float(row.default) for name, row in CALIBRATION_VALUES.items()}
         for sensor in (name.replace("-", "_") for name in SENSORS):
             reach_mm = trait[f"{sensor}_mm"] * trait["wall"]
             planned[f"body_near_{sensor}"] *= ((reach_mm + _BEHIND_MM) / (_WALL_MM + _BEHIND_MM)) ** 2

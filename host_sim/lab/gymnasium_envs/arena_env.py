@@ -78,8 +78,8 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
             gymnasium.error.DependencyNotInstalled: The C code cannot be used.
         """
         self._rewards = rewards or rules.Rewards()
-        self._worlds = rules.told_worlds(1, 1, limit_s, step_ticks, body)
-        self.observation_space, self.action_space = rules.senses_space(), rules.deed_space()
+        self._worlds = rules.driven_worlds(1, 1, limit_s, step_ticks, body)
+        self.observation_space, self.action_space = rules.senses_space(), rules.action_space()
         self._view, self.render_mode = rendering.View(render_mode, self._worlds), render_mode
         self._runs = self._closed = False
 

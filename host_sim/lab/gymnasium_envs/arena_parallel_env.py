@@ -51,11 +51,11 @@ class ArenaParallelEnv(ParallelEnv[str, NDArray[np.int32], int]):  # type: ignor
             gymnasium.error.DependencyNotInstalled: The C code cannot be used.
         """
         self._rewards, self._robots = rewards or rules.Rewards(), robots
-        self._worlds = rules.told_worlds(1, robots, limit_s, step_ticks, body)
+        self._worlds = rules.driven_worlds(1, robots, limit_s, step_ticks, body)
         self.possible_agents = [f"robot_{number}" for number in range(1, robots + 1)]
         self.agents: list[str] = []
         self.observation_spaces = {agent: rules.senses_space() for agent in self.possible_agents}
-        self.action_spaces = {agent: rules.deed_space() for agent in self.possible_agents}
+        self.action_spaces = {agent: rules.action_space() for agent in self.possible_agents}
         self._view, self.render_mode = rendering.View(render_mode, self._worlds), render_mode
         self._draws: np.random.Generator | None = None
         self._closed = False
@@ -96,8 +96,8 @@ class ArenaParallelEnv(ParallelEnv[str, NDArray[np.int32], int]):  # type: ignor
             raise error.ResetNeeded("no episode has begun, or it has ended: call reset")
         if actions.keys() != set(self.agents):
             raise error.InvalidAction(f"actions are for {sorted(actions)}, the robots are {self.agents}")
-        deeds = np.array([rules.checked_actions(actions[agent], ()) for agent in self.agents], np.uint8)
-        (rewards,), agents = self._rewards.of_step(self._worlds, deeds).tolist(), self.agents
+        checked = np.array([rules.checked_actions(actions[agent], ()) for agent in self.agents], np.uint8)
+        (rewards,), agents = self._rewards.of_step(self._worlds, checked).tolist(), self.agents
         terminated, truncated = (bool(ended) for (ended,) in self._worlds.ended())
         self.agents = [] if terminated or truncated else agents
         self._view.follow()

@@ -49,8 +49,8 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
             raise error.Error(f"num_envs is {num_envs}: give 1 or more")
         self.num_envs = num_envs
         self._rewards = rewards or rules.Rewards()
-        self._worlds = rules.told_worlds(num_envs, 1, limit_s, step_ticks, body)
-        self.single_observation_space, self.single_action_space = rules.senses_space(), rules.deed_space()
+        self._worlds = rules.driven_worlds(num_envs, 1, limit_s, step_ticks, body)
+        self.single_observation_space, self.single_action_space = rules.senses_space(), rules.action_space()
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self._view, self.render_mode = rendering.View(render_mode, self._worlds), render_mode
@@ -89,8 +89,8 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
         rules.check_open(self.closed)
         if not self._draws:
             raise error.ResetNeeded("no episode has begun: call reset")
-        worlds, deeds, anew = self._worlds, rules.checked_actions(actions, (self.num_envs,)), self._ended
-        rewards = self._rewards.of_step(worlds, deeds)[:, 0]  # nothing happens where an episode has ended
+        worlds, checked, anew = self._worlds, rules.checked_actions(actions, (self.num_envs,)), self._ended
+        rewards = self._rewards.of_step(worlds, checked)[:, 0]  # nothing happens where an episode has ended
         for i in np.flatnonzero(anew):
             worlds.enter(int(i), *rules.draw_environment(self._draws[i], 1))
         rewards = np.where(anew, 0.0, rewards)

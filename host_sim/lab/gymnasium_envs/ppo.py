@@ -17,8 +17,8 @@ from host_sim.lab.gymnasium_envs.scaled import scaled
 Floats = NDArray[np.float64]
 
 STEPS, ARENAS, SECONDS = 7680, 200, 60.0
-_SENSES, _DEEDS, _HIDDEN = 8, 6, 64
-_SHAPES = ((_SENSES + _DEEDS, _HIDDEN), (_HIDDEN, _HIDDEN), (_HIDDEN, _DEEDS + 1))
+_SENSES, _ACTIONS, _HIDDEN = 8, 6, 64
+_SHAPES = ((_SENSES + _ACTIONS, _HIDDEN), (_HIDDEN, _HIDDEN), (_HIDDEN, _ACTIONS + 1))
 WEIGHTS = sum((rows + 1) * columns for rows, columns in _SHAPES)
 _DISCOUNT_A_SECOND, _TRACE = 0.9, 0.95
 _ROLLOUT, _EPOCHS, _BATCH = 64, 4, 1600
@@ -49,8 +49,8 @@ class Network:
         for layer in self.layers[:-1]:
             inputs.append(_with_one(np.tanh(inputs[-1] @ layer)))
         out = inputs[-1] @ self.layers[-1]
-        scores = out[:, :_DEEDS] - out[:, :_DEEDS].max(-1, keepdims=True)
-        return inputs, scores - np.log(np.exp(scores).sum(-1, keepdims=True)), out[:, _DEEDS]
+        scores = out[:, :_ACTIONS] - out[:, :_ACTIONS].max(-1, keepdims=True)
+        return inputs, scores - np.log(np.exp(scores).sum(-1, keepdims=True)), out[:, _ACTIONS]
 
     def gradients(self, inputs: list[Floats], of_out: Floats) -> list[Floats]:
         """The gradient of each layer's weights, given that of the outputs."""
@@ -82,7 +82,7 @@ class _Rollout(NamedTuple):
     """Steps of all arenas, each array of shape (steps, arenas, ...)."""
 
     seen: Floats
-    deeds: NDArray[np.int64]
+    actions: NDArray[np.int64]
     log_p: Floats
     values: Floats
     rewards: Floats
@@ -123,24 +123,24 @@ class Training:
         """A step of each arena; one after an end only begins the next episode, and does not count."""
         seen, counts = inputs_of(self._senses, self._last), ~self._over
         _, log_p, values = self.network.forward(seen)
-        deeds = drawn(log_p, self._draws)
-        self._senses, rewards, ended, truncated, info = self._env.step(deeds)
+        actions = drawn(log_p, self._draws)
+        self._senses, rewards, ended, truncated, info = self._env.step(actions)
         seconds, self._now_s = info["robot_s"] - self._now_s, info["robot_s"]
-        self._over, self._last = ended | truncated, np.where(counts, deeds, 0)
+        self._over, self._last = ended | truncated, np.where(counts, actions, 0)
         self.samples += int(counts.sum())
-        return seen, deeds, log_p[np.arange(len(deeds)), deeds], values, rewards, seconds, ~self._over, counts
+        return seen, actions, log_p[np.arange(len(actions)), actions], values, rewards, seconds, ~self._over, counts
 
     def _improve(self, it: _Rollout, rate: float) -> None:
         advantages = self._advantages(it)
         wanted = (advantages + it.values)[it.counts]
         seen, log_p, gains = (part[it.counts] for part in (it.seen, it.log_p, advantages))
-        deeds = it.deeds[it.counts]
+        actions = it.actions[it.counts]
         gains = (gains - gains.mean()) / (gains.std() + 1e-8)
         for _ in range(_EPOCHS):
             order = self._draws.permutation(len(gains))
             for some in (order[at : at + _BATCH] for at in range(0, len(order), _BATCH)):
                 inputs, log_now, values = self.network.forward(seen[some])
-                of_out = _gradient(log_now, deeds[some], log_p[some], gains[some])
+                of_out = _gradient(log_now, actions[some], log_p[some], gains[some])
                 of_value = _VALUE * (values - wanted[some])[:, np.newaxis]
                 gradients = self.network.gradients(inputs, np.hstack([of_out, of_value]) / len(some))
                 self.network.learn(gradients, rate)
@@ -159,7 +159,7 @@ class Training:
 
 def inputs_of(senses: NDArray[np.int32], last: NDArray[np.int64]) -> Floats:
     """What the network sees: the scaled senses, and which action was the last one."""
-    return np.hstack([scaled(senses).astype(np.float64), np.eye(_DEEDS)[last]])
+    return np.hstack([scaled(senses).astype(np.float64), np.eye(_ACTIONS)[last]])
 
 
 def drawn(log_p: Floats, draws: np.random.Generator) -> NDArray[np.int64]:
@@ -179,10 +179,10 @@ def policy(network: Network, seed: int, arenas: int) -> Callable[[NDArray[np.int
     return act
 
 
-def _gradient(log_now: Floats, deeds: NDArray[np.int64], log_p: Floats, gains: Floats) -> Floats:
+def _gradient(log_now: Floats, actions: NDArray[np.int64], log_p: Floats, gains: Floats) -> Floats:
     """The gradient of the loss by the actions' scores: the clipped ratio, and the entropy."""
-    probability, one = np.exp(log_now), np.eye(_DEEDS)[deeds]
-    ratio = np.exp(log_now[np.arange(len(deeds)), deeds] - log_p)
+    probability, one = np.exp(log_now), np.eye(_ACTIONS)[actions]
+    ratio = np.exp(log_now[np.arange(len(actions)), actions] - log_p)
     is_clipped = ((gains > 0) & (ratio > 1 + _CLIP)) | ((gains < 0) & (ratio < 1 - _CLIP))
     of_policy = -(np.where(is_clipped, 0.0, ratio * gains))[:, np.newaxis] * (one - probability)
     entropy = -(probability * log_now).sum(-1, keepdims=True)

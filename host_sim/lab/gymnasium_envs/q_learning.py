@@ -20,7 +20,7 @@ from host_sim.sim.fleet import run_fleet
 from host_sim.sim.run_config import RunConfig
 
 STEPS, ARENAS, SECONDS = 8000, 200, 60.0
-_STATES, _DEEDS = 16, 6
+_STATES, _ACTIONS = 16, 6
 _DISCOUNT, _EXPLORES, _CURVE = 0.95, 0.02, 500
 
 
@@ -29,8 +29,8 @@ class Learned:
     """The result of a learner.
 
     Attributes:
-        table: Shape (states, deeds): value of a deed. A state is the front sensors' pattern, whether food is
-            seen, and the last deed.
+        table: Shape (states, actions): value of a action. A state is the front sensors' pattern, whether food is
+            seen, and the last action.
         food: Pieces of food eaten in each episode of a minute, in the order in which the episodes ended.
         steps: For each episode, the step in which it ended.
     """
@@ -49,27 +49,29 @@ class Learned:
 def learn(seed: int, steps: int = STEPS) -> Learned:
     """Learns for a number of steps in 200 arenas; equal seeds give equal results."""
     env: Any = gymnasium.make_vec("octet/Arena-v0", num_envs=ARENAS, limit_s=SECONDS)
-    draws, values = np.random.default_rng(seed), np.zeros(_STATES * _DEEDS * _DEEDS)
+    draws, values = np.random.default_rng(seed), np.zeros(_STATES * _ACTIONS * _ACTIONS)
     state, over, eaten = _states(env.reset(seed=seed)[0], np.zeros(ARENAS, np.int64)), np.zeros(ARENAS, bool), []
     food = np.zeros(ARENAS, np.int64)
     for step in range(steps):
         part = step / steps
-        best = (values.reshape(-1, _DEEDS)[state] + 1e-9 * draws.random((ARENAS, _DEEDS))).argmax(-1)
+        best = (values.reshape(-1, _ACTIONS)[state] + 1e-9 * draws.random((ARENAS, _ACTIONS))).argmax(-1)
         explores = draws.random(ARENAS) < max(_EXPLORES, 0.5 - 1.33 * part)
-        deeds = np.where(explores, draws.integers(_DEEDS, size=ARENAS), best)
-        senses, reward, ended, truncated, _ = env.step(deeds)
-        after, goes_on = _states(senses, deeds), ~(ended | truncated)
-        target = reward + _DISCOUNT * goes_on * values.reshape(-1, _DEEDS)[after].max(-1)
-        cell = (state * _DEEDS + deeds)[~over]  # a step after an end only begins the next episode and teaches nothing
+        actions = np.where(explores, draws.integers(_ACTIONS, size=ARENAS), best)
+        senses, reward, ended, truncated, _ = env.step(actions)
+        after, goes_on = _states(senses, actions), ~(ended | truncated)
+        target = reward + _DISCOUNT * goes_on * values.reshape(-1, _ACTIONS)[after].max(-1)
+        cell = (state * _ACTIONS + actions)[
+            ~over
+        ]  # a step after an end only begins the next episode and teaches nothing
         times = np.bincount(cell, minlength=len(values))
-        error = np.bincount(cell, (target - values[state * _DEEDS + deeds])[~over], len(values))
+        error = np.bincount(cell, (target - values[state * _ACTIONS + actions])[~over], len(values))
         values += (1 - (1 - max(0.01, 0.2 - 0.4 * part)) ** times) * error / np.maximum(times, 1)
         food += ~over & (reward > 0.5)  # noqa: PLR2004 - a piece is worth 1
         over = ~goes_on
         eaten += [(step, int(many)) for many in food[over]]
         food[over], state = 0, after
     ends, many = np.array(eaten).reshape(-1, 2).T
-    return Learned(values.reshape(-1, _DEEDS), many, ends)
+    return Learned(values.reshape(-1, _ACTIONS), many, ends)
 
 
 def policy(table: NDArray[np.float64], seed: int, arenas: int) -> Callable[[NDArray[np.int32]], NDArray[np.int64]]:
@@ -79,7 +81,7 @@ def policy(table: NDArray[np.float64], seed: int, arenas: int) -> Callable[[NDAr
     def act(senses: NDArray[np.int32]) -> NDArray[np.int64]:
         nonlocal last
         explores = draws.random(arenas) < _EXPLORES
-        last = np.where(explores, draws.integers(_DEEDS, size=arenas), table[_states(senses, last)].argmax(-1))
+        last = np.where(explores, draws.integers(_ACTIONS, size=arenas), table[_states(senses, last)].argmax(-1))
         return last
 
     return act
@@ -91,8 +93,8 @@ def food_of(profile: str) -> float:
     return float(np.mean([result.food_eaten for result in run_fleet(config)]))
 
 
-def _states(senses: NDArray[np.int32], deeds: NDArray[np.int64]) -> NDArray[np.int64]:
-    return (senses[:, 1] >> 1 & 7 | senses[:, 3] << 3) * _DEEDS + deeds
+def _states(senses: NDArray[np.int32], actions: NDArray[np.int64]) -> NDArray[np.int64]:
+    return (senses[:, 1] >> 1 & 7 | senses[:, 3] << 3) * _ACTIONS + actions
 
 
 def _plot(path: Path, learned: list[Learned], firmware: dict[str, float]) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from gymnasium import error, logger
 from numpy.typing import NDArray
 
-from host_sim.lab.gymnasium_envs.told_worlds import ToldWorlds
+from host_sim.lab.gymnasium_envs.driven_worlds import DrivenWorlds
 from host_sim.world.geometry import Pose, SimParams
 
 MODES = ("human", "rgb_array")
@@ -32,7 +32,7 @@ class View:
         mode: One of `MODES`, or None.
     """
 
-    def __init__(self, mode: str | None, worlds: ToldWorlds) -> None:
+    def __init__(self, mode: str | None, worlds: DrivenWorlds) -> None:
         """Creates the view.
 
         Raises:
@@ -108,7 +108,7 @@ class Window:
         self.is_open = False
 
 
-def frame(worlds: ToldWorlds, world: int) -> Frame:
+def frame(worlds: DrivenWorlds, world: int) -> Frame:
     """Draws a world; raises gymnasium.error.ResetNeeded if no episode has begun in it."""
     from host_sim.report.drawing import (  # noqa: PLC0415 - learners that look at nothing need no Pillow
         CONE_DARK,

@@ -11,7 +11,7 @@ from gymnasium import error, spaces
 from numpy.typing import NDArray
 
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.lab.gymnasium_envs.told_worlds import ToldWorlds, deed_count
+from host_sim.lab.gymnasium_envs.driven_worlds import DrivenWorlds, action_count
 from host_sim.protocol.generated import FEEL, NODE_MAX
 from host_sim.world.body_kinds import body_kind
 from host_sim.world.geometry import SimParams
@@ -46,10 +46,10 @@ class Rewards:
         """The reward of a step, for numbers or for arrays of them."""
         return self.food * eaten + self.second * PARAMS.tick_s * ticks + self.bump * collisions
 
-    def of_step(self, worlds: ToldWorlds, deeds: NDArray[np.uint8]) -> NDArray[np.float64]:
-        """Carries out the robots' deeds, and returns their rewards: shape (worlds, robots)."""
+    def of_step(self, worlds: DrivenWorlds, actions: NDArray[np.uint8]) -> NDArray[np.float64]:
+        """Carries out the robots' actions, and returns their rewards: shape (worlds, robots)."""
         before = worlds.ticks.astype(np.int64)
-        worlds.step(deeds)
+        worlds.step(actions)
         ticks = (worlds.ticks - before)[:, np.newaxis]
         return np.asarray(self.of(worlds.food_eaten, ticks, worlds.collisions))
 
@@ -59,12 +59,12 @@ def senses_space() -> spaces.Box:
     return spaces.Box(np.zeros(len(_HIGHEST), np.int32), np.array(_HIGHEST, np.int32), dtype=np.int32)
 
 
-def deed_space() -> spaces.Discrete:
+def action_space() -> spaces.Discrete:
     """The space of a robot's actions, as `ArenaEnv` documents them."""
-    return spaces.Discrete(deed_count())
+    return spaces.Discrete(action_count())
 
 
-def told_worlds(worlds: int, robots: int, limit_s: float, step_ticks: int | None, body: str) -> ToldWorlds:
+def driven_worlds(worlds: int, robots: int, limit_s: float, step_ticks: int | None, body: str) -> DrivenWorlds:
     """Creates worlds with a number of robots in each, from the arguments of an environment.
 
     Raises:
@@ -78,7 +78,7 @@ def told_worlds(worlds: int, robots: int, limit_s: float, step_ticks: int | None
         raise error.Error(f"step_ticks is {step_ticks}: give 1 to {STEP_TICKS_MAX}, or None")
     try:
         limit_ticks = round(limit_s / PARAMS.tick_s)
-        return ToldWorlds(worlds, robots, limit_ticks, step_ticks or STEP_TICKS_MAX, body_kind(body))
+        return DrivenWorlds(worlds, robots, limit_ticks, step_ticks or STEP_TICKS_MAX, body_kind(body))
     except UsageError as fault:
         raise error.Error(str(fault)) from None
     except OctetError as fault:
@@ -167,8 +167,8 @@ def checked_actions(actions: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
         error.InvalidAction: They are not integers from 0 to 5 in this shape.
     """
     given = _as_array(actions)
-    if given.shape != shape or given.dtype.kind not in "iu" or not np.all((given >= 0) & (given < deed_count())):
-        needed = f"whole numbers 0..{deed_count() - 1} of shape {shape}"
+    if given.shape != shape or given.dtype.kind not in "iu" or not np.all((given >= 0) & (given < action_count())):
+        needed = f"whole numbers 0..{action_count() - 1} of shape {shape}"
         raise error.InvalidAction(f"{actions!r} is not an action: give {needed}")
     return given.astype(np.uint8)
 

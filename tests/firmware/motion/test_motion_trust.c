@@ -35,7 +35,7 @@ TEST(a_turn_that_was_given_up_is_not_made_up_for)
 
 TEST(a_lifted_robot_owes_neither_a_turn_nor_a_way)
 {
-    static const struct owed nothing = {.counts = 0};
+    static const struct backlog nothing = {.counts = 0};
 
     body.grip = 0.5;
     act(90, 12);

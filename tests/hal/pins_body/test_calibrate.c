@@ -9,27 +9,27 @@ enum { STAIR = 100, STAIRS = 5, TICK = 4, NOMINAL_MV = 7200, MOST_MV = 9897, KEP
 
 static struct calibration calibration;
 static struct calibrate_look look;
-static struct traits traits;
+static struct calibration_values values;
 static uint16_t back[FEEL_COUNT];
 
 void setUp(void)
 {
     look = (struct calibrate_look){.battery_mv = NOMINAL_MV, .back = back, .has = 31};
-    for (unsigned i = 0; i < TRAITS_KEPT; i++)
-        traits.value[i] = KEPT;
+    for (unsigned i = 0; i < CALIBRATION_VALUES; i++)
+        values.value[i] = KEPT;
 }
 
-static uint8_t trait(unsigned number)
+static uint8_t value(unsigned number)
 {
-    return traits.value[number - TRAIT_FIRST];
+    return values.value[number - CALIBRATION_FIRST];
 }
 
 static void assert_refused(unsigned number, int32_t found)
 {
     TEST_ASSERT_EQUAL_UINT8(number, calibration.refused);
     TEST_ASSERT_EQUAL_INT32(found, calibration.found);
-    for (unsigned i = 0; i < TRAITS_KEPT; i++)
-        TEST_ASSERT_EQUAL_UINT8(KEPT, traits.value[i]);
+    for (unsigned i = 0; i < CALIBRATION_VALUES; i++)
+        TEST_ASSERT_EQUAL_UINT8(KEPT, values.value[i]);
 }
 
 /* Returns how many ticks it took. */
@@ -38,7 +38,7 @@ static unsigned measure_light(void)
     unsigned beats = 1;
 
     calibrate_begin(&calibration, MEASURE_LIGHT);
-    for (; look.senses = beats % TICK == 0, !calibrate_beat(&calibration, &look, &traits); beats++)
+    for (; look.senses = beats % TICK == 0, !calibrate_beat(&calibration, &look, &values); beats++)
         TEST_ASSERT_TRUE(beats < 1000);
     TEST_ASSERT_EQUAL_UINT8(MEASURE_NOTHING, calibration.measures);
     return beats / TICK;
@@ -50,11 +50,11 @@ TEST(light_is_the_mean_of_sixteen_ticks_after_ten)
         back[i] = (uint16_t)(1000 + 24 * i);
     back[4] = 1048;
     TEST_ASSERT_EQUAL_UINT(26, measure_light());
-    TEST_ASSERT_EQUAL_UINT8(63, trait(BODY_NEAR_RIGHT));          /* 62.5 */
-    TEST_ASSERT_EQUAL_UINT8(64, trait(BODY_NEAR_FRONT_RIGHT));    /* 64 */
-    TEST_ASSERT_EQUAL_UINT8(66, trait(BODY_NEAR_FRONT));          /* 65.5 */
-    TEST_ASSERT_EQUAL_UINT8(66, trait(BODY_NEAR_LEFT));           /* 65.5 */
-    TEST_ASSERT_EQUAL_UINT8(KEPT, trait(BODY_TRACK_MM));
+    TEST_ASSERT_EQUAL_UINT8(63, value(BODY_NEAR_RIGHT));          /* 62.5 */
+    TEST_ASSERT_EQUAL_UINT8(64, value(BODY_NEAR_FRONT_RIGHT));    /* 64 */
+    TEST_ASSERT_EQUAL_UINT8(66, value(BODY_NEAR_FRONT));          /* 65.5 */
+    TEST_ASSERT_EQUAL_UINT8(66, value(BODY_NEAR_LEFT));           /* 65.5 */
+    TEST_ASSERT_EQUAL_UINT8(KEPT, value(BODY_TRACK_MM));
     TEST_ASSERT_EQUAL_UINT8(0, calibration.refused);
 }
 
@@ -78,9 +78,9 @@ TEST(a_sensor_that_the_body_does_not_have_is_not_measured)
     look.has = 14;
     (void)measure_light();
     TEST_ASSERT_EQUAL_UINT8(0, calibration.refused);
-    TEST_ASSERT_EQUAL_UINT8(KEPT, trait(BODY_NEAR_RIGHT));
-    TEST_ASSERT_EQUAL_UINT8(75, trait(BODY_NEAR_FRONT));
-    TEST_ASSERT_EQUAL_UINT8(KEPT, trait(BODY_NEAR_LEFT));
+    TEST_ASSERT_EQUAL_UINT8(KEPT, value(BODY_NEAR_RIGHT));
+    TEST_ASSERT_EQUAL_UINT8(75, value(BODY_NEAR_FRONT));
+    TEST_ASSERT_EQUAL_UINT8(KEPT, value(BODY_NEAR_LEFT));
 }
 
 TEST(a_sensor_that_receives_nothing_in_one_tick_of_sixteen_counts_so)
@@ -93,8 +93,8 @@ TEST(a_sensor_that_receives_nothing_in_one_tick_of_sixteen_counts_so)
     look.senses = true;
     do
         back[2] = ++ticks == 11 ? 0 : 1600;
-    while (!calibrate_beat(&calibration, &look, &traits));
-    TEST_ASSERT_EQUAL_UINT8(94, trait(BODY_NEAR_FRONT));   /* 93.75 */
+    while (!calibrate_beat(&calibration, &look, &values));
+    TEST_ASSERT_EQUAL_UINT8(94, value(BODY_NEAR_FRONT));   /* 93.75 */
 }
 
 /* Two motors that make so many counts in a beat on each stair, and lack so many after the step; backward, they make
@@ -127,7 +127,7 @@ static bool measure(const struct motors *motors)
     look.counts[0] = 65500;
     look.counts[1] = 30;
     calibrate_begin(&calibration, MEASURE_MOTORS);
-    for (; !calibrate_beat(&calibration, &look, &traits); beat++) {
+    for (; !calibrate_beat(&calibration, &look, &values); beat++) {
         run_beat(motors, beat);
         TEST_ASSERT_EQUAL_INT16(0, calibrate_mm_s(&calibration));
     }
@@ -146,12 +146,12 @@ static bool measure_motors(const int low[PINS_SIDES], const int high[PINS_SIDES]
 TEST(two_stairs_tell_dead_band_feed_forward_and_lag)
 {
     TEST_ASSERT_TRUE(measure_motors((int[]){6, 7}, (int[]){24, 28}, (int[]){200, 280}, NOMINAL_MV));
-    TEST_ASSERT_EQUAL_UINT8(99, trait(BODY_FORWARD_LEFT));     /* 65536 / 7.2 V x 5 ms / 91.6 um .. = 99.4 */
-    TEST_ASSERT_EQUAL_UINT8(85, trait(BODY_FORWARD_RIGHT));    /* 85.2 */
-    TEST_ASSERT_EQUAL_UINT8(83, trait(BODY_DEAD_LEFT));        /* 0.25 - 0.5 x 6 / 18, in 0.1 %: 83.3 */
-    TEST_ASSERT_EQUAL_UINT8(83, trait(BODY_DEAD_RIGHT));
-    TEST_ASSERT_EQUAL_UINT8(62, trait(BODY_LAG_MS));           /* 200 / 18 and 280 / 21 periods: 56 and 67 ms */
-    TEST_ASSERT_EQUAL_UINT8(KEPT, trait(BODY_TRACK_MM));
+    TEST_ASSERT_EQUAL_UINT8(99, value(BODY_FORWARD_LEFT));     /* 65536 / 7.2 V x 5 ms / 91.6 um .. = 99.4 */
+    TEST_ASSERT_EQUAL_UINT8(85, value(BODY_FORWARD_RIGHT));    /* 85.2 */
+    TEST_ASSERT_EQUAL_UINT8(83, value(BODY_DEAD_LEFT));        /* 0.25 - 0.5 x 6 / 18, in 0.1 %: 83.3 */
+    TEST_ASSERT_EQUAL_UINT8(83, value(BODY_DEAD_RIGHT));
+    TEST_ASSERT_EQUAL_UINT8(62, value(BODY_LAG_MS));           /* 200 / 18 and 280 / 21 periods: 56 and 67 ms */
+    TEST_ASSERT_EQUAL_UINT8(KEPT, value(BODY_TRACK_MM));
 }
 
 TEST(motors_that_are_slower_backward_get_the_mean_of_both_directions)
@@ -159,9 +159,9 @@ TEST(motors_that_are_slower_backward_get_the_mean_of_both_directions)
     const struct motors motors = {{10, 10}, {40, 40}, {400, 400}, {60, 60}, NOMINAL_MV, NOMINAL_MV};
 
     TEST_ASSERT_TRUE(measure(&motors));
-    TEST_ASSERT_EQUAL_UINT8(75, trait(BODY_FORWARD_LEFT));     /* 99.4 x 18 / 24 */
-    TEST_ASSERT_EQUAL_UINT8(83, trait(BODY_DEAD_LEFT));
-    TEST_ASSERT_EQUAL_UINT8(67, trait(BODY_LAG_MS));           /* 320 / 24 periods */
+    TEST_ASSERT_EQUAL_UINT8(75, value(BODY_FORWARD_LEFT));     /* 99.4 x 18 / 24 */
+    TEST_ASSERT_EQUAL_UINT8(83, value(BODY_DEAD_LEFT));
+    TEST_ASSERT_EQUAL_UINT8(67, value(BODY_LAG_MS));           /* 320 / 24 periods */
 }
 
 TEST(a_motor_that_turns_in_one_direction_only_is_refused)
@@ -175,18 +175,18 @@ TEST(a_motor_that_turns_in_one_direction_only_is_refused)
 TEST(a_battery_that_sags_under_load_is_reckoned_with)
 {
     TEST_ASSERT_TRUE(measure_motors((int[]){6, 6}, (int[]){24, 24}, (int[]){200, 200}, NOMINAL_MV * 15 / 16));
-    TEST_ASSERT_EQUAL_UINT8(90, trait(BODY_FORWARD_LEFT));     /* (0.75 x 15 / 16 - 0.25) / 0.5 of 99.4: 90.05 */
-    TEST_ASSERT_EQUAL_UINT8(99, trait(BODY_DEAD_LEFT));        /* 250 - 453.1 x 6 / 18 = 98.96 */
+    TEST_ASSERT_EQUAL_UINT8(90, value(BODY_FORWARD_LEFT));     /* (0.75 x 15 / 16 - 0.25) / 0.5 of 99.4: 90.05 */
+    TEST_ASSERT_EQUAL_UINT8(99, value(BODY_DEAD_LEFT));        /* 250 - 453.1 x 6 / 18 = 98.96 */
 }
 
 TEST(what_motors_are_like_is_rounded_at_its_half)
 {
     TEST_ASSERT_TRUE(measure_motors((int[]){8, 8}, (int[]){24, 24}, (int[]){480, 480}, 7056));
-    TEST_ASSERT_EQUAL_UINT8(108, trait(BODY_FORWARD_LEFT));    /* 108.44 */
-    TEST_ASSERT_EQUAL_UINT8(8, trait(BODY_DEAD_LEFT));         /* 7.50 */
-    TEST_ASSERT_EQUAL_UINT8(150, trait(BODY_LAG_MS));          /* 480 / 16 periods */
+    TEST_ASSERT_EQUAL_UINT8(108, value(BODY_FORWARD_LEFT));    /* 108.44 */
+    TEST_ASSERT_EQUAL_UINT8(8, value(BODY_DEAD_LEFT));         /* 7.50 */
+    TEST_ASSERT_EQUAL_UINT8(150, value(BODY_LAG_MS));          /* 480 / 16 periods */
     TEST_ASSERT_TRUE(measure_motors((int[]){2, 2}, (int[]){12, 12}, (int[]){200, 200}, 5929));
-    TEST_ASSERT_EQUAL_UINT8(132, trait(BODY_FORWARD_LEFT));    /* 131.50 */
+    TEST_ASSERT_EQUAL_UINT8(132, value(BODY_FORWARD_LEFT));    /* 131.50 */
 }
 
 /* An encoder with loose wires counts anything. */
@@ -233,7 +233,7 @@ static unsigned measure_track(unsigned counts_each, unsigned begins_at)
     for (; !ended; beat++) {
         look.senses = beat % TICK == 0;
         look.wall = turned % TURN_COUNTS < TURN_COUNTS / 10;
-        ended = calibrate_beat(&calibration, &look, &traits);
+        ended = calibrate_beat(&calibration, &look, &values);
         TEST_ASSERT_EQUAL_INT16(ended ? 0 : 150, calibrate_mm_s(&calibration));
         TEST_ASSERT_EQUAL_INT32(0, calibrate_duty(&calibration));
         look.counts[0] = (uint16_t)(look.counts[0] + counts_each);
@@ -247,8 +247,8 @@ static unsigned measure_track(unsigned counts_each, unsigned begins_at)
 TEST(the_track_is_what_the_wheels_make_between_the_first_and_the_fifth_sight_of_a_wall)
 {
     (void)measure_track(5, TURN_COUNTS / 2);
-    TEST_ASSERT_EQUAL_UINT8(160, trait(BODY_TRACK_MM));
-    TEST_ASSERT_EQUAL_UINT8(KEPT, trait(BODY_NEAR_LEFT));
+    TEST_ASSERT_EQUAL_UINT8(160, value(BODY_TRACK_MM));
+    TEST_ASSERT_EQUAL_UINT8(KEPT, value(BODY_NEAR_LEFT));
     TEST_ASSERT_EQUAL_UINT8(0, calibration.refused);
 }
 
@@ -256,7 +256,7 @@ TEST(a_wall_that_is_seen_from_the_start_does_not_count_until_it_comes_again)
 {
     unsigned beats = measure_track(5, 0);
 
-    TEST_ASSERT_EQUAL_UINT8(160, trait(BODY_TRACK_MM));
+    TEST_ASSERT_EQUAL_UINT8(160, value(BODY_TRACK_MM));
     TEST_ASSERT_EQUAL_UINT(5 * TURN_COUNTS / 10, beats / 10 * 10);
 }
 
@@ -268,7 +268,7 @@ TEST(two_walls_in_a_turn_make_half_the_track_which_is_refused)
     look.senses = true;
     for (unsigned turned = TURN_COUNTS / 4; !ended; turned += 10) {
         look.wall = turned % (TURN_COUNTS / 2) < TURN_COUNTS / 10;
-        ended = calibrate_beat(&calibration, &look, &traits);
+        ended = calibrate_beat(&calibration, &look, &values);
         look.counts[0] = (uint16_t)(look.counts[0] + 10);
     }
     assert_refused(BODY_TRACK_MM, 80);
@@ -280,10 +280,10 @@ TEST(a_track_is_rounded_at_its_half)
     look.senses = true;
     for (unsigned beat = 0; beat < 10; beat++) {
         look.wall = beat % 2 != 0;
-        TEST_ASSERT_EQUAL(beat == 9, calibrate_beat(&calibration, &look, &traits));
+        TEST_ASSERT_EQUAL(beat == 9, calibrate_beat(&calibration, &look, &values));
         look.counts[0] = (uint16_t)(look.counts[0] + 3515 + (beat == 1 ? 3 : 0));
     }
-    TEST_ASSERT_EQUAL_UINT8(103, trait(BODY_TRACK_MM));   /* 28,123 counts: 102.5002 */
+    TEST_ASSERT_EQUAL_UINT8(103, value(BODY_TRACK_MM));   /* 28,123 counts: 102.5002 */
 }
 
 TEST(without_a_wall_it_gives_up)
@@ -292,7 +292,7 @@ TEST(without_a_wall_it_gives_up)
 
     calibrate_begin(&calibration, MEASURE_TRACK);
     look.senses = true;
-    while (!calibrate_beat(&calibration, &look, &traits))
+    while (!calibrate_beat(&calibration, &look, &values))
         beats++;
     TEST_ASSERT_EQUAL_UINT(8000, beats);
     assert_refused(BODY_TRACK_MM, 0);
@@ -334,9 +334,9 @@ TEST(any_voltages_and_counts_are_measured_or_refused)
                 look.counts[side] = (uint16_t)(look.counts[side] + speed[side] / slower + drawn(3));
             look.battery_mv = drawn(2) == 0 ? drawn(MOST_MV + 1) : drawn(2) * MOST_MV;
             look.wall = drawn(2000) == 0;
-        } while (!calibrate_beat(&calibration, &look, &traits));
-        for (unsigned number = TRAIT_FIRST; number < BODY_PARAMETER_END; number++)
-            TEST_ASSERT_TRUE(trait(number) == KEPT || traits_fit((uint8_t)number, trait(number)));
+        } while (!calibrate_beat(&calibration, &look, &values));
+        for (unsigned number = CALIBRATION_FIRST; number < BODY_PARAMETER_END; number++)
+            TEST_ASSERT_TRUE(value(number) == KEPT || calibration_fit((uint8_t)number, value(number)));
     }
 }
 
@@ -350,7 +350,7 @@ TEST(wheels_that_race_make_no_track_overflow)
 {
     calibrate_begin(&calibration, MEASURE_TRACK);
     look.senses = true;
-    for (unsigned beat = 0; !calibrate_beat(&calibration, &look, &traits); beat++) {
+    for (unsigned beat = 0; !calibrate_beat(&calibration, &look, &values); beat++) {
         look.wall = beat % 1000 == 0;
         look.counts[0] = (uint16_t)(look.counts[0] + 30000);
         look.counts[1] = (uint16_t)(look.counts[1] - 30000);

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from gymnasium import error
 
-from host_sim.lab.gymnasium_envs import told_worlds
+from host_sim.lab.gymnasium_envs import driven_worlds
 from host_sim.lab.gymnasium_envs.arena_env import ArenaEnv
 from host_sim.lab.gymnasium_envs.arena_parallel_env import ArenaParallelEnv
 from host_sim.lab.gymnasium_envs.arena_vector_env import ArenaVectorEnv
@@ -134,7 +134,7 @@ def test_no_arenas():
 
 
 def test_c_code_that_is_missing_is_named(monkeypatch, tmp_path):
-    monkeypatch.setattr(told_worlds, "LIBRARY", tmp_path / "liboctet_told.so")
-    told_worlds.loaded.cache_clear()
-    with pytest.raises(error.DependencyNotInstalled, match=r"liboctet_told\.so is missing; build it"):
+    monkeypatch.setattr(driven_worlds, "LIBRARY", tmp_path / "liboctet_driven.so")
+    driven_worlds.loaded.cache_clear()
+    with pytest.raises(error.DependencyNotInstalled, match=r"liboctet_driven\.so is missing; build it"):
         ArenaEnv()

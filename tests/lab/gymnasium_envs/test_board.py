@@ -101,18 +101,18 @@ def test_the_gradient_of_the_network_is_that_of_differences():
     """The judge is the definition: the loss a little to each side of a weight."""
     draws = np.random.default_rng(1)
     network, seen = Network(draws), draws.random((5, 14))
-    deeds, gains = draws.integers(6, size=5), draws.normal(size=5)
+    actions, gains = draws.integers(6, size=5), draws.normal(size=5)
     _, log_p, _ = network.forward(seen)
-    log_p = log_p[np.arange(5), deeds] + draws.normal(size=5) * 0.05
+    log_p = log_p[np.arange(5), actions] + draws.normal(size=5) * 0.05
 
     def loss() -> float:
         _, log_now, _ = network.forward(seen)
-        ratio = np.exp(log_now[np.arange(5), deeds] - log_p)
+        ratio = np.exp(log_now[np.arange(5), actions] - log_p)
         surrogate = np.minimum(ratio * gains, np.clip(ratio, 0.8, 1.2) * gains)
         return float((-surrogate + 0.01 * (np.exp(log_now) * log_now).sum(-1)).sum())
 
     inputs, log_now, _ = network.forward(seen)
-    of_out = np.hstack([ppo._gradient(log_now, deeds, log_p, gains), np.zeros((5, 1))])
+    of_out = np.hstack([ppo._gradient(log_now, actions, log_p, gains), np.zeros((5, 1))])
     found = network.gradients(inputs, of_out)
     for layer, gradient in zip(network.layers, found, strict=True):
         for at in (0, layer.size // 3, layer.size - 2):

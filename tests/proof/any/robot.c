@@ -69,13 +69,13 @@ static void take_any_brain(struct brain *brain)
     brain->changed = any_bool();
 }
 
-static void take_any_owed(struct owed *owed)
+static void take_any_backlog(struct backlog *backlog)
 {
-    owed->counts = (int16_t)(any_u16() % 32001u - 16000);
-    owed->rolled = (int16_t)any_u16();
-    owed->told[0] = (int16_t)any_u16();
-    owed->told[1] = (int16_t)any_u16();
-    owed->same = any_u8();
+    backlog->counts = (int16_t)(any_u16() % 32001u - 16000);
+    backlog->rolled = (int16_t)any_u16();
+    backlog->commanded[0] = (int16_t)any_u16();
+    backlog->commanded[1] = (int16_t)any_u16();
+    backlog->same = any_u8();
 }
 
 static void take_any_motion(struct motion *motion)
@@ -91,8 +91,8 @@ static void take_any_motion(struct motion *motion)
     motion->kind = any_between(0, 4);
     motion->referenced = any_bool();
     motion->rest_ticks = any_u8();
-    take_any_owed(&motion->apart);
-    take_any_owed(&motion->together);
+    take_any_backlog(&motion->apart);
+    take_any_backlog(&motion->together);
 }
 
 static void take_any_perception(struct perception *perception)

@@ -16,7 +16,7 @@ from random import Random
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-from tests.runs.endurance.doomed import Fate, Witness, at_instruction, run_doomed, with_full_disk
+from tests.runs.endurance.interrupted_runs import Outcome, Witness, at_instruction, run_interrupted, with_full_disk
 from tests.runs.support import octet, start_octet
 
 SIGNALS = (signal.SIGTERM, signal.SIGHUP, signal.SIGINT)
@@ -45,51 +45,54 @@ def tally(name: str, fates: Iterator[tuple[str, bool]]) -> Tally:
 def undisturbed(folder: Path) -> Witness:
     """A run that nothing happens to."""
     witness = Witness()
-    fate = run_doomed(folder, at_instruction(0, 0, witness), witness)
-    assert (fate.status, fate.errors) == (0, ""), fate.errors
+    outcome = run_interrupted(folder, at_instruction(0, 0, witness), witness)
+    assert (outcome.status, outcome.errors) == (0, ""), outcome.errors
     assert witness.saves > 2, "a run that learns nothing shows nothing"
     return witness
 
 
-def told(what: str, fate: Fate) -> str:
+def told(what: str, outcome: Outcome) -> str:
     """What happened, for a person."""
-    memories = f"{fate.memory.hex(' ')}, not {fate.witness.last.hex(' ')}"
-    return f"{what}: {memories} (exit code {fate.status}) {fate.errors[-100:]!r}"
+    memories = f"{outcome.memory.hex(' ')}, not {outcome.witness.last.hex(' ')}"
+    return f"{what}: {memories} (exit code {outcome.status}) {outcome.errors[-100:]!r}"
 
 
 def kills(folder: Path, count: int, whole: Witness, dice: Random) -> Iterator[tuple[str, bool]]:
     """SIGKILL at any instruction."""
     for _ in range(count):
         witness, number = Witness(), dice.randrange(1, whole.instructions)
-        fate = run_doomed(folder, at_instruction(number, signal.SIGKILL, witness), witness)
-        yield told(f"killed at instruction {number}", fate), fate.status == -signal.SIGKILL and fate.is_kept
+        outcome = run_interrupted(folder, at_instruction(number, signal.SIGKILL, witness), witness)
+        yield told(f"killed at instruction {number}", outcome), outcome.status == -signal.SIGKILL and outcome.is_kept
 
 
 def kills_in_saving(folder: Path, count: int, whole: Witness, dice: Random) -> Iterator[tuple[str, bool]]:
     """SIGKILL at any instruction of those that write the file."""
     for _ in range(count):
         witness, number = Witness(), dice.randrange(1, whole.saving)
-        fate = run_doomed(folder, at_instruction(number, signal.SIGKILL, witness, only_saving=True), witness)
-        yield told(f"killed at instruction {number} of saving", fate), fate.status == -signal.SIGKILL and fate.is_kept
+        outcome = run_interrupted(folder, at_instruction(number, signal.SIGKILL, witness, only_saving=True), witness)
+        yield (
+            told(f"killed at instruction {number} of saving", outcome),
+            outcome.status == -signal.SIGKILL and outcome.is_kept,
+        )
 
 
 def signals(folder: Path, number: signal.Signals, whens: list[int]) -> Iterator[tuple[str, bool]]:
     """A signal at some instructions: the run ends in order."""
     for at in whens:
         witness = Witness()
-        fate = run_doomed(folder, at_instruction(at, number, witness), witness)
-        is_well = fate.memory == witness.last and fate.is_orderly and fate.status in (0, 128 + number)
-        yield told(f"{number.name} at instruction {at}", fate), is_well
+        outcome = run_interrupted(folder, at_instruction(at, number, witness), witness)
+        is_well = outcome.memory == witness.last and outcome.is_orderly and outcome.status in (0, 128 + number)
+        yield told(f"{number.name} at instruction {at}", outcome), is_well
 
 
 def full_disks(folder: Path, count: int, most: int, dice: Random) -> Iterator[tuple[str, bool]]:
     """A disk that is full at any byte of any file. What does not fit is said, and what was there stays."""
     for size in [most - 1, *range(9), *(dice.randrange(9, most) for _ in range(count))][:count]:
         witness = Witness()
-        fate = run_doomed(folder, with_full_disk(size), witness)
+        outcome = run_interrupted(folder, with_full_disk(size), witness)
         expected = witness.saved if size < len(witness.saved) else witness.last
-        is_well = fate.memory == expected and fate.status == 1 and fate.is_orderly
-        yield told(f"disk full at byte {size}", fate), is_well
+        is_well = outcome.memory == expected and outcome.status == 1 and outcome.is_orderly
+        yield told(f"disk full at byte {size}", outcome), is_well
 
 
 def lost_commands(folder: Path, count: int, dice: Random) -> Iterator[tuple[str, bool]]:
@@ -97,9 +100,9 @@ def lost_commands(folder: Path, count: int, dice: Random) -> Iterator[tuple[str,
     last = json.loads((folder / "out/summary.json").read_text())["robots"][0]["frames"]["sent"]
     for number in [last, last - 1, *(dice.randrange(1, last) for _ in range(count))][:count]:
         witness = Witness()
-        fate = run_doomed(folder, lambda: None, witness, "--fault", f"drop@{number}-/to")
-        is_well = fate.memory == witness.last and fate.status == 1 and fate.is_orderly
-        yield told(f"frames lost from {number} on", fate), is_well
+        outcome = run_interrupted(folder, lambda: None, witness, "--fault", f"drop@{number}-/to")
+        is_well = outcome.memory == witness.last and outcome.status == 1 and outcome.is_orderly
+        yield told(f"frames lost from {number} on", outcome), is_well
 
 
 def pairs(folder: Path, count: int, dice: Random) -> Iterator[tuple[str, bool]]:

@@ -1,4 +1,4 @@
-#include "hal/port/cortex_m/leave.h"
+#include "hal/port/cortex_m/reset_chip.h"
 
 #include "hal/port/cortex_m/core.h"
 
@@ -9,7 +9,7 @@ enum {
 
 /* A chip may have its own. The reset takes a few cycles. The barrier completes all earlier stores of compiler and
  * core. */
-__attribute__((weak)) void leave_by_reset(void)
+__attribute__((weak)) void reset_chip(void)
 {
     __asm__ volatile("dsb" ::: "memory");
     SCB.aircr = AIRCR_KEY | AIRCR_RESET;

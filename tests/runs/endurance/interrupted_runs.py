@@ -1,4 +1,4 @@
-"""Runs in processes of their own that meet their end on the way, and what of their memory is left."""
+"""Runs in processes of their own that a signal or a full disk interrupts, and what is left of their memory."""
 
 import mmap
 import os
@@ -21,7 +21,7 @@ BEFORE = bytes([0, 0, 0, 0, 0, 0, 0, 2])
 _CELLS = 8
 _WORDS = ("run", "--environments", "1", "--limit-s", "25", "--seed", "12", "--bus", "none", "--quiet")
 
-Doom = Callable[[], None]
+Interruption = Callable[[], None]
 Save = Callable[..., None]
 
 
@@ -88,7 +88,7 @@ class Witness:
 
 
 @dataclass(frozen=True)
-class Fate:
+class Outcome:
     """How a run ended, and what it left.
 
     Attributes:
@@ -115,7 +115,7 @@ class Fate:
         return len(lines) <= 1 and "Traceback" not in self.errors
 
 
-def at_instruction(number: int, signal_number: int, witness: Witness, *, only_saving: bool = False) -> Doom:
+def at_instruction(number: int, signal_number: int, witness: Witness, *, only_saving: bool = False) -> Interruption:
     """A signal of the process to itself at one of its own Python instructions, counted from its beginning.
 
     Args:
@@ -137,13 +137,13 @@ def at_instruction(number: int, signal_number: int, witness: Witness, *, only_sa
     return lambda: before_each_instruction(count)
 
 
-def with_full_disk(size: int) -> Doom:
+def with_full_disk(size: int) -> Interruption:
     """No file can grow beyond a size: as if the disk were full."""
     return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, resource.RLIM_INFINITY))
 
 
-def run_doomed(folder: Path, doom: Doom, witness: Witness, *words: str) -> Fate:
-    """Does a run in a process of its own, which begins with its doom."""
+def run_interrupted(folder: Path, interruption: Interruption, witness: Witness, *words: str) -> Outcome:
+    """Does a run in a process of its own, which begins with what interrupts it."""
     memory, doubtful = folder / "robot.mem", folder / "robot.mem.doubtful"
     memory.write_bytes(BEFORE)
     doubtful.unlink(missing_ok=True)
@@ -151,16 +151,16 @@ def run_doomed(folder: Path, doom: Doom, witness: Witness, *words: str) -> Fate:
     child = os.fork()
     if child == 0:
         os.dup2(said, 2)
-        _be_doomed(folder, doom, witness, words)
+        _run_child(folder, interruption, witness, words)
     os.close(said)
     with os.fdopen(errors) as pipe:
         text = pipe.read()
     _, status = os.waitpid(child, 0)
     left = doubtful if doubtful.exists() else memory
-    return Fate(os.waitstatus_to_exitcode(status), left.read_bytes(), text, witness)
+    return Outcome(os.waitstatus_to_exitcode(status), left.read_bytes(), text, witness)
 
 
-def _be_doomed(folder: Path, doom: Doom, witness: Witness, words: Sequence[str]) -> None:
+def _run_child(folder: Path, interruption: Interruption, witness: Witness, words: Sequence[str]) -> None:
     """The process of the run; it does not return."""
     code = 70
     try:
@@ -170,7 +170,7 @@ def _be_doomed(folder: Path, doom: Doom, witness: Witness, words: Sequence[str])
             mock.patch.object(MemorySaver, "save", witness.watch(MemorySaver.save)),
             mock.patch("host_sim.report.picture.write_picture", lambda path, _: path.touch()),
         ):
-            doom()
+            interruption()
             code = main([*_WORDS, "--out", f"{folder}/out", "--memory", f"{folder}/robot.mem", *words])
             sys.settrace(None)
     except BaseException:

@@ -1,4 +1,4 @@
-"""Worlds whose robots carry out given actions (`native/told.h`), several worlds per call."""
+"""Worlds whose robots carry out given actions (`native/driven.h`), several worlds per call."""
 
 from functools import cache
 from typing import Any
@@ -13,11 +13,11 @@ from host_sim.world.geometry import SimParams
 from host_sim.world.layouts import Layout
 from host_sim.world.world_library import WORLD_HEADERS, load_native
 
-LIBRARY = BUILD / "host" / "host_sim" / "lab" / "gymnasium_envs" / "native" / "liboctet_told.so"
-HEADERS = (*WORLD_HEADERS, PACKAGE / "lab" / "gymnasium_envs" / "native" / "told.h")
+LIBRARY = BUILD / "host" / "host_sim" / "lab" / "gymnasium_envs" / "native" / "liboctet_driven.so"
+HEADERS = (*WORLD_HEADERS, PACKAGE / "lab" / "gymnasium_envs" / "native" / "driven.h")
 
 
-class ToldWorlds:
+class DrivenWorlds:
     """Worlds in C, each with the same number of robots. Arrays are views of C memory: copy data to be kept.
 
     Attributes:
@@ -50,28 +50,28 @@ class ToldWorlds:
         self._kind, self.limit_ticks = kind, limit_ticks
         self.arenas: list[Arena | None] = [None] * worlds
         self._entered: list[tuple[int, Layout, int] | None] = [None] * worlds
-        self._deeds: list[bytes] = []
+        self._actions: list[bytes] = []
         self._forgotten = 0
-        ffi, motion_size = self._ffi, self._library.told_motion_size()
+        ffi, motion_size = self._ffi, self._library.driven_motion_size()
         self._motions: Any = ffi.new("char[]", worlds * robots * motion_size)
-        self._robots: Any = ffi.new("struct told_robot[]", worlds * robots)
-        self._all: Any = ffi.new("struct told[]", worlds)
+        self._robots: Any = ffi.new("struct driven_robot[]", worlds * robots)
+        self._all: Any = ffi.new("struct driven[]", worlds)
         for i in range(worlds):
-            told = self._all[i]
-            told.motions = ffi.cast("struct motion *", self._motions + i * robots * motion_size)
-            told.robots, told.limit_ticks, told.step_ticks = self._robots + i * robots, limit_ticks, step_ticks
+            driven = self._all[i]
+            driven.motions = ffi.cast("struct motion *", self._motions + i * robots * motion_size)
+            driven.robots, driven.limit_ticks, driven.step_ticks = self._robots + i * robots, limit_ticks, step_ticks
         self._share(worlds, robots)
 
     def _share(self, worlds: int, robots: int) -> None:
         """Creates numpy views of the memory that C code writes."""
-        ffi, columns = self._ffi, self._library.TOLD_SENSES
+        ffi, columns = self._ffi, self._library.DRIVEN_SENSES
         numbers = np.frombuffer(ffi.buffer(self._robots), np.int32).reshape(worlds, robots, columns + 2)
         self.senses: NDArray[np.int32] = numbers[..., :columns]
         self.food_eaten: NDArray[np.int32] = numbers[..., columns]
         self.collisions: NDArray[np.int32] = numbers[..., columns + 1]
         words = np.frombuffer(ffi.buffer(self._all), np.uint32).reshape(worlds, -1)
-        self.ticks: NDArray[np.uint32] = words[:, ffi.offsetof("struct told", "tick") // words.itemsize]
-        self.food_left: NDArray[np.uint32] = words[:, ffi.offsetof("struct told", "food_left") // words.itemsize]
+        self.ticks: NDArray[np.uint32] = words[:, ffi.offsetof("struct driven", "tick") // words.itemsize]
+        self.food_left: NDArray[np.uint32] = words[:, ffi.offsetof("struct driven", "food_left") // words.itemsize]
 
     def enter(self, world: int, layout: Layout, seed: int) -> None:
         """Puts the robots of a world at their starts in a layout; their bodies are drawn from the seed."""
@@ -82,21 +82,20 @@ class ToldWorlds:
             for body in arena.inside.bodies:
                 body.kit = arena.inside.ffi.NULL  # this body stays ideal
         self.arenas[world] = arena
-        self._entered[world] = self._forgotten + len(self._deeds), layout, seed
+        self._entered[world] = self._forgotten + len(self._actions), layout, seed
         self._all[world].world = self._ffi.cast("struct world *", arena.inside.address)
-        self._library.told_begin(self._ffi.addressof(self._all, world))
+        self._library.driven_begin(self._ffi.addressof(self._all, world))
 
-    def step(self, deeds: NDArray[np.uint8]) -> None:
-        """Carries out each robot's deed, an `enum told_deed`: shape (worlds, robots), contiguous."""
-        self._deeds.append(deeds.tobytes())
-        told = self._ffi.from_buffer("uint8_t[]", deeds)
-        self._library.told_step(self._all, len(self.arenas), told)
+    def step(self, actions: NDArray[np.uint8]) -> None:
+        """Carries out each robot's action, an `enum driven_action`: shape (worlds, robots), contiguous."""
+        self._actions.append(actions.tobytes())
+        self._library.driven_step(self._all, len(self.arenas), self._ffi.from_buffer("uint8_t[]", actions))
 
     def __getstate__(self) -> dict[str, Any]:
-        """The deeds since each world was entered: a copy repeats them, and is then equal, bit for bit."""
+        """The actions since each world was entered: a copy repeats them, and is then equal, bit for bit."""
         first = min((it[0] for it in self._entered if it is not None), default=0)
-        self._deeds, self._forgotten = self._deeds[first - self._forgotten :], first
-        return {"given": self._given, "entered": self._entered, "deeds": list(self._deeds), "first": first}
+        self._actions, self._forgotten = self._actions[first - self._forgotten :], first
+        return {"given": self._given, "entered": self._entered, "actions": list(self._actions), "first": first}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__init__(*state["given"])  # type: ignore[misc]
@@ -105,12 +104,12 @@ class ToldWorlds:
         for world, it in enumerate(state["entered"]):
             if it is not None:
                 self.enter(world, *it[1:])  # each needs a world from the first step on
-        for step in range(state["first"], state["first"] + len(state["deeds"]) + 1):
+        for step in range(state["first"], state["first"] + len(state["actions"]) + 1):
             for world, it in enumerate(state["entered"]):
                 if it is not None and it[0] == step:
                     self.enter(world, *it[1:])
-            if step < state["first"] + len(state["deeds"]):
-                self.step(np.frombuffer(state["deeds"][step - state["first"]], np.uint8).reshape(shape))
+            if step < state["first"] + len(state["actions"]):
+                self.step(np.frombuffer(state["actions"][step - state["first"]], np.uint8).reshape(shape))
 
     def ended(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """For each world, whether all food is eaten; and if it is not, whether its time is up."""
@@ -123,12 +122,12 @@ class ToldWorlds:
         return {"robot_s": robot_s, "food_left": int(self.food_left[world])}
 
 
-def deed_count() -> int:
-    """Number of a robot's actions, each an `enum told_deed`; raises NoNativeError if the library cannot be used."""
-    return int(loaded()[1].TOLD_DEEDS)
+def action_count() -> int:
+    """Number of a robot's actions (`enum driven_action`); raises NoNativeError if the library cannot be used."""
+    return int(loaded()[1].DRIVEN_ACTIONS)
 
 
 @cache
 def loaded() -> tuple[Any, Any]:
     """The interface to the library, and the library; raises NoNativeError if it cannot be used."""
-    return load_native(LIBRARY, "told_", HEADERS)
+    return load_native(LIBRARY, "driven_", HEADERS)

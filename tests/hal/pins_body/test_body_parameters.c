@@ -1,4 +1,4 @@
-#include "hal/pins_body/upkeep.h"
+#include "hal/pins_body/body_parameters.h"
 
 #include <string.h>
 
@@ -26,31 +26,31 @@ int port_store_more(unsigned which, const uint8_t bytes[CELL_COUNT])
     return 0;
 }
 
-static struct upkeep upkeep;
+static struct body_parameters parameters;
 
 void setUp(void)
 {
     memset(records, 255, sizeof records);
     is_blank[0] = is_blank[1] = true;
     loads = stores = failing = 0;
-    upkeep = (struct upkeep){.unkept = false};
-    traits_load(&upkeep.traits);
+    parameters = (struct body_parameters){.unstored = false};
+    calibration_load(&parameters.values);
 }
 
 static enum result asked(enum opcode opcode, uint8_t which, uint32_t value, bool running)
 {
     struct output out = {.has_answer = true, .answer = RESULT_UNKNOWN_PARAMETER};
 
-    upkeep_serve(&upkeep, &(struct command){opcode, which, value}, running);
-    upkeep_answer(&upkeep, &out);
-    upkeep.value = out.answer_value;
+    parameters_serve(&parameters, &(struct command){opcode, which, value}, running);
+    parameters_answer(&parameters, &out);
+    parameters.value = out.answer_value;
     return out.answer;
 }
 
 static uint32_t got(uint8_t which)
 {
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_GET, which, 0, true));
-    return upkeep.value;
+    return parameters.value;
 }
 
 TEST(while_it_measures_nothing_else_is_set)
@@ -67,7 +67,7 @@ TEST(an_uncalibrated_body_is_as_planned)
     struct proximity proximity;
     struct wheel wheels[PINS_SIDES] = {{.known = false}};
 
-    upkeep_use(&upkeep, &proximity, wheels);
+    parameters_apply(&parameters, &proximity, wheels);
     for (unsigned i = 0; i < FEEL_COUNT; i++)
         TEST_ASSERT_EQUAL_UINT16(KIT_LIGHT_NEAR, proximity.near[i]);
     for (unsigned side = 0; side < PINS_SIDES; side++) {
@@ -75,7 +75,7 @@ TEST(an_uncalibrated_body_is_as_planned)
         TEST_ASSERT_EQUAL_INT16(0, wheels[side].forward_more);
         TEST_ASSERT_EQUAL_INT16(0, wheels[side].lag_more_ms);
     }
-    TEST_ASSERT_EQUAL_UINT8(160, upkeep_trait(&upkeep, BODY_TRACK_MM));
+    TEST_ASSERT_EQUAL_UINT8(160, parameters_value(&parameters, BODY_TRACK_MM));
 }
 
 TEST(sensors_and_wheels_go_by_what_is_set)
@@ -87,7 +87,7 @@ TEST(sensors_and_wheels_go_by_what_is_set)
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_DEAD_RIGHT, 125, false));
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_FORWARD_RIGHT, 107, false));
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_LAG_MS, 50, false));
-    upkeep_use(&upkeep, &proximity, wheels);
+    parameters_apply(&parameters, &proximity, wheels);
     TEST_ASSERT_EQUAL_UINT16(1600, proximity.near[2]);
     TEST_ASSERT_EQUAL_UINT16(KIT_LIGHT_NEAR, proximity.near[1]);
     TEST_ASSERT_EQUAL_INT16(8192 - WHEEL_DEAD, wheels[1].dead_more);
@@ -105,7 +105,7 @@ TEST(a_dead_band_is_rounded_at_its_half)
 
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_DEAD_LEFT, 85, false));
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_DEAD_RIGHT, 111, false));
-    upkeep_use(&upkeep, &proximity, wheels);
+    parameters_apply(&parameters, &proximity, wheels);
     TEST_ASSERT_EQUAL_INT16(5571 - WHEEL_DEAD, wheels[0].dead_more);   /* 5570.56 */
     TEST_ASSERT_EQUAL_INT16(7274 - WHEEL_DEAD, wheels[1].dead_more);   /* 7274.496 */
 }
@@ -113,7 +113,7 @@ TEST(a_dead_band_is_rounded_at_its_half)
 TEST(each_record_is_read_once_and_what_it_does_not_need_is_zero)
 {
     TEST_ASSERT_EQUAL_UINT(PORT_MORE, loads);
-    TEST_ASSERT_EQUAL_INT(0, traits_store(&upkeep.traits));
+    TEST_ASSERT_EQUAL_INT(0, calibration_store(&parameters.values));
     TEST_ASSERT_EQUAL_HEX8(0, records[0][6] | records[0][7] | records[1][5] | records[1][6] | records[1][7]);
 }
 
@@ -122,15 +122,15 @@ TEST(what_is_set_is_there_after_a_reset_and_what_cannot_be_is_not)
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_NEAR_RIGHT, 76, false));
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_TRACK_MM, 163, false));
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_LAG_MS, 200, false));
-    memset(&upkeep.traits, 0, sizeof upkeep.traits);
-    traits_load(&upkeep.traits);
+    memset(&parameters.values, 0, sizeof parameters.values);
+    calibration_load(&parameters.values);
     TEST_ASSERT_EQUAL_UINT32(76, got(BODY_NEAR_RIGHT));
     TEST_ASSERT_EQUAL_UINT32(163, got(BODY_TRACK_MM));
     TEST_ASSERT_EQUAL_UINT32(200, got(BODY_LAG_MS));
     TEST_ASSERT_EQUAL_UINT32(97, got(BODY_FORWARD_LEFT));
     records[1][4] = 201;
     records[0][5] = 89;
-    traits_load(&upkeep.traits);
+    calibration_load(&parameters.values);
     TEST_ASSERT_EQUAL_UINT32(160, got(BODY_TRACK_MM));
     TEST_ASSERT_EQUAL_UINT32(60, got(BODY_LAG_MS));
 }
@@ -167,10 +167,10 @@ TEST(what_cannot_be_stored_is_not_used)
 TEST(a_measurement_is_begun_and_told_of)
 {
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_MEASURE, MEASURE_TRACK, false));
-    TEST_ASSERT_EQUAL_UINT32(0, upkeep.value);
+    TEST_ASSERT_EQUAL_UINT32(0, parameters.value);
     TEST_ASSERT_EQUAL_UINT32(MEASURE_TRACK, got(BODY_MEASURE));
-    upkeep.calibration.refused = BODY_DEAD_LEFT;
-    upkeep.calibration.found = -3;
+    parameters.calibration.refused = BODY_DEAD_LEFT;
+    parameters.calibration.found = -3;
     TEST_ASSERT_EQUAL_HEX32(0xFFFFFD00u | BODY_DEAD_LEFT, got(BODY_REFUSED));
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_MEASURE, MEASURE_NOTHING, false));
     TEST_ASSERT_EQUAL_UINT32(0, got(BODY_REFUSED));
@@ -178,16 +178,16 @@ TEST(a_measurement_is_begun_and_told_of)
 
 TEST(what_was_measured_is_stored_once_and_said_where_that_fails)
 {
-    upkeep_store(&upkeep);
+    parameters_store(&parameters);
     TEST_ASSERT_EQUAL_UINT(0, stores);
-    upkeep.unkept = true;
-    upkeep_store(&upkeep);
-    upkeep_store(&upkeep);
+    parameters.unstored = true;
+    parameters_store(&parameters);
+    parameters_store(&parameters);
     TEST_ASSERT_EQUAL_UINT(2, stores);
     TEST_ASSERT_EQUAL_UINT32(0, got(BODY_REFUSED));
-    upkeep.unkept = true;
+    parameters.unstored = true;
     failing = 3;
-    upkeep_store(&upkeep);
+    parameters_store(&parameters);
     TEST_ASSERT_EQUAL_UINT32(BODY_REFUSED, got(BODY_REFUSED));
 }
 
@@ -200,6 +200,6 @@ TEST(other_commands_are_the_robots)
     TEST_ASSERT_EQUAL_INT(RESULT_UNKNOWN_PARAMETER, asked(OPCODE_SET, BODY_MEASURE - 1, 1, false));
     TEST_ASSERT_EQUAL_INT(RESULT_UNKNOWN_PARAMETER, asked(OPCODE_FREEZE, BODY_TRACK_MM, 1, false));
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_GET, BODY_PARAMETER_END - 1, 0, false));
-    upkeep_answer(&upkeep, &none);
+    parameters_answer(&parameters, &none);
     TEST_ASSERT_EQUAL_INT(RESULT_UNKNOWN_PARAMETER, none.answer);
 }

@@ -1,4 +1,4 @@
-#include "host_sim/lab/gymnasium_envs/native/told.h"
+#include "host_sim/lab/gymnasium_envs/native/driven.h"
 
 #include <string.h>
 
@@ -17,8 +17,8 @@ static uint64_t touching[(BODIES + 1) * WORDS];
 static struct plain_world space;
 static struct world world;
 static struct motion motions[BODIES];
-static struct told_robot robots[BODIES];
-static struct told told;
+static struct driven_robot robots[BODIES];
+static struct driven driven;
 
 /* Two robots that look to the right, and food at 2000, 1000. */
 void setUp(void)
@@ -35,21 +35,21 @@ void setUp(void)
     world = (struct world){.params = params, .body_count = BODIES, .bodies = bodies, .food_count = 1, .food = &food};
     space = (struct plain_world){.body_radius_mm = 100.0, .cones = &cones,
         .capsule_count = WALLS, .capsules = capsules, .places = places, .words = WORDS, .touching = touching};
-    told = (struct told){.world = &world, .motions = motions, .robots = robots, .limit_ticks = 1000, .step_ticks = 1000};
+    driven = (struct driven){.world = &world, .motions = motions, .robots = robots, .limit_ticks = 1000, .step_ticks = 1000};
 }
 
 static void begin(void)
 {
     world_begin(&world);
     plain_space_take(&space, &world);
-    told_begin(&told);
+    driven_begin(&driven);
 }
 
 static void step(uint8_t first, uint8_t second)
 {
-    const uint8_t deeds[BODIES] = {first, second};
+    const uint8_t actions[BODIES] = {first, second};
 
-    told_step(&told, 1, deeds);
+    driven_step(&driven, 1, actions);
 }
 
 TEST(before_the_first_step_the_robots_have_senses)
@@ -59,58 +59,58 @@ TEST(before_the_first_step_the_robots_have_senses)
     TEST_ASSERT_EQUAL_INT32(1, robots[0].senses[3]);
     TEST_ASSERT_EQUAL_INT32(1000, robots[0].senses[4]);
     TEST_ASSERT_EQUAL_INT32(0, robots[1].senses[3]);
-    TEST_ASSERT_EQUAL_UINT32(1, told.food_left);
+    TEST_ASSERT_EQUAL_UINT32(1, driven.food_left);
 }
 
 TEST(a_robot_that_is_done_sooner_rests)
 {
     begin();
-    step(TOLD_FORWARD, TOLD_TURN_ABOUT);
+    step(DRIVEN_FORWARD, DRIVEN_TURN_ABOUT);
 
     TEST_ASSERT_EQUAL_INT32(120, robots[0].senses[ODOMETER]);
     TEST_ASSERT_EQUAL_INT32(120, robots[0].senses[ODOMETER + 1]);
     TEST_ASSERT_INT32_WITHIN(8, 2513, robots[1].senses[ODOMETER]);
-    TEST_ASSERT_GREATER_THAN_UINT32(40, told.tick);
+    TEST_ASSERT_GREATER_THAN_UINT32(40, driven.tick);
 }
 
 TEST(food_is_eaten_at_the_end_of_a_step_forward)
 {
     bodies[0].x_mm = 1860.0;
     begin();
-    step(TOLD_TURN_LEFT, TOLD_TURN_LEFT);
+    step(DRIVEN_TURN_LEFT, DRIVEN_TURN_LEFT);
     TEST_ASSERT_EQUAL_UINT32(0, robots[0].food_eaten);
-    step(TOLD_TURN_RIGHT, TOLD_TURN_RIGHT);
-    step(TOLD_FORWARD, TOLD_FORWARD);
+    step(DRIVEN_TURN_RIGHT, DRIVEN_TURN_RIGHT);
+    step(DRIVEN_FORWARD, DRIVEN_FORWARD);
 
     TEST_ASSERT_EQUAL_UINT32(1, robots[0].food_eaten);
     TEST_ASSERT_EQUAL_UINT32(0, robots[1].food_eaten);
-    TEST_ASSERT_EQUAL_UINT32(0, told.food_left);
+    TEST_ASSERT_EQUAL_UINT32(0, driven.food_left);
 }
 
 TEST(where_no_food_is_left_nothing_happens)
 {
     food.eaten = true;
     begin();
-    step(TOLD_FORWARD, TOLD_FORWARD);
+    step(DRIVEN_FORWARD, DRIVEN_FORWARD);
 
-    TEST_ASSERT_EQUAL_UINT32(0, told.tick);
+    TEST_ASSERT_EQUAL_UINT32(0, driven.tick);
 }
 
 TEST(a_step_ends_when_its_time_is_up)
 {
-    told.step_ticks = 2;
+    driven.step_ticks = 2;
     begin();
-    step(TOLD_FORWARD, TOLD_TURN_ABOUT);
+    step(DRIVEN_FORWARD, DRIVEN_TURN_ABOUT);
 
-    TEST_ASSERT_EQUAL_UINT32(2, told.tick);
+    TEST_ASSERT_EQUAL_UINT32(2, driven.tick);
 }
 
 TEST(a_step_that_is_cut_off_eats)
 {
     bodies[0].x_mm = 1860.0;
-    told.step_ticks = 1;
+    driven.step_ticks = 1;
     begin();
-    step(TOLD_FORWARD, TOLD_FORWARD);
+    step(DRIVEN_FORWARD, DRIVEN_FORWARD);
 
     TEST_ASSERT_EQUAL_UINT32(1, robots[0].food_eaten);
 }
@@ -118,13 +118,13 @@ TEST(a_step_that_is_cut_off_eats)
 TEST(nothing_happens_after_the_time_of_the_world)
 {
     bodies[0].x_mm = 1900.0;
-    told.limit_ticks = 3;
+    driven.limit_ticks = 3;
     begin();
-    step(TOLD_TURN_LEFT, TOLD_TURN_ABOUT);
+    step(DRIVEN_TURN_LEFT, DRIVEN_TURN_ABOUT);
     TEST_ASSERT_EQUAL_UINT8(0, bodies[0].seen);
-    step(TOLD_FORWARD, TOLD_FORWARD);
+    step(DRIVEN_FORWARD, DRIVEN_FORWARD);
 
-    TEST_ASSERT_EQUAL_UINT32(3, told.tick);
+    TEST_ASSERT_EQUAL_UINT32(3, driven.tick);
     TEST_ASSERT_EQUAL_UINT32(0, robots[0].food_eaten);
 }
 
@@ -135,7 +135,7 @@ TEST(bumps_are_counted_step_by_step)
     bodies[0].x_mm = 3880.0;
     begin();
     for (unsigned i = 0; i < 20; i++) {
-        step(TOLD_FORWARD, TOLD_TURN_LEFT);
+        step(DRIVEN_FORWARD, DRIVEN_TURN_LEFT);
         bumps += robots[0].collisions;
     }
 
