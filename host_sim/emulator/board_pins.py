@@ -173,7 +173,7 @@ class Pins:
         """The wiring table in Markdown."""
         lines = ["| signal | pin | as | goes to |", "|---|---|---|---|"]
         for signal, pin in sorted(self.signals.items(), key=lambda row: place_of(row[1])):
-            use = self.chip.signals.get(signal, "input or output")
+            use = self.chip.signals.get(signal, "GPIO")
             end = ": ".join(self.ends.get(signal, ("",)))
             lines.append(f"| {signal.lower().replace('_', ' ')} | {pin} | {use} | {end} |")
         return "\n".join(lines) + "\n"

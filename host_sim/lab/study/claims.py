@@ -128,7 +128,7 @@ class Row(NamedTuple):
     def __str__(self) -> str:
         digits = 1 if self.unit else 2
         low, high = f"{self.low:.{digits}f}", f"{self.high:.{digits}f}"
-        return f"| {self.name} | {self.value:.{digits}f}{self.unit} ({low}..{high}{self.unit}) |"
+        return f"| {self.name} | {self.value:.{digits}f}{self.unit} ({low}..{high}) |"
 
 
 def _share(name: str, truths: Sequence[Sequence[bool]] | Sequence[bool]) -> Row:
@@ -146,12 +146,12 @@ def proper_rows(lives: Sequence[Life]) -> Iterator[Row]:
     """What robots know beside obstacles on one side."""
     for cell, side in PROPER.items():
         known = [life.memories[_AFTER - 1][cell] == side for life in lives]
-        yield _share(f"cell {cell} is learned and right after two environments", known)
+        yield _share(f"cell {cell} right after two environments", known)
     every = [all(life.memories[_AFTER - 1][it] == side for it, side in PROPER.items()) for life in lives]
-    yield _share("all four are", every)
+    yield _share("all four", every)
     for cell, side in PROPER.items():
         learned = [life.memories[-1][cell] for life in lives if life.memories[-1][cell]]
-        yield _share(f"cell {cell} is right in the end, of those learned", [it == side for it in learned])
+        yield _share(f"cell {cell} right in the end, if learned", [it == side for it in learned])
 
 
 def symmetric_rows(lives: Sequence[Life], patterns: Sequence[int] = SYMMETRIC) -> Iterator[Row]:
@@ -160,10 +160,10 @@ def symmetric_rows(lives: Sequence[Life], patterns: Sequence[int] = SYMMETRIC) -
         ends = [life.memories[-1][cell] for life in lives]
         kept = [life for life, end in zip(lives, ends, strict=True) if end]
         tried = [len([1 for pattern, _ in life.tried if pattern == cell]) for life in kept]
-        yield _share(f"cell {cell} is left in the end", [end == Side.LEFT for end in ends])
-        yield _share(f"cell {cell} is right in the end", [end == Side.RIGHT for end in ends])
+        yield _share(f"cell {cell} left in the end", [end == Side.LEFT for end in ends])
+        yield _share(f"cell {cell} right in the end", [end == Side.RIGHT for end in ends])
         first = [life.first(cell) == life.memories[-1][cell] for life in kept]
-        yield _share(f"pattern {cell}: what is kept is the side of the first trial", first)
+        yield _share(f"pattern {cell} keeps the side of its first trial", first)
         yield _mean(f"pattern {cell}: trials until one is kept", tried)
 
 
