@@ -3,7 +3,7 @@
 import argparse
 import sys
 from argparse import Namespace
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -181,10 +181,9 @@ def _argument(it: Any, row: Option) -> dict[str, Any]:
 def _check(options: RunOptions) -> None:
     """Refuses options that contradict each other, with the standard library only."""
     if not options.watch or options.terminal:
-        for name in ("listen", "port"):
-            if getattr(options, name) != getattr(RunOptions, name):
-                instead = "leave --terminal out" if options.terminal else "add --watch"
-                raise UsageError(f"--{name} is for a page in the browser: {instead}, or leave --{name} out")
+        for flag in _given(options, ("listen", "port")):
+            instead = "leave --terminal out" if options.terminal else "add --watch"
+            raise UsageError(f"{flag} is for a page in the browser: {instead}, or leave {flag} out")
     if options.robot_command and (options.bus == "none" or options.robot != "spawn"):
         other = "--bus none" if options.bus == "none" else f"--robot {options.robot}"
         raise UsageError(f"--robot-command starts a program on fd or socketcan: leave {other} out")
@@ -197,6 +196,8 @@ def _check(options: RunOptions) -> None:
         )
     if options.is_fleet:
         _check_fleet(options)
+    elif options.robot == "observe":
+        _check_observer(options)
     else:
         check_robot(options.bus, options.robot, options.nodes)
 
@@ -213,10 +214,8 @@ def _check_gdb(options: RunOptions) -> None:
         raise UsageError("--gdb is not for a pico or a body on pins: leave --gdb out, or name another board")
     if options.gdb and options.profile.endswith(PROGRAM_FILE):
         raise UsageError(f"--gdb stops in C, and {options.profile} is a program: leave --gdb out")
-    for name in ("real_time", "watch", "robots", "robot_command") if options.gdb else ():
-        if getattr(options, name) != getattr(RunOptions, name):
-            flag = flag_of(name, options_of(RunOptions)[name][1])
-            raise UsageError(f"--gdb stops one robot, and nobody else waits for it: leave {flag} out")
+    for flag in _given(options, ("real_time", "watch", "robots", "robot_command")) if options.gdb else ():
+        raise UsageError(f"--gdb stops one robot, and nobody else waits for it: leave {flag} out")
 
 
 def _check_fleet(options: RunOptions) -> None:
@@ -225,14 +224,24 @@ def _check_fleet(options: RunOptions) -> None:
         raise UsageError(f"a fleet cannot be watched: take up to {NODE_MAX} robots in one world, or run it unwatched")
     if options.bus not in {"auto", "none"}:
         raise UsageError(f"{_FLEETS} has no bus: leave --bus {options.bus} out, or run fewer robots in one world")
-    unsuited = [
-        flag_of(name, row)
-        for name, (it, row) in options_of(RunOptions).items()
-        if not row.fleet and getattr(options, name) != it.default
-    ]
+    unsuited = _given(options, [name for name, (_, row) in options_of(RunOptions).items() if not row.fleet])
     unsuited += ["--physics pymunk"] if options.physics == PYMUNK else []
     if unsuited:
         raise UsageError(f"{_FLEETS} has no bus and keeps its memories in {FLEET_TABLE}: leave {unsuited[0]} out")
+
+
+def _check_observer(options: RunOptions) -> None:
+    """Refuses what an observer would not heed: it only looks on."""
+    check_robot(options.bus, options.robot, options.nodes)
+    heeded = ("bus", "bitrate", "robot", "node", "limit_s", "out", "watch", "terminal")
+    if ignored := _given(options, [it for it in options_of(RunOptions) if it not in heeded]):
+        raise UsageError(f"--robot observe only looks on, at a robot that runs by itself: leave {ignored[0]} out")
+
+
+def _given(options: RunOptions, names: Iterable[str]) -> list[str]:
+    """Those of the options that have another value than by default, as on the command line."""
+    rows, plain = options_of(RunOptions), RunOptions()
+    return [flag_of(it, rows[it][1]) for it in names if getattr(options, it) != getattr(plain, it)]
 
 
 def add_channel(parser: argparse.ArgumentParser) -> None:

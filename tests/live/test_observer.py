@@ -70,6 +70,23 @@ def test_it_tells_what_the_robot_does_without_a_word_and_its_log_is_that_of_the_
     assert all((tmp_path / name).stat().st_size > 1000 for name in ("observed.html", "observed.png"))
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        *("--profile mine.c", "--profile never", "--set step_mm=9", "--memory a.mem", "--fault drop:1%", "--quiet"),
+        *("--seed 2", "--environments 1", "--change plant@1s", "--robots 1 --owner 3", "--compress-log", "--port 9"),
+        *("--body kit", "--world small", "--physics fast", "--reconnect-s 3", "--late-max 9", "--json"),
+    ],
+)
+def test_what_an_observer_does_not_heed_is_refused_in_one_line(words, capsys):
+    command = ["watch", "--bus", "virtual:observed", "--robot", "observe", *words.split()]
+
+    assert main(command) == 2
+
+    flag = next(word for word in reversed(words.split()) if word.startswith("--"))
+    assert capsys.readouterr().err.endswith(f"leave {flag} out\n")
+
+
 def test_it_keeps_only_the_last_ticks_however_long_it_looks_on(recorded, monkeypatch):
     monkeypatch.setattr(run_recorder, "TICKS_MAX", 60)
     monkeypatch.setattr(observer_module, "_PART_TICKS", 10)
