@@ -1,5 +1,6 @@
 """Errors that people see, and the wording of their messages."""
 
+import re
 from collections.abc import Iterable
 
 
@@ -55,7 +56,18 @@ class LinkDownError(RobotError):
 
 
 class BrainError(RobotError):
-    """A behaviour in a C file of its user has made a mistake: the message says where, and with which senses."""
+    """A behaviour in a C file of its user has made a mistake: the message says where, and with which senses.
+
+    Attributes:
+        node: The robot; 0 for one of a fleet.
+        tick: The tick; None at the start of a run.
+    """
+
+    def __init__(self, message: str, node: int = 0) -> None:
+        """Takes the message, which names the tick."""
+        super().__init__(message)
+        found = re.search(r", at tick (\d+), ", message)
+        self.node, self.tick = node, int(found[1]) if found else None
 
 
 class DoubtfulError(OctetError):

@@ -1,7 +1,6 @@
 """Takes a run from its start to its output files: as fast as possible, in real time, or at the pace of watchers."""
 
 import os
-import re
 import shlex
 import sys
 import time
@@ -258,27 +257,17 @@ def _write_what_there_is(outputs: Outputs, end: BaseException) -> None:
     with suppress(OctetError):
         outputs.write()
         if isinstance(end, BrainError):
-            end.args = (f"{end}{_debugger(outputs, end)}",)
+            end.args = (f"{end}{_debugger(outputs.options, end)}",)
         if isinstance(end, KeyboardInterrupt):
             end.args = ("the log so far was written",)  # `main` tells it
 
 
-def _debugger(outputs: Outputs, mistake: BrainError) -> str:
-    """A line with the command that opens the debugger where a behaviour made its mistake.
-
-    Empty at a run's start, and of several fast robots: they share one guard, which does not know which one it was.
-    """
-    options, found = outputs.options, re.search(r", at tick (\d+), ", str(mistake))
-    if found is None or (options.fast and options.robots > 1):
+def _debugger(options: RunOptions, mistake: BrainError) -> str:
+    """A line with the command that opens the debugger where a behaviour made its mistake; empty at a run's start."""
+    if mistake.tick is None:
         return ""
-    for client in outputs.simulation.clients:
-        with suppress(BrainError):
-            client.connection.status()
-            continue
-        where = f"--node {client.node} --tick {found[1]}"
-        words = f"{shlex.quote(str(options.log))} {where} --profile {shlex.quote(options.profile)}"
-        return as_called(f"\n  debugger  tools/octet debug {words}")
-    return ""
+    where = ["--node", str(mistake.node), "--tick", str(mistake.tick), "--profile", options.profile]
+    return as_called(f"\n  debugger  tools/octet debug {shlex.join([str(options.log), *where])}")
 
 
 def _check_trust(summary: Summary) -> None:

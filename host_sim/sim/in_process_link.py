@@ -45,7 +45,7 @@ struct octet *programmed_open(uint8_t node, const uint8_t memory[8], const char 
 const void *programmed_state(const struct octet *octet);
 void programmed_tell(const void *program, char told[1024]);
 const char *programmed_printed(const void *program);
-const char *own_failure(void);
+const char *own_failure(const void *robot);
 """
 
 
@@ -254,9 +254,9 @@ class OwnLink(InProcessLink):
 
     def status(self) -> str:
         """As in `Connection`."""
-        failure: Any = self._ffi.string(self._library.own_failure())
+        failure: Any = self._ffi.string(self._library.own_failure(self._octet))
         if failure:
-            raise BrainError(self._own.named(failure.decode(errors="replace")))
+            raise BrainError(self._own.named(failure.decode(errors="replace")), self._node)
         return super().status()
 
 

@@ -175,7 +175,7 @@ class NativeFleet:
             BrainError: The user's behaviour has made a mistake.
         """
         left = self._run(ticks, worlds)
-        if self._own and (failure := self._ffi.string(self._library.own_failure())):
+        if self._own and (failure := self._ffi.string(self._library.own_failure(self._ffi.NULL))):
             raise BrainError(self._own.named(bytes(failure).decode(errors="replace")))
         return left
 

@@ -59,7 +59,7 @@ class RobotProcess:
             )
         except OSError as error:
             raise OctetError(f"cannot start the firmware: {error}; build it with tools/setup") from error
-        self.pid = self._process.pid
+        self.pid, self._node = self._process.pid, node
         self._printed = b""
         self.mistake: Callable[[str], str] = lambda _: ""
         assert self._process.stdout is not None
@@ -83,7 +83,7 @@ class RobotProcess:
             return f"is running and {self._quoted()}"
         self._read()
         if mistake := self.mistake(self._printed.decode(errors="replace")):
-            raise BrainError(mistake)
+            raise BrainError(mistake, self._node)
         how = f"was killed by signal {_signal_name(-code)}" if code < 0 else f"ended with exit code {code}"
         raise RobotError(f"the robot {how} and {self._quoted()}")
 

@@ -31,11 +31,17 @@ static __thread struct {
     const struct senses *senses;
 } now;
 
-static char failure[GUARD_TEXT_MAX];   /* the first one, of any robot */
+static char failure[GUARD_TEXT_MAX];   /* the first one, of any robot, */
+static const void *failed;              /* and of which */
 
-const char *own_failure(void)
+const char *own_failure(const void *robot)
 {
-    return failure;
+    return !robot || robot == failed ? failure : "";
+}
+
+static const struct robot *robot_of(const struct brain *brain)
+{
+    return (const struct robot *)((const char *)brain - offsetof(struct robot, brain));
 }
 
 static void add(char *text, size_t size, const char *more)
@@ -46,7 +52,7 @@ static void add(char *text, size_t size, const char *more)
 void guard_when(char *text, size_t size)
 {
     static const char *const names[] = FEEL_NAMES;
-    const struct robot *robot = (const struct robot *)((const char *)now.brain - offsetof(struct robot, brain));
+    const struct robot *robot = robot_of(now.brain);
     unsigned long ms = robot->uptime_s * 1000UL + robot->part_ms;
 
     if (!now.senses) {
@@ -86,8 +92,10 @@ void guard_fail(const void *code, const char *place, const char *what)
     guard_when(when, sizeof when);
     add(text, sizeof text, when);
     guard_end(text);
-    if (!failure[0])
+    if (!failure[0]) {
         memcpy(failure, text, sizeof failure);
+        failed = robot_of(now.brain);
+    }
     longjmp(now.out, 1);
 }
 

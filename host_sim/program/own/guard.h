@@ -8,8 +8,8 @@
 
 enum { GUARD_TEXT_MAX = 600 };
 
-const char *own_failure(void);
-        /* What was wrong, in one line; empty if nothing was. */
+const char *own_failure(const void *robot);
+        /* What was wrong with this robot, or with any if it is null, in one line; empty if nothing was. */
 
 void guard_when(char *text, size_t size);
         /* The tick of the decision under way, and its senses, in words. */

@@ -59,7 +59,7 @@ size_t fleet_run_alone(struct fleet_robot robots[], size_t count, uint32_t ticks
 size_t fleet_run_together(struct fleet_robot robots[], size_t count, uint32_t ticks);
         /* The same for robots that share a world: they sense each other, tick by tick. */
 
-const char *own_failure(void);
+const char *own_failure(const void *robot);
         /* Of robots that are linked with a user's behaviour, only: as in host_sim/program/own/guard.h. */
 
 #endif
