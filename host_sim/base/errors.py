@@ -66,7 +66,7 @@ class BrainError(RobotError):
     def __init__(self, message: str, node: int = 0) -> None:
         """Takes the message, which names the tick."""
         super().__init__(message)
-        found = re.search(r", at tick (\d+), ", message)
+        found = re.search(r"\bat tick (\d+), ", message)
         self.node, self.tick = node, int(found[1]) if found else None
 
 

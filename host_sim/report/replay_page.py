@@ -11,6 +11,7 @@ value in a pair holds from the pair's tick until that of the next pair; the firs
     measures     Measures
     first_tick   the first tick on the page; 0 except for very long runs, of which it shows the last part
     ticks        number of ticks
+    shown        the tick at which the page opens; it may be left out
     scenes       [[tick, EnvironmentScene], ...]: one for each environment and for each change of it by a person
     news         [[tick, sentence], ...]: changes of the world and the bodies
     eaten        [[tick, [0 or 1 for each piece of the scene's food]], ...]
@@ -61,15 +62,24 @@ _POSE = {"x": (0, 10), "y": (1, 10), "heading": (2, 1000)}
 _COLUMNS = (*_POSE, *COLUMNS)
 
 
-def write_page(path: Path, trajectory: Trajectory, title: str, laboratory: Mapping[str, Any] | None = None) -> None:
+def write_page(
+    path: Path,
+    trajectory: Trajectory,
+    title: str,
+    laboratory: Mapping[str, Any] | None = None,
+    shown: int | None = None,
+) -> None:
     """Writes the page of a run of at least one tick, with the data of laboratory.py if there is any.
+
+    It opens at the tick `shown`, by default the first.
 
     Equal runs give equal bytes.
 
     Raises:
         OctetError: The file cannot be written.
     """
-    write_bytes(path, page(run_data(trajectory, title), laboratory).encode())
+    run = {**run_data(trajectory, title), **({} if shown is None else {"shown": shown})}
+    write_bytes(path, page(run, laboratory).encode())
 
 
 def run_data(trajectory: Trajectory, title: str) -> dict[str, Any]:

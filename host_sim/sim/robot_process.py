@@ -76,14 +76,14 @@ class RobotProcess:
 
         Raises:
             RobotError: The process has ended.
-            BrainError: A mistake of its user's behaviour has ended it.
+            BrainError: Its user's behaviour has made a mistake, which ends it.
         """
         code = self._process.poll()
-        if code is None:
-            return f"is running and {self._quoted()}"
         self._read()
         if mistake := self.mistake(self._printed.decode(errors="replace")):
             raise BrainError(mistake, self._node)
+        if code is None:
+            return f"is running and {self._quoted()}"
         how = f"was killed by signal {_signal_name(-code)}" if code < 0 else f"ended with exit code {code}"
         raise RobotError(f"the robot {how} and {self._quoted()}")
 

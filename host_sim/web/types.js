@@ -101,6 +101,7 @@
  * @property {Measures} measures
  * @property {number} first_tick
  * @property {number} ticks
+ * @property {number} [shown] - The tick at which its page opens.
  * @property {[number, EnvironmentScene][]} scenes
  * @property {News[]} [news]
  * @property {[number, number[]][]} eaten

@@ -93,8 +93,8 @@ class FakeRun:
         }
 
 
-def write_replay(path: Path, robots: Sequence[Mapping[str, Any]]) -> Path:
-    """Writes the page of a recorded run in which each robot drives 2 mm a tick to the right."""
+def write_replay(path: Path, robots: Sequence[Mapping[str, Any]], **others: int) -> Path:
+    """Writes the page of a recorded run in which each robot drives 2 mm a tick to the right, with other fields."""
     run = {
         "version": 3,
         "title": "a run of many",
@@ -104,6 +104,7 @@ def write_replay(path: Path, robots: Sequence[Mapping[str, Any]]) -> Path:
         "scenes": [[0, ENVIRONMENT]],
         "eaten": [[0, [0, 0, 0]]],
         "robots": [_recorded(**robot) for robot in robots],
+        **others,
     }
     path.write_text(page(run))
     return path

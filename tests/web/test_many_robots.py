@@ -210,6 +210,14 @@ def replay(tmp_path, open_page):
     return open_page(write_replay(tmp_path / "many.html", robots).as_uri())
 
 
+def test_a_recorded_run_opens_at_the_tick_that_it_names(tmp_path, open_page):
+    robots = [{"node": 3, "y": 800, "cell": 1, "learned_at": 50}]
+
+    page = open_page(write_replay(tmp_path / "wrong.html", robots, shown=77).as_uri())
+
+    assert page.evaluate("[octet.tick, octet.scene.states[0].x]") == [77, 654]
+
+
 def test_a_recorded_run_has_the_states_of_all_robots(replay):
     replay.evaluate("octet.go(100)")
 

@@ -1,7 +1,7 @@
-"""One attempt at an exercise: `python -m host_sim.lab.grade.attempt NUMBER SEED FILE`, as a process with limits.
+"""One attempt at an exercise: `python -m host_sim.lab.grade.attempt NUMBER SEED FILE [PAGE]`, a process with limits.
 
-It prints the verdict as JSON. The file is compiled, and drives robots in several worlds. Between it and its guard
-stands a judge (`native/judge.c`), which ends the robot at its first wrong decision.
+It prints the verdict as JSON, and writes PAGE if there is a wrong decision. The file is compiled, and drives robots
+in several worlds. Between it and its guard stands a judge (`native/judge.c`), which tells the first wrong decision.
 """
 
 import json
@@ -10,15 +10,21 @@ import resource
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import ExitStack
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
 
 from host_sim.base.errors import BrainError, OctetError
 from host_sim.base.paths import BUILD
+from host_sim.client.frame_log import FrameLog
+from host_sim.recording.resimulation import resimulate
+from host_sim.recording.world_file import world_path, write_world
+from host_sim.report.replay_page import write_page
 from host_sim.sim.make import make, rehearse
 from host_sim.sim.own_brain import OwnBrain, own_brain
 from host_sim.sim.run_config import RunConfig
+from host_sim.sim.world_record import WorldRecord
 
 TITLES = {
     1: "One if",
@@ -48,10 +54,12 @@ class Verdict:
         status: `pass`; `fail` for a wrong decision or a mistake that ended the run; `error` for a file that is no
             behaviour, as in the results of Exercism's test runners.
         message: What is wrong, in words; with `pass`, empty or a remark.
+        tick: The tick of the first wrong decision; None if there is none.
     """
 
     status: str
     message: str = ""
+    tick: int | None = None
 
 
 @dataclass(frozen=True)
@@ -89,13 +97,14 @@ def _runs(profile: str, seed: int) -> Iterator[RunConfig]:
     yield _Attempt(profile=profile, seed=seed + 1, environments=3, limit_s=120.0, settings=_OTHERS, world="dead-ends")
 
 
-def attempt(number: int, seed: int, file: Path) -> Verdict:
+def attempt(number: int, seed: int, file: Path, page: Path | None = None) -> Verdict:
     """Judges the behaviour in a file.
 
     Args:
         number: The exercise.
         seed: Seed of the worlds, and of the robot's random numbers.
         file: The C file.
+        page: A page to write of a run with a wrong decision, which opens at its tick; its log stands beside it.
     """
     os.environ["OCTET_EXERCISE"] = str(number)
     try:
@@ -103,9 +112,9 @@ def attempt(number: int, seed: int, file: Path) -> Verdict:
         if number > _LAST_JUDGED:
             return _contest(file, seed)
         for config in _runs(os.fspath(file), seed):
-            _drive(config)
+            _drive(config, page)
     except BrainError as error:
-        return Verdict("fail", str(error))
+        return Verdict("fail", str(error), error.tick)
     except OctetError as error:
         return Verdict("error", str(error))
     return Verdict("pass")
@@ -121,13 +130,29 @@ def _compile(file: Path) -> None:
         resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
 
 
-def _drive(config: RunConfig) -> tuple[int, float]:
+def _drive(config: RunConfig, page: Path | None = None) -> tuple[int, float]:
     """Runs it; returns the number of pieces of food eaten, and the robot time in s."""
-    with make(config) as simulation:
-        episodes = list(simulation.run())
-        for client in simulation.clients:
-            client.connection.status()
+    with ExitStack() as stack:
+        log = FrameLog(page.with_suffix(".log")) if page else None
+        if log:
+            stack.callback(log.drop)
+        simulation = stack.enter_context(make(config, log))
+        try:
+            episodes = list(simulation.run())
+            simulation.clients[0].connection.status()
+        except BrainError as mistake:
+            if page and log and mistake.tick is not None:
+                _write_page(page, log, simulation.record, mistake.tick)
+            raise
     return sum(sum(it.eaten) for it in episodes), sum(it.robot_s for it in episodes)
+
+
+def _write_page(page: Path, log: FrameLog, record: WorldRecord, tick: int) -> None:
+    log.close()
+    path = page.with_suffix(".log")
+    write_world(record, world_path(path))
+    run = resimulate(path)
+    write_page(page, run.trajectory, run.title, shown=tick)
 
 
 def _contest(file: Path, seed: int) -> Verdict:
@@ -145,11 +170,16 @@ def _contest(file: Path, seed: int) -> Verdict:
 
 def main() -> int:
     """Returns 0; the verdict is on standard output."""
-    number, seed, file = int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3])
+    number, seed, file, page = (
+        int(sys.argv[1]),
+        int(sys.argv[2]),
+        Path(sys.argv[3]),
+        [*map(Path, sys.argv[4:]), None][0],
+    )
     limits = {resource.RLIMIT_CPU: _CPU_S, resource.RLIMIT_FSIZE: _FILE_BYTES, resource.RLIMIT_NOFILE: _FILES}
     for limit, value in limits.items():
         resource.setrlimit(limit, (value, value))
-    sys.stdout.write(json.dumps(asdict(attempt(number, seed, file))) + "\n")
+    sys.stdout.write(json.dumps(asdict(attempt(number, seed, file, page))) + "\n")
     return 0
 
 

@@ -1,17 +1,28 @@
 """`tools/octet grade`: judges behaviours in C files as solutions of an exercise."""
 
 import argparse
+import shlex
 import sys
+import webbrowser
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
+from host_sim.base.paths import as_called
+from host_sim.base.system import has_screen
 from host_sim.cli.parsing import Subparsers, add_command, check_outputs, file_path, number
 
+if TYPE_CHECKING:
+    from host_sim.lab.grade.grading import Grade
+
 EXERCISES = 8
+_PAGE = Path("out/wrong.html")
 _OUTPUTS = ("--html", "--csv", "--junit")
 _EXAMPLES = """\
 examples:
   tools/octet grade 4 mine.c                                right, or the first wrong decision in words
+  tools/octet grade 4 mine.c --page                         and opens the run at that decision
   tools/octet grade 4 submissions --html grades.html        a row for each C file in a folder, and in its folders
   tools/octet grade 8 submissions --seed 4711 --csv grades.csv
 
@@ -38,6 +49,8 @@ def add(commands: Subparsers) -> None:
         _OUTPUTS, ("a page", "a table for spreadsheets", "a report in JUnit's format"), strict=True
     ):
         parser.add_argument(flag, type=file_path, metavar="FILE", help=f"write {what} to FILE")
+    page = f"of one file: write the run up to its first wrong decision to {_PAGE}, and open it there"
+    parser.add_argument("--page", action="store_true", help=page)
     results = "write a file for each solution to DIR, in the format of Exercism's test runners"
     parser.add_argument("--results", type=file_path, metavar="DIR", help=results)
 
@@ -50,20 +63,43 @@ def _grade(arguments: argparse.Namespace) -> int:
     from host_sim.lab.grade import grading
 
     files = grading.files_of(arguments.paths)
+    if arguments.page and len(files) > 1:
+        raise UsageError(f"--page is for one file, not for {len(files)}: name one, or leave --page out")
+    for folder in (*[_PAGE.parent] * arguments.page, *filter(None, [arguments.results])):
+        _make_folder(folder)
     if not grading.network_is_off():
         sys.stderr.write("octet: this system does not let solutions run without network (unshare --net)\n")
-    grades = grading.grade(arguments.exercise, arguments.seed, files)
+    grades = grading.grade(arguments.exercise, arguments.seed, files, *[_PAGE] * arguments.page)
     for file, status, said in grading.rows_of(grades):
         right = {"pass": "right", "fail": "wrong", "error": "no solution"}[status]
         print(f"{file}: {right}{f': {said}' if said else ''}")
+    if arguments.page:
+        _open(grades[0])
+    _write(arguments, grades)
+    return 0 if all(it.verdict.status == "pass" for it in grades) else 1
+
+
+def _write(arguments: argparse.Namespace, grades: "Sequence[Grade]") -> None:
+    from host_sim.lab.grade import grading
+
     writers = {"html": grading.write_html, "csv": grading.write_csv, "junit": grading.write_junit}
     for name, write in writers.items():
         if (path := getattr(arguments, name)) is not None:
             write(arguments.exercise, grades, path)
     if arguments.results is not None:
-        _make_folder(arguments.results)
         grading.write_exercism(arguments.exercise, grades, arguments.results)
-    return 0 if all(it.verdict.status == "pass" for it in grades) else 1
+
+
+def _open(grade: "Grade") -> None:
+    """Opens the page of a wrong decision, and names the debugger's command for it."""
+    if grade.verdict.tick is None:
+        return
+    where = shlex.join(
+        [str(_PAGE.with_suffix(".log")), "--tick", str(grade.verdict.tick), "--profile", str(grade.file)]
+    )
+    print(as_called(f"  page      {_PAGE}\n  debugger  tools/octet debug {where}"))
+    if has_screen() and sys.stdout.isatty():
+        webbrowser.open(_PAGE.resolve().as_uri())
 
 
 def _make_folder(folder: Path) -> None:

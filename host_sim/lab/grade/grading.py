@@ -53,10 +53,10 @@ def network_is_off() -> bool:
 _NO_NETWORK = ("unshare", "--net", "--map-root-user")
 
 
-def grade(number: int, seed: int, files: Sequence[Path]) -> list[Grade]:
-    """Grades files, several at once."""
+def grade(number: int, seed: int, files: Sequence[Path], *page: Path) -> list[Grade]:
+    """Grades files, several at once; with a page as `attempt` writes it, if there is one file."""
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        verdicts = list(pool.map(lambda file: _judged(number, seed, file), files))
+        verdicts = list(pool.map(lambda file: _judged(number, seed, file, *page), files))
     skeletons = [_skeleton(file) for file in files]
     copies = [
         tuple(
@@ -69,9 +69,10 @@ def grade(number: int, seed: int, files: Sequence[Path]) -> list[Grade]:
     return [Grade(*it) for it in zip(files, verdicts, copies, strict=True)]
 
 
-def _judged(number: int, seed: int, file: Path) -> Verdict:
-    limited = _NO_NETWORK if network_is_off() else ()
-    command = [*limited, sys.executable, "-m", "host_sim.lab.grade.attempt", str(number), str(seed), str(file)]
+def _judged(*task: int | Path) -> Verdict:
+    """The verdict of `attempt` in a process of its own; `task` is its arguments."""
+    limited, file = _NO_NETWORK if network_is_off() else (), task[2]
+    command = [*limited, sys.executable, "-m", "host_sim.lab.grade.attempt", *map(str, task)]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=_WALL_S, check=False)
         found = json.loads(done.stdout.splitlines()[-1])

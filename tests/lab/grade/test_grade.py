@@ -3,6 +3,7 @@
 import csv
 import json
 import re
+import shlex
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
@@ -112,12 +113,34 @@ def test_the_verdict_is_the_same_again_and_another_with_another_seed(tmp_path):
     assert once == again != other
 
 
+def test_the_page_and_the_debugger_open_at_the_first_wrong_decision(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("my robot.c").write_text(solution(5).replace("TRIAL_DEG", "TURN_DEG"))
+
+    done = octet_process("grade", "5", "my robot.c", "--page")
+    verdict, page, command = done.stdout.splitlines()
+    tick = int(re.search(r"at tick (\d+), .* you chose a turn right by 10 degrees", verdict)[1])
+    shown = octet_process(*shlex.split(command.partition("tools/octet")[2]), "--ex", "print sensed->feel").stdout
+
+    assert f'"shown":{tick}' in Path(page.split()[-1]).read_text().replace(" ", "")
+    assert re.search(rf"^tick {tick}, .*\n(.*\n)*\$1 = [1-9]", shown, re.MULTILINE)
+
+
+def test_a_right_solution_has_no_page(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("mine.c").write_text(solution(1))
+
+    assert octet_process("grade", "1", "mine.c", "--page").stdout == "mine.c: right\n"
+    assert list(Path("out").iterdir()) == []
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
         ("9 x.c", "is not a number from 1 to 8"),
         ("4 {out}/empty", "no C file is in "),
         ("4 x.c --html {out}", "it is a folder"),
+        ("4 x.c y.c --page", "--page is for one file, not for 2"),
     ],
 )
 def test_what_cannot_be_graded_is_refused_in_a_sentence(tmp_path, words, said):

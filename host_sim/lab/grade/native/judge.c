@@ -1,7 +1,6 @@
 /* Judges a pupil's behaviour, decision by decision. A shadow with a brain of its own meets the same senses, and
  * decides as the exercise asks. Its dice are scripted: each outcome is right, and it goes on with the one that was
- * chosen, so that a pupil may draw in any order. The first decision that no outcome explains is told, and ends the
- * process. */
+ * chosen, so that a pupil may draw in any order. The first decision that no outcome explains is told. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,6 +39,7 @@ struct action pupil_next(struct brain *brain, const struct config *config, const
 static struct brain shadow;
 static int exercise;
 static unsigned long decisions;
+static bool told;             /* of a wrong decision */
 static uint8_t drawn[DRAWS_MAX], faces[DRAWS_MAX];
 static unsigned draws;
 
@@ -185,11 +185,12 @@ static void begin_line(const struct brain *before, const struct senses *senses)
     printf(": ");
 }
 
+/* The process ends at the next decision: the log has the wrong one, too. */
 static void end_line(void)
 {
     printf("\n");
     fflush(stdout);
-    _exit(ENDED);
+    told = true;
 }
 
 static void check_memory(const struct brain *pupil, const struct brain *before, const struct senses *senses)
@@ -204,6 +205,7 @@ static void check_memory(const struct brain *pupil, const struct brain *before, 
                        (unsigned)pattern_count(pattern_of(senses->feel)), name_of((enum side)before->tried_side),
                        (unsigned)pattern_count(pattern_of(before->tried_feel)));
             end_line();
+            return;
         }
 }
 
@@ -257,13 +259,16 @@ bool own_begin(struct brain *brain)
 struct action own_next(struct brain *brain, const struct config *config, const struct senses *senses)
 {
     struct brain before;
-    struct action did = pupil_next(brain, config, senses);
+    struct action did;
 
+    if (told)
+        _exit(ENDED);
+    did = pupil_next(brain, config, senses);
     decisions++;
     shadow.frozen = brain->frozen;
     before = shadow;
     check_action(&did, &before, config, senses);
-    if (exercise >= REMEMBER)
+    if (!told && exercise >= REMEMBER)
         check_memory(brain, &before, senses);
     return did;
 }
