@@ -127,7 +127,8 @@ def _run(action: Callable[[], int]) -> int:
             return 1
         except KeyboardInterrupt as end:
             number = end.number if isinstance(end, _EndedBySignal) else signal.SIGINT
-            print("; ".join([f"octet: ended by {signal.Signals(number).name}", *end.args]), file=sys.stderr)
+            how = "interrupted" if number == signal.SIGINT else f"ended by {signal.Signals(number).name}"
+            print("; ".join([f"octet: {how}", *end.args]), file=sys.stderr)
             return 128 + number
 
 

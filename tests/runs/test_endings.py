@@ -56,7 +56,8 @@ def test_a_run_that_is_interrupted_leaves_one_whole_run(tmp_path, number):
     _, errors = process.communicate(timeout=DEADLINE_S)
 
     assert process.returncode == 128 + number
-    assert errors == f"octet: ended by {signal.Signals(number).name}; the log so far was written\n"
+    how = "interrupted" if number == signal.SIGINT else f"ended by {number.name}"
+    assert errors == f"octet: {how}; the log so far was written\n"
     assert_whole(tmp_path, 8)
 
 
@@ -289,4 +290,20 @@ def test_a_command_without_a_log_that_is_interrupted_speaks_of_none(monkeypatch)
     monkeypatch.setattr("host_sim.cli.dbc_command._dbc", interrupted)
 
     assert (ended := octet("dbc", "--node", "1")).returncode == 128 + signal.SIGINT
-    assert ended.stderr == "octet: ended by SIGINT\n"
+    assert ended.stderr == "octet: interrupted\n"
+
+
+def test_a_command_that_is_interrupted_while_it_loads_says_so_in_one_line():
+    while_loading = """
+import os, signal, sys
+class Finder:
+    def find_spec(name, *_):
+        if name == "host_sim.cli.main":
+            os.kill(os.getpid(), signal.SIGINT)
+sys.meta_path.insert(0, Finder)
+import host_sim.__main__
+host_sim.__main__.main()
+"""
+    done = subprocess.run([sys.executable, "-c", while_loading], capture_output=True, text=True, check=False)
+
+    assert (done.returncode, done.stderr) == (130, "octet: interrupted\n")
