@@ -8,7 +8,7 @@
 enum {
     DOWN = 16, SAME = DOWN + 1, UP = SAME + 6,   /* addresses; to jump is the address alone */
     JUMP_Y_DOWN = 0x0080,           /* Y counts down after the test, whether it jumps or not */
-    SIDES = 2, FIFO = 4,
+    FIFO = 4,
     ENABLE = 1 << 0,
     WRAP_BOTTOM = SAME << 7, WRAP_TOP = (UP + 2) << 12,
     OUT_RIGHT = 1 << 19,            /* OUT takes the low bits; IN adds low bits, too */
@@ -36,19 +36,21 @@ static const uint16_t PROGRAM[] = {
     0xA04A,                         /* mov y, ~y */
 };
 
-static uint16_t last[SIDES];        /* counts: the program's only answer */
+static uint16_t last[ENCODERS];        /* counts: the program's only answer */
 
-void encoder_start(unsigned side, uint32_t pin)
+void encoders_start(const uint8_t pins[ENCODERS])
 {
     clock_release(RESET_PIO0);
     for (unsigned i = 0; i < sizeof PROGRAM / sizeof *PROGRAM; i++)
         PIO0.instr_mem[i] = PROGRAM[i];
-    PIO0.sm[side].clkdiv = (uint32_t)SLOWER << 16;
-    PIO0.sm[side].execctrl = WRAP_TOP | WRAP_BOTTOM;
-    PIO0.sm[side].shiftctrl = OUT_RIGHT;
-    PIO0.sm[side].pinctrl = pin << IN_BASE_AT;
-    PIO0.sm[side].instr = SAME;
-    PIO0.ctrl |= (uint32_t)ENABLE << side;
+    for (unsigned side = 0; side < ENCODERS; side++) {
+        PIO0.sm[side].clkdiv = (uint32_t)SLOWER << 16;
+        PIO0.sm[side].execctrl = WRAP_TOP | WRAP_BOTTOM;
+        PIO0.sm[side].shiftctrl = OUT_RIGHT;
+        PIO0.sm[side].pinctrl = (uint32_t)pins[side] << IN_BASE_AT;
+        PIO0.sm[side].instr = SAME;
+    }
+    PIO0.ctrl = ENABLE << 0 | ENABLE << 1;
 }
 
 /* A full FIFO has old counts: the next one is new. */

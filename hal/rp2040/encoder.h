@@ -4,8 +4,10 @@
 
 #include <stdint.h>
 
-void encoder_start(unsigned side, uint32_t pin);
-        /* Counts up from about 0 while the channel at pin leads the one at the next pin. */
+enum { ENCODERS = 2 };
+
+void encoders_start(const uint8_t pins[ENCODERS]);
+        /* Each counts up from about 0 while the channel at its pin leads the one at the next pin. */
 
 uint16_t encoder_count(unsigned side);
         /* The count as it is now; wraps. The last one, if the state machine does not answer. */

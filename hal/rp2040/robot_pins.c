@@ -48,9 +48,8 @@ static void start_motors(uint32_t core_hz)
     static const uint8_t pins[] = {BOARD_LEFT_PWM, BOARD_LEFT_BACK, BOARD_RIGHT_PWM, BOARD_RIGHT_BACK};
 
     for (unsigned side = 0; side < PINS_SIDES; side++) {
-        PWM.ch[LEFT + side].top = core_hz / PWM_HZ - 1;
-        pins_push(side, 0);
         start_slice(LEFT + side, 1, core_hz / PWM_HZ - 1, 0);
+        pins_push(side, 0);   /* in parts of top */
     }
     for (unsigned i = 0; i < sizeof pins; i++)
         gpio_set(pins[i], GPIO_BY_PWM);
@@ -79,8 +78,7 @@ static void start_inputs(void)
     gpio_analogue(BOARD_PROXIMITY_FRONT);
     gpio_analogue(BOARD_PROXIMITY_FRONT_LEFT);
     gpio_analogue(BOARD_BATTERY);
-    encoder_start(0, BOARD_LEFT_ENCODER_A);
-    encoder_start(1, BOARD_RIGHT_ENCODER_A);
+    encoders_start((const uint8_t[]){BOARD_LEFT_ENCODER_A, BOARD_RIGHT_ENCODER_A});
 }
 
 void pins_open(void)
