@@ -92,11 +92,11 @@ class Connector:
         return replace(connection, link=FaultyLink(connection.link, schedule, clock), now=clock.now)
 
     def _in_qemu(self, _: int) -> Connection:
-        from host_sim.sim.qemu import Qemu  # noqa: PLC0415 - see above
+        from host_sim.sim.qemu import IMAGE, Qemu  # noqa: PLC0415 - see above
 
         if self._access.gdb:
             return self._in_qemu_with_gdb()
-        return self._in_emulator(Qemu(self._image("feather_stm32f405", "slcan")), "qemu")
+        return self._in_emulator(Qemu(self._image(*IMAGE)), "qemu")
 
     def _image(self, board: str, link: str) -> Path:
         """The flash image of a board, with the user's behaviour if there is one."""
@@ -110,9 +110,9 @@ class Connector:
         return Connection(emulator.link, name, emulator.status, pid=emulator.pid, deadline_s=_EMULATED_S)
 
     def _in_qemu_with_gdb(self) -> Connection:
-        from host_sim.sim.qemu import Qemu  # noqa: PLC0415 - see above
+        from host_sim.sim.qemu import IMAGE, Qemu  # noqa: PLC0415 - see above
 
-        image, path = self._image("feather_stm32f405", "slcan"), self._gdb_socket()
+        image, path = self._image(*IMAGE), self._gdb_socket()
         qemu = Qemu(image, gdb=path)
         self._stack.callback(qemu.close)
         gdb = self._attach_gdb(image, path)

@@ -16,6 +16,8 @@ from host_sim.transport.slcan_link import SlcanLink
 PROGRAM = "qemu-system-arm"
 MACHINE = "netduinoplus2"
 """A board with an STM32F405 that QEMU emulates."""
+IMAGE = "feather_stm32f405", "slcan"
+"""Board and link of the image for it."""
 
 _READY_S = 10.0
 _END_S = 2.0
@@ -127,7 +129,7 @@ class Qemu(SerialEmulator):
             OctetError: QEMU is not installed, or the image is not built.
             RobotError: As in `SerialEmulator`.
         """
-        image = image or image_path("feather_stm32f405", "slcan")
+        image = image or image_path(*IMAGE)
         if shutil.which(PROGRAM) is None:
             raise OctetError(f"{PROGRAM} is not installed: run tools/setup images")
         options = ["-M", machine, "-display", "none", "-monitor", "none", "-kernel", os.fspath(image)]

@@ -47,7 +47,7 @@ CELLS: Mapping[str, Sequence[int]] = {
 LEARNED_IN = 5
 """Number of environments in which a learner learns."""
 
-_TURNED = (0, 4, 2, 6, 1, 5, 3, 7)
+_MIRRORED = tuple(int(f"{cell:03b}"[::-1], 2) for cell in range(CELL_COUNT))  # a bit for each front sensor
 _RESAMPLES, _SEED = 1000, 1
 _COLUMNS, _ROWS = (1, 3, 2, 5), (4, 6, 7)
 _SIDES = ("empty", "left", "right")
@@ -74,7 +74,7 @@ def explained(means: Floats, cells: Sequence[int]) -> Floats:
 def turned_over(means: Floats) -> Floats:
     """The mean times of the same memories behind a mirrored ring of sensors: it exchanges the cells of the sides."""
     index = {memory: i for i, memory in enumerate(MEMORIES)}
-    return means[..., [index[tuple(memory[cell] for cell in _TURNED)] for memory in MEMORIES]]
+    return means[..., [index[tuple(memory[cell] for cell in _MIRRORED)] for memory in MEMORIES]]
 
 
 def alike(means: Floats, others: Floats) -> Floats:
