@@ -1,10 +1,11 @@
 """`tools/octet new`: begins a behaviour of one's own, in a C file."""
 
 import argparse
+import shlex
 from pathlib import Path
 
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.base.paths import ROOT
+from host_sim.base.paths import ROOT, as_called
 from host_sim.cli.parsing import Subparsers, add_command, check_outputs, file_path
 from host_sim.sim.run_config import C_FILE
 
@@ -48,5 +49,5 @@ def _new(arguments: argparse.Namespace) -> int:
         raise UsageError(f"{path} is there already: choose another name") from None
     except OSError as error:
         raise OctetError(f"cannot write {path}: {error.strerror}") from None
-    print(f"wrote     {path}\ntry it    tools/run --profile {path}")
+    print(as_called(f"wrote     {path}\ntry it    tools/run --profile {shlex.quote(str(path))}"))
     return 0

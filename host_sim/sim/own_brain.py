@@ -290,7 +290,7 @@ def _compiler(arguments: Sequence[str], name: str, source: bytes = b"", path: st
             check=False,
         )
     except OSError as error:
-        raise OctetError(f"cannot start the compiler {tool}: {error.strerror}; run tools/setup") from None
+        raise UsageError(f"cannot start the compiler {tool}: {error.strerror}; run tools/setup") from None
     except subprocess.TimeoutExpired:
         raise UsageError(f"{name} takes the compiler longer than {_COMPILE_S:g} s") from None
     told = (done.stderr + done.stdout).decode(errors="replace").replace(path or "\0", name).rstrip()

@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 import subprocess
 from collections import Counter
 from contextlib import closing
@@ -45,6 +46,7 @@ struct action own_next(struct brain *brain, const struct config *config, const s
 """
 STEP = "return step(REASON_WANDER, 12);\n}\n"
 LEARNED = bytes([0, 1, 2, 0, 1, 0, 2, 1])
+TOOLS = own_brain._tools()
 SHORT = ["--environments", "1", "--limit-s", "20"]
 
 
@@ -250,6 +252,26 @@ def test_what_does_not_go_with_a_behaviour_of_one_s_own_is_refused(words, capsys
 def test_fast_is_for_a_behaviour_of_one_s_own():
     with pytest.raises(UsageError, match="--fast is for a behaviour of your own"):
         RunConfig(fast=True)
+
+
+def test_new_names_a_command_that_can_be_copied(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+    assert main(["new", "mein Roboter.c"]) == 0
+
+    command = shlex.split(capsys.readouterr().out.partition("tools/run ")[2])
+    assert main(["run", *command, *SHORT, "--quiet"]) == 0
+
+
+def test_a_compiler_that_is_gone_is_named_in_one_line(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(own_brain, "_CACHE", tmp_path / "cache")
+    monkeypatch.setattr(own_brain, "_tools", lambda: {**TOOLS, "compiler": "/nowhere/cc"})
+
+    assert main(["run", "--profile", str(TEMPLATE), *SHORT]) == 2
+
+    assert capsys.readouterr().err == (
+        "octet: cannot start the compiler /nowhere/cc: No such file or directory; run tools/setup\n"
+    )
 
 
 def test_new_writes_no_file_over_another(tmp_path, capsys):

@@ -59,11 +59,7 @@ def grade(number: int, seed: int, files: Sequence[Path], *page: Path) -> list[Gr
         verdicts = list(pool.map(lambda file: _judged(number, seed, file, *page), files))
     skeletons = [_skeleton(file) for file in files]
     copies = [
-        tuple(
-            f"{it.parent.name}/{it.name}"
-            for it, other in zip(files, skeletons, strict=True)
-            if other == skeleton and it != file
-        )
+        tuple(str(it) for it, other in zip(files, skeletons, strict=True) if other == skeleton and it != file)
         for file, skeleton in zip(files, skeletons, strict=True)
     ]
     return [Grade(*it) for it in zip(files, verdicts, copies, strict=True)]
@@ -98,9 +94,12 @@ def files_of(paths: Sequence[Path]) -> list[Path]:
     """The C files among paths: the files named, and those in the folders named, and in theirs.
 
     Raises:
-        UsageError: There are none.
+        UsageError: There are none, or a file is not there.
     """
-    found = [file for path in paths for file in (sorted(path.rglob("*.c")) if path.is_dir() else [path])]
+    for path in paths:
+        if not path.exists():
+            raise UsageError(f"cannot read {path}: there is no such file or folder")
+    found = [it for path in paths for it in (sorted(path.rglob("*.c")) if path.is_dir() else [path]) if it.is_file()]
     if not found:
         raise UsageError(f"no C file is in {', '.join(map(str, paths))}")
     return found

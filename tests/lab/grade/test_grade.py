@@ -140,11 +140,14 @@ def test_a_right_solution_has_no_page(tmp_path, monkeypatch):
         ("9 x.c", "is not a number from 1 to 8"),
         ("4 {out}/empty", "no C file is in "),
         ("4 x.c --html {out}", "it is a folder"),
-        ("4 x.c y.c --page", "--page is for one file, not for 2"),
+        ("4 {out}/ada.c {out}/bob.c --page", "--page is for one file, not for 2"),
+        ("4 {out}/no.c", "no.c: there is no such file or folder"),
     ],
 )
 def test_what_cannot_be_graded_is_refused_in_a_sentence(tmp_path, words, said):
-    (tmp_path / "empty").mkdir()
+    (tmp_path / "empty/a folder.c").mkdir(parents=True)
+    for name in ("ada.c", "bob.c"):
+        (tmp_path / name).write_text("int x;")
 
     done = octet_process("grade", *words.format(out=tmp_path).split())
 
