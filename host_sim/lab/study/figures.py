@@ -87,8 +87,10 @@ FIGURES: dict[str, Figure] = {
     "known_s": Figure("known", _KNOWN, " s", 0, _median("known_s")),
     "recovered": _percentage("recovered", _FIRST, "recovered"),
     "recovery": Figure("after", "contacts until then, median", " contacts", 0, _median("recovery")),
-    "lasting": _percentage("for good", _LASTING, "lasting"),
-    "lasting_recovery": Figure("for good after", "contacts until then, median", " contacts", 0, _median("settled")),
+    "lasting": _percentage("lasting", _LASTING, "lasting"),
+    "lasting_recovery": Figure(
+        "to lasting recovery", "contacts until then, median", " contacts", 0, _median("settled")
+    ),
 }
 """The figures by their names in a study's goals."""
 
