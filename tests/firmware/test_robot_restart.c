@@ -119,7 +119,7 @@ TEST(a_body_that_has_stood_at_0_all_the_time_has_not_restarted)
     TEST_ASSERT_FALSE(out.contradiction);
 }
 
-TEST(a_robot_that_was_stopped_owes_no_way)
+TEST(stopping_the_robot_clears_the_backlog)
 {
     robot.motion.apart.counts = robot.motion.together.counts = 100;
     command(OPCODE_STOP, 0, 0);

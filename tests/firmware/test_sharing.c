@@ -103,7 +103,7 @@ TEST(where_a_cell_is_a_side_it_takes_a_side)
     assert_cell(SIDE_RIGHT);
 }
 
-TEST(what_is_no_cell_has_no_vote)
+TEST(an_invalid_cell_has_no_vote)
 {
     static const uint8_t others[] = {0, 3, 4, 7, 8, 11, 15, 16, 17, 0x10, 0x80, 0xFF};
 
@@ -202,7 +202,7 @@ TEST(what_was_taken_is_stored_and_told_by_the_report)
     TEST_ASSERT_FALSE(out.store);
 }
 
-TEST(to_hear_another_calls_for_nothing)
+TEST(the_memory_of_another_robot_causes_no_output)
 {
     memset(&out, 0xA5, sizeof out);
     hear_front(SIDE_LEFT);

@@ -94,7 +94,7 @@ int __wrap_flash_write(unsigned page, uint32_t offset, const uint32_t words[], u
         ("flash", "flash_write", WRITE),
     ],
 )
-def test_what_must_not_come_of_any_input_is_found(compiler, tmp_path, name, function, lines):
+def test_the_fuzzer_finds_planted_faults(compiler, tmp_path, name, function, lines):
     wrong = tmp_path / "wrong.c"
     wrong.write_text(lines)
     sources = [HERE / f"{name}.c", wrong, *FUZZED[name]]

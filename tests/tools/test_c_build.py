@@ -127,7 +127,7 @@ def test_a_warning_is_shown_and_is_an_error_if_asked_for(tmp_path: Path, option:
     assert "-Wmissing-prototypes" in done.stdout
 
 
-def test_who_tests_by_hand_has_warnings_as_errors() -> None:
+def test_a_manual_build_of_the_tests_has_warnings_as_errors() -> None:
     command = ["cmake", "--preset", "host-san", "-N"]
     listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
 

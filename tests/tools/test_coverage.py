@@ -103,7 +103,7 @@ def test_a_build_whose_tests_have_not_run_is_an_error(built):
         measure(built, built / "build")
 
 
-def test_a_decision_that_cannot_be_measured_is_told(tmp_path):
+def test_a_decision_that_cannot_be_measured_is_reported(tmp_path):
     source = tmp_path / "a.c"
     source.write_text("int is(int x);\nint a(int x, int y) { return x && is(x && y); }\n")
 

@@ -116,7 +116,7 @@ def test_an_image_for_another_board_is_refused(tmp_path: Path) -> None:
         identify(image_file(tmp_path, "olimex_stm32_h405", "stm32f405"), BOARDS["blue_pill"])
 
 
-def test_what_is_no_image_is_refused(tmp_path: Path) -> None:
+def test_a_file_that_is_no_image_is_refused(tmp_path: Path) -> None:
     (tmp_path / "some.elf").write_bytes(b"\x7fELF")
     with pytest.raises(FlashError, match="is not an Octet image"):
         identify(tmp_path / "some.elf", BOARDS["blue_pill"])

@@ -86,12 +86,12 @@ OTHER = {
 
 
 @pytest.mark.parametrize("change", SAME.values(), ids=SAME)
-def test_what_moves_no_bit_changes_no_hash(change, tmp_path):
+def test_a_change_that_moves_no_bit_keeps_the_hash(change, tmp_path):
     assert hash_of(change(tmp_path), tmp_path) == generated.LAYOUT_HASH
 
 
 @pytest.mark.parametrize(("old", "new"), OTHER.values(), ids=OTHER)
-def test_what_moves_a_bit_changes_the_hash(old, new, tmp_path):
+def test_a_change_that_moves_a_bit_changes_the_hash(old, new, tmp_path):
     # A comment or value table of what is no longer there would not be read at all.
     bare = re.sub(r"^(CM_|VAL_) .*\n", "", TEXT, flags=re.MULTILINE)
     assert hash_of(bare, tmp_path) == generated.LAYOUT_HASH

@@ -80,7 +80,7 @@ def test_a_source_that_keeps_the_rules_passes(check):
     assert check(CLEAN) == (0, "1 sources, 0 complaints\n")
 
 
-def test_a_deviation_is_told_with_its_line_and_needs_its_row(check):
+def test_a_deviation_is_reported_with_its_line_and_needs_its_row(check):
     code, said = check(OCTAL)
 
     assert code == 1
@@ -104,7 +104,7 @@ def test_a_row_that_fits_nothing_fails(check):
     assert "Unmatched suppression: misra-c2012-7.2" in said
 
 
-def test_what_cannot_be_parsed_fails(check):
+def test_a_source_that_cannot_be_parsed_fails(check):
     code, said = check("int broken(void) { return (1; }\n")
 
     assert code == 1

@@ -55,6 +55,6 @@ def test_a_branch_or_a_line_that_no_test_takes_is_a_gap_even_if_a_comment_excuse
     ]
 
 
-def test_a_test_that_fails_is_told(tmp_path):
+def test_a_failing_test_is_reported(tmp_path):
     with pytest.raises(VerifyError, match="coverage run failed"):
         measured(tmp_path, [1], [2])

@@ -106,7 +106,7 @@ def test_an_interrupted_set_up_is_repaired(tree: Tree) -> None:
     assert calls.count("cmake") == 1
 
 
-def test_who_interrupts_a_compilation_reads_no_compiler_s_failure(tree: Tree) -> None:
+def test_an_interrupted_compilation_is_not_reported_as_a_failure(tree: Tree) -> None:
     (tree.bin / "ninja").write_text("#!/bin/sh\necho 'ninja: build stopped'\nkill -INT 0\nexit 130\n")
     done = subprocess.run(
         [tree.folder / "tools/setup"],

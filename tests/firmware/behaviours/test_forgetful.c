@@ -78,7 +78,7 @@ TEST(a_frozen_brain_forgets_nothing)
     TEST_ASSERT_EQUAL_HEX8(0, brain.unlearned);
 }
 
-TEST(what_it_learns_is_a_side_and_no_more)
+TEST(its_cells_have_no_confidence)
 {
     TEST_ASSERT_TRUE(brain.learns);
     next(ALL_THREE);

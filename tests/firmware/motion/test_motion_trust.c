@@ -33,7 +33,7 @@ TEST(a_turn_that_was_given_up_is_not_made_up_for)
     TEST_ASSERT_INT_WITHIN(HALF, 10000, heading_mdeg());
 }
 
-TEST(a_lifted_robot_owes_neither_a_turn_nor_a_way)
+TEST(lifting_the_robot_clears_the_backlog)
 {
     static const struct backlog nothing = {.counts = 0};
 
@@ -290,7 +290,7 @@ static uint16_t random_odometer(void)
 }
 
 /* Odometers gone mad: the sanitizers watch for overflow, this test for speeds that do not fit the wire. */
-TEST(wild_odometers_make_no_wild_speeds)
+TEST(random_odometers_keep_wheel_speeds_within_limits)
 {
     for (unsigned i = 0; i < 200000; i++) {
         const struct senses senses = {.odometer_left = random_odometer(), .odometer_right = random_odometer()};

@@ -123,7 +123,7 @@ TEST(a_bus_that_is_down_is_silence)
     TEST_ASSERT_EQUAL_UINT32(100, fake.clock_ms);
 }
 
-TEST(what_is_no_frame_is_counted_as_damaged)
+TEST(an_invalid_frame_is_counted_as_damaged)
 {
     happens(10, LINK_E_GARBLED, (struct frame){.len = 0});
     senses_come(20, 0);

@@ -201,7 +201,7 @@ TEST(it_tells_whether_the_clock_is_exact)
     TEST_ASSERT_EQUAL_UINT8(1, health().clock);
 }
 
-TEST(it_tells_how_the_bus_is)
+TEST(it_reports_the_state_of_the_bus)
 {
     fake.bus = (struct link_health){.state = BUS_PASSIVE, .tx_errors = 130, .rx_errors = 7};
     TEST_ASSERT_EQUAL_UINT8(BUS_PASSIVE, health().bus_state);

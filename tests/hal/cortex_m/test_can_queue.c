@@ -162,7 +162,7 @@ TEST(a_controller_that_keeps_what_is_out_of_date_holds_the_new_one_up)
     TEST_ASSERT_EQUAL_UINT8(1, queue.count);
 }
 
-TEST(what_gives_way_makes_the_others_no_younger)
+TEST(an_aborted_frame_does_not_reset_the_age_of_the_others)
 {
     uint32_t start;
 
@@ -200,7 +200,7 @@ TEST(as_long_as_something_leaves_nothing_is_out_of_date)
     TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
 }
 
-TEST(nothing_that_waits_is_dropped_for_nothing)
+TEST(an_empty_queue_drops_nothing)
 {
     queue.moved_ms = now_ms() - 1000;
     TEST_ASSERT_TRUE(put(HEALTH, 0));

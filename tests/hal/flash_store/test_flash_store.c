@@ -31,7 +31,7 @@ TEST(the_newest_of_many_is_found)
 static const uint8_t SECOND_OF_ALL[] = {0x02, 0x00, 0x00, 0x00, 0x00, 0x01, 0x02, 0x01, 0x02, 0x01, 0x02, 0x02, 0xED, 0x7A, 0xC2, 0x36};
 static const uint8_t LAST_OF_ALL[] = {0xFF, 0xFF, 0xFF, 0xFF, 0x00, 0x01, 0x02, 0x01, 0x02, 0x01, 0x02, 0x02, 0xE2, 0xDD, 0xD3, 0x5E};
 
-TEST(the_layout_is_what_it_always_was)
+TEST(the_record_layout_has_not_changed)
 {
     static const uint8_t memory[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 2};
 
@@ -63,7 +63,7 @@ TEST(numbers_wrap)
     }
 }
 
-TEST(what_the_bytes_mean_is_the_robots_business)
+TEST(the_store_accepts_any_bytes)
 {
     static const uint8_t none[CELL_COUNT] = {9, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF};
 
@@ -214,7 +214,7 @@ TEST(a_save_is_tried_four_times)
 }
 
 /* Firmware that knows no marks passes it over: zeros, with the CRC of zeros inverted. */
-TEST(the_mark_is_what_it_always_was)
+TEST(the_mark_has_not_changed)
 {
     static const uint8_t mark[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x90, 0x39, 0x2A, 0x84};
 

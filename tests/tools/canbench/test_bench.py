@@ -175,12 +175,12 @@ def wrong(text, message):
         wrong("image:blue_pill:no.elf", "there is no image .*no.elf"),
     ],
 )
-def test_what_is_no_device_is_told(open_bench, device, message):
+def test_something_that_is_no_device_is_reported(open_bench, device, message):
     with pytest.raises(UsageError, match=message):
         open_bench(device=device)
 
 
-def test_a_library_without_the_seam_is_told(open_bench, tmp_path):
+def test_a_library_without_the_required_functions_is_reported(open_bench, tmp_path):
     (tmp_path / "other.c").write_text("int tick(void) { return 0; }\n")
 
     with pytest.raises(UsageError, match="does not have both of receive and tick"):
@@ -188,7 +188,7 @@ def test_a_library_without_the_seam_is_told(open_bench, tmp_path):
 
 
 @pytest.mark.parametrize("count", [17, -1])
-def test_a_tick_that_returns_nonsense_is_told(open_bench, tmp_path, count):
+def test_an_invalid_result_of_a_tick_is_reported(open_bench, tmp_path, count):
     (tmp_path / "mad.c").write_text(SPEEDING.format(count))
     bench = open_bench(device="mad.c", folder=tmp_path)
 
@@ -196,12 +196,12 @@ def test_a_tick_that_returns_nonsense_is_told(open_bench, tmp_path, count):
         bench.run(ms=5)
 
 
-def test_a_program_that_ends_at_once_is_told(open_bench):
+def test_a_program_that_ends_at_once_is_reported(open_bench):
     with pytest.raises(UsageError, match=r"the device .* ended with exit code 3 and printed no bus"):
         open_bench(device="sh -c 'echo no bus; exit 3'")
 
 
-def test_a_program_that_ends_later_is_told(open_bench, monkeypatch):
+def test_a_program_that_ends_later_is_reported(open_bench, monkeypatch):
     monkeypatch.setattr(devices, "START_S", 0.0)
     bench = open_bench(device="sh -c 'sleep 0.3; exit 3'")
 
@@ -209,7 +209,7 @@ def test_a_program_that_ends_later_is_told(open_bench, monkeypatch):
         bench.run(ms=60_000)
 
 
-def test_a_device_that_never_answers_is_told(open_bench, tmp_path):
+def test_a_device_that_never_answers_is_reported(open_bench, tmp_path):
     (tmp_path / "mute.c").write_text(SPEEDING.format(0))
     bench = open_bench(device="mute.c", folder=tmp_path)
     bench.run(ms=100)
@@ -218,7 +218,7 @@ def test_a_device_that_never_answers_is_told(open_bench, tmp_path):
         bench["STATUS.speed"]
 
 
-def test_what_is_not_in_the_dbc_is_told(open_bench):
+def test_a_name_that_the_dbc_lacks_is_reported(open_bench):
     bench = open_bench()
     bench.run(ms=20)
 

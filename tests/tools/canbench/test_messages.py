@@ -52,7 +52,7 @@ def test_data_ids_stand_in_the_dbc(tmp_path):
 
 
 @pytest.mark.parametrize("text", ["", "BO_ nonsense", "\x00\xff", 'VERSION ""\n'])
-def test_what_is_no_dbc_is_told(tmp_path, text):
+def test_an_invalid_dbc_file_is_reported(tmp_path, text):
     (tmp_path / "bad.dbc").write_text(text)
 
     with pytest.raises(UsageError, match=r"bad\.dbc (is not a DBC file|has no messages)"):

@@ -99,7 +99,7 @@ def test_faults(can_bench):
         (("-c", "motor.ini", "-k", "faults"), "'nonsense' is not a fault|there is no fault 'nonsense'"),
     ],
 )
-def test_what_is_wrong_is_told_in_a_line(tmp_path, words, message):
+def test_a_mistake_is_reported_in_one_line(tmp_path, words, message):
     (tmp_path / "motor.ini").write_text(MOTOR_INI)
     (tmp_path / "test_wrong.py").write_text(WRONG)
 
