@@ -55,7 +55,8 @@ class Parser(argparse.ArgumentParser):
             UsageError: Always.
         """
         flag = words[0].partition("=")[0]
-        near = near_word(flag, re.findall(r"--[\w-]+", self.format_help())) if flag.startswith("-") else None
+        options = re.findall(r"--[\w-]+", self.format_help())
+        near = near_word(flag, options) if flag.startswith("-") else f"--log {flag}" if "--log" in options else None
         self.error(f"unrecognized arguments: {' '.join(words)}" + (f": did you mean {near}?" if near else ""))
 
     def shorten_help(self, groups: Sequence[str], text: str) -> None:
@@ -81,6 +82,7 @@ class Parser(argparse.ArgumentParser):
         Raises:
             UsageError: Always.
         """
+        message = message.replace("ignored explicit argument", "it takes no value, such as")
         raise UsageError(f"{message}; see {self.prog} --help")
 
 

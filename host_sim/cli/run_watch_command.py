@@ -17,7 +17,7 @@ examples:
   tools/run --set turn_deg=20 --set boredom_limit=6  other parameters
   tools/run --robots 4                               four robots in the same environments
   tools/run --robots 1000                            a fleet: a thousand robots, each in its own world
-  tools/run --robot emulated --board {BOARDS[-1]}       the flash image on an emulated board
+  tools/run --robot emulated --board {BOARDS[-1]:<16}the flash image on an emulated board
   tools/run --bus socketcan:can0 --robot external --real-time
                                                      a real robot on a real bus
 """
@@ -27,7 +27,6 @@ examples:
   tools/octet watch --robots 3                       three robots in the same environments
   tools/octet watch --seed 7 --memory robot.mem      other environments, with the memory in robot.mem
   tools/octet watch --listen                         for other machines too: prints an address and a QR code
-  tools/octet watch --listen --robots 30             for a class: a robot for each page, and a board for all
   tools/octet watch --terminal                       without a browser, for example over ssh
   tools/octet watch --bus socketcan:can0 --robot observe
                                                      look on while a robot runs by itself, in this terminal

@@ -197,6 +197,8 @@ def own_brain(source: Path) -> OwnBrain:
         UsageError: The file cannot be read or compiled, is no behaviour, or uses what a robot does not have.
         OctetError: Something that must be built or installed is missing.
     """
+    if not source.exists():
+        raise UsageError(f"there is no file {source}: tools/octet new {source} begins one")
     return compiled(read_source(source, _SIZE_MAX), os.fspath(source))
 
 

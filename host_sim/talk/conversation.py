@@ -140,7 +140,7 @@ def about_memory(script: str, path: Path) -> tuple[Conversation, Source]:
     """
     memory, texts = load_memory(path), texts_of(script)
     if memory is None:
-        raise UsageError(f"there is no {path}")
+        raise UsageError(f"there is no file {path}")
     cells = {cell: texts.of_cell(cell, side) for cell, side in enumerate(sides_of(memory)) if cell and side}
 
     def learned(_: Sequence[str]) -> Known:

@@ -120,7 +120,7 @@ REFUSED = {
     "a node number": (("--node", "5"), "leave --node out"),
     "the reference physics": (("--physics", "pymunk"), "leave --physics pymunk out"),
     "a compressed log": (("--compress-log",), "leave --compress-log out"),
-    "a behaviour of one's own that is not there": (("--profile", "no.c"), "cannot read no.c: No such file"),
+    "a behaviour of one's own that is not there": (("--profile", "no.c"), "there is no file no.c"),
     "an unchecked behaviour": (("--fast",), "leave --fast out"),
     "a debugger": (("--gdb",), "--gdb stops one robot"),
     "changes": (("--change", "plant@5s"), "leave --change out"),

@@ -226,7 +226,7 @@ def test_the_command_answers_lines_of_any_kind(log):
     [
         (["--log", "nowhere.log"], "nowhere.log"),
         (["--script", "nowhere"], "there is no script nowhere: give a file, or one of robot, robot-de, eliza"),
-        (["--memory", "nowhere.mem"], "there is no nowhere.mem"),
+        (["--memory", "nowhere.mem"], "there is no file nowhere.mem"),
         (["--memory", "x", "--at", "1"], "--memory is for a robot without a log"),
     ],
 )

@@ -1,5 +1,5 @@
-/* converter.h: what robot_pins.c leaves to each family: clocks, the ADC for the sensors, and what its
- * TIM1 has more. */
+/* converter.h: what robot_pins.c leaves to each chip family: clocks, the ADC for the sensors, and additional
+ * registers of its TIM1. */
 #ifndef OCTET_CONVERTER_H
 #define OCTET_CONVERTER_H
 

@@ -1,4 +1,4 @@
-# STM32F103: its own drivers, the links that it has with what each is made of, and the images of a robot of its own.
+# STM32F103: its own drivers, the links that it has with what each is made of, and the images of a stand-alone robot.
 set(OCTET_CHIP_SOURCES clock.c gpio.c pins.c flash.c)
 
 set(OCTET_LINKS bxcan slcan)

@@ -1,4 +1,4 @@
-/* stm32f103/registers.h: what is the STM32F103's own (RM0008, flash PM0075). Notation as in hal/stm32/registers.h. */
+/* stm32f103/registers.h: registers of the STM32F103 alone (RM0008, flash PM0075). Notation as in ../registers.h. */
 #ifndef OCTET_STM32F103_REGISTERS_H
 #define OCTET_STM32F103_REGISTERS_H
 

@@ -1,4 +1,4 @@
-/* stm32f405/registers.h: what the STM32F405 has in its own way (RM0090). Notation as in hal/stm32/registers.h. */
+/* stm32f405/registers.h: registers that differ on the STM32F405 (RM0090). Notation as in hal/stm32/registers.h. */
 #ifndef OCTET_STM32F405_REGISTERS_H
 #define OCTET_STM32F405_REGISTERS_H
 

@@ -1,4 +1,4 @@
-# STM32G431: its own drivers, those that it shares, the links that it has with what each is made of, and the images of a robot of its own.
+# STM32G431: its own drivers, those that it shares, the links that it has with what each is made of, and the images of a stand-alone robot.
 set(OCTET_CHIP_SOURCES clock.c pins.c flash.c nmi.c)
 set(OCTET_SHARED_SOURCES gpio/gpio_f4.c)
 

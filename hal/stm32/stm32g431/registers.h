@@ -1,4 +1,4 @@
-/* stm32g431/registers.h: what the STM32G431 has in its own way (RM0440). Notation as in hal/stm32/registers.h. */
+/* stm32g431/registers.h: registers that differ on the STM32G431 (RM0440). Notation as in hal/stm32/registers.h. */
 #ifndef OCTET_STM32G431_REGISTERS_H
 #define OCTET_STM32G431_REGISTERS_H
 

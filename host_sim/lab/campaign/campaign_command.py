@@ -82,8 +82,8 @@ def add(commands: Subparsers) -> None:
         help="instead of each fault by itself, N random schedules of 1 to 6 faults; those that fail are shrunk",
     )
     add("--seed", type=number(0, 2**32 - 1), default=1, help="seed of these schedules (default: %(default)d)")
-    add("--repeat", metavar="CELL", help="rerun one run of a report and print its outcome")
-    add("--shrink", metavar="CELL", help="find the smallest schedule of faults with the same outcome")
+    add("--repeat", metavar="RUN", help="rerun one run of a report and print its outcome")
+    add("--shrink", metavar="RUN", help="find the smallest schedule of faults with the same outcome")
 
 
 def _check(arguments: argparse.Namespace) -> None:

@@ -77,7 +77,7 @@ class Cell:
         """
         head = _HEAD.match(text)
         if head is None or head[1] not in PROFILES or head[3] not in PACES:
-            raise UsageError(f"{text!r} is not a cell: write {_FORM}")
+            raise UsageError(f"{text!r} is not a run: write {_FORM}")
         cell = Cell(head[1], head[2], head[3], int(head[4]), float(head[5]), fault="as given")
         return cell.with_items(text[head.end() :].split())
 
