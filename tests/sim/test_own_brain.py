@@ -165,7 +165,7 @@ def test_a_file_that_is_no_behaviour_is_refused(name, tmp_path, capfd):
 
 def test_a_file_that_is_not_there_is_refused(tmp_path, capsys):
     assert main(["run", "--profile", str(tmp_path / "no.c"), *SHORT]) == 2
-    assert "there is no file no.c" in capsys.readouterr().err
+    assert "no.c: tools/octet new" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name", ["a name with spaces.c", '"quoted".c', "-o.c", "ein Gehirn \u00e4.c"])
