@@ -196,7 +196,7 @@ def _signal_row(signal: Signal, message: str, listed: dict[str, str]) -> str:
 
 
 def _choices(signal: Signal, message: str, listed: dict[str, str]) -> str:
-    """The words of a signal's numbers, unless its comment explains 1; more than two on the page already, as a link."""
+    """The words of a signal's numbers, unless its comment explains 1; if on the page already, as a link."""
     if (signal.comment or "").startswith("1: "):
         return ""
     words = [f"{number} {name}" for number, name in (signal.choices or {}).items()]

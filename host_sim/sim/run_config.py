@@ -82,7 +82,7 @@ class RunConfig:
     profile: str = option(
         "article",
         "the robot's behaviour; a C file of your own, which tools/octet new begins; or a program in the article's "
-        "language, such as host_sim/program/examples/article.bas",
+        "language (.bas)",
         choices=PROFILES,
         endings=(C_FILE, PROGRAM_FILE),
         metavar="PROFILE",
