@@ -136,12 +136,12 @@ class Outputs:
         trajectory.news = news_of(record)
         return page(run_data(trajectory, record.title), self._laboratory(trajectory)) if trajectory.ticks else None
 
-    def _laboratory(self, trajectory: Trajectory) -> dict[str, Any] | None:
-        """The data with which the page answers "What if?"; None if the firmware was not built for pages."""
-        if not PAGE_WASM.exists():
-            return None
-        from host_sim.report.laboratory import laboratory
+    def _laboratory(self, trajectory: Trajectory) -> dict[str, Any]:
+        """The data with which the page answers "What if?"."""
+        from host_sim.report.laboratory import NO_FIRMWARE, laboratory
 
+        if not PAGE_WASM.exists():
+            return NO_FIRMWARE
         clients = self.simulation.clients
         commands = sorted((it for client in clients for it in client.dialogue.commands), key=itemgetter(0))
         record = self.simulation.record

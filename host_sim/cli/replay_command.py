@@ -111,10 +111,11 @@ def _compare(arguments: argparse.Namespace) -> int:
 
 
 def _write_page(arguments: argparse.Namespace) -> int:
+    from host_sim.report.laboratory import NO_FIRMWARE
     from host_sim.report.replay_page import write_page
 
     result = resimulated(arguments)
-    laboratory = _laboratory(arguments, result) if arguments.what_if or PAGE_WASM.exists() else None
+    laboratory = _laboratory(arguments, result) if arguments.what_if or PAGE_WASM.exists() else NO_FIRMWARE
     write_page(arguments.html, result.trajectory, result.title, laboratory)
     print(f"wrote     {arguments.html}")
     return 0

@@ -113,7 +113,7 @@ def _look_on(options: RunOptions) -> None:
         finally:
             log.close()
         seen = resimulate(path, options.node, ignore_world=True)
-        write_page(page, seen.trajectory, seen.title, None)
+        write_page(page, seen.trajectory, seen.title)
         write_picture(picture, seen.trajectory)
     print(f"wrote     {path}, {page}, {picture}")
 

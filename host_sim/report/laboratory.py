@@ -1,10 +1,9 @@
-"""The laboratory in the page of a recorded run: octet.html, and the commands to the robots of the run.
+"""What repeats a recorded run in its page, where its future can then be changed.
 
-The page's element `laboratory` has one object, with
+One object, with
 
-    page         octet.html, packed
-    run          the run: `commands`, each [tick, robot counted from 0, digits of a COMMAND frame]; `ticks`, their
-                 number; `world`, the text of its world file, empty if there is none
+    recorded     `commands`, each [tick, robot counted from 0, digits of a COMMAND frame]; `ticks`, their number;
+                 `world`, the text of its world file, empty if there is none
 
 or, if the run cannot be repeated, with `why`, a sentence for people.
 """
@@ -19,11 +18,15 @@ from host_sim.protocol.generated import PAGE_ROBOTS_MAX
 from host_sim.recording.log_reader import LogReader
 from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import world_path
-from host_sim.report.octet_page import octet_page
-from host_sim.report.page_bundle import packed
 from host_sim.sim.world_record import WorldRecord
 
 _WORLD_MAX = 16_000_000
+
+NO_FIRMWARE = {
+    "why": "This page contains no firmware. "
+    "This command writes one that does: tools/octet replay out/run.log --html out/replay.html --what-if"
+}
+"""Why the page of a run repeats nothing if the firmware was not built for pages."""
 
 
 def laboratory(
@@ -36,9 +39,6 @@ def laboratory(
         trajectory: The run.
         record: Its world; None if unknown.
         commands: Each command in the order of their ticks, with the number of ticks before it.
-
-    Raises:
-        OctetError: The WebAssembly is not built.
     """
     nodes = [track.node for track in trajectory.tracks]
     if record is None:
@@ -53,7 +53,7 @@ def laboratory(
         return {"why": "What if? is for shorter runs: this page has only the last part of a longer one."}
     robot_of = {Protocol(robot + 1).id_of("COMMAND"): robot for robot in range(len(nodes))}
     told = [(tick, robot_of[frame.id], frame.data.hex()) for tick, frame in commands if frame.id in robot_of]
-    return {"page": packed(octet_page()), "run": {"commands": told, "ticks": trajectory.ticks, "world": world}}
+    return {"recorded": {"commands": told, "ticks": trajectory.ticks, "world": world}}
 
 
 def commands_in(log: LogReader) -> Iterator[tuple[int, Frame]]:

@@ -1,5 +1,6 @@
-"""`octet.html`: the robot itself, its world and the laboratory around them, in one page without a server."""
+"""The page: the robot itself, its world and the laboratory around them, without a server."""
 
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -28,26 +29,30 @@ def write_octet_page(path: Path) -> int:
     return len(text)
 
 
-def octet_page() -> str:
+def octet_page(laboratory: Mapping[str, Any] | None = None) -> str:
     """The page's HTML.
 
-    Its element `parts` has the WebAssembly and the worker's script, packed, the dimensions of all named worlds and
-    the sample programs; `speakers` has the scripts to talk with.
+    Its element `parts` has the dimensions of all named worlds and the sample programs; `wasm` and `worker`, the
+    WebAssembly and the worker's script, packed, and `recorded`, if it is for a recorded run; or `why`, a sentence for
+    people, if it is to simulate nothing. Its element `speakers` has the scripts to talk with.
+
+    Args:
+        laboratory: How a recorded run is repeated, or why it cannot be: see laboratory.py. None for new runs.
 
     Raises:
         OctetError: The WebAssembly is not built.
     """
+    parts = {"worlds": world_dimensions(), "programs": programs(), **(laboratory or {})}
+    if "why" not in parts:
+        parts |= {"wasm": packed(_wasm()), "worker": packed(bundle(_WORKER))}
+    return with_speakers(with_data(page_of(_TEMPLATE), "parts", parts))
+
+
+def _wasm() -> bytes:
     try:
-        wasm = PAGE_WASM.read_bytes()
+        return PAGE_WASM.read_bytes()
     except OSError as error:
         raise OctetError(f"cannot read {PAGE_WASM}: {error.strerror}; build it with tools/setup page") from None
-    parts = {
-        "wasm": packed(wasm),
-        "worker": packed(bundle(_WORKER)),
-        "worlds": world_dimensions(),
-        "programs": programs(),
-    }
-    return with_speakers(with_data(page_of(_TEMPLATE), "parts", parts))
 
 
 def world_dimensions() -> dict[str, dict[str, Any]]:

@@ -1,7 +1,6 @@
 """A run as one HTML page that needs no server.
 
-The page is `web/replay.html` as `page_bundle` puts it together; its element `run` has the run, its element
-`laboratory` the data of laboratory.py, and `speakers` the scripts to talk with: see speakers.py.
+The page is that of octet_page.py; its element `run` has the run.
 
 The run is one object. Measures, EnvironmentScene, State, Trial and Lesson are as in recording/state_types.py. The
 value in a pair holds from the pair's tick until that of the next pair; the first pair is that of tick `first_tick`.
@@ -52,12 +51,12 @@ from host_sim.base.files import write_bytes
 from host_sim.protocol.generated import COLUMNS, ROW
 from host_sim.recording.state import measures
 from host_sim.recording.trajectory import RobotTrack, Trajectory
-from host_sim.report.page_bundle import page_of, with_data
-from host_sim.report.speakers import with_speakers
+from host_sim.report.laboratory import NO_FIRMWARE
+from host_sim.report.octet_page import octet_page
+from host_sim.report.page_bundle import with_data
 
 T = TypeVar("T", bound=tuple[Any, ...])
 
-_TEMPLATE = "replay.html"
 _POSE = {"x": (0, 10), "y": (1, 10), "heading": (2, 1000)}
 _COLUMNS = (*_POSE, *COLUMNS)
 
@@ -66,17 +65,17 @@ def write_page(
     path: Path,
     trajectory: Trajectory,
     title: str,
-    laboratory: Mapping[str, Any] | None = None,
+    laboratory: Mapping[str, Any] = NO_FIRMWARE,
     shown: int | None = None,
 ) -> None:
-    """Writes the page of a run of at least one tick, with the data of laboratory.py if there is any.
+    """Writes the page of a run of at least one tick, with the data of laboratory.py.
 
     It opens at the tick `shown`, by default the first.
 
     Equal runs give equal bytes.
 
     Raises:
-        OctetError: The file cannot be written.
+        OctetError: The file cannot be written, or the WebAssembly for a run that can be repeated is not built.
     """
     run = {**run_data(trajectory, title), **({} if shown is None else {"shown": shown})}
     write_bytes(path, page(run, laboratory).encode())
@@ -140,10 +139,9 @@ def _planes(column: Sequence[int]) -> bytes:
     return b"".join(packed[byte::4] for byte in range(4))
 
 
-def page(run: dict[str, Any], laboratory: Mapping[str, Any] | None = None) -> str:
+def page(run: dict[str, Any], laboratory: Mapping[str, Any] = NO_FIRMWARE) -> str:
     """The page's HTML."""
-    text = with_speakers(with_data(page_of(_TEMPLATE), "run", run))
-    return text if laboratory is None else with_data(text, "laboratory", laboratory)
+    return with_data(octet_page(laboratory), "run", run)
 
 
 def _column(track: RobotTrack, name: str) -> Sequence[int]:

@@ -125,7 +125,7 @@ def test_an_arena_that_is_small_or_covered_is_found(recorded: Path, open_page):
 def test_the_replay_has_all_that_matters_in_view_even_while_it_compares(recorded: Path, open_page):
     page = open_page(recorded.as_uri())
     page.click("#pin")
-    page.evaluate("octet.go(octet.data.last)")
+    page.evaluate("octet.go(octet.last)")
     wait_for(page, "document.querySelectorAll('.cell.changed').length > 0")
     for size in SIZES:
         resize(page, size)
@@ -155,7 +155,7 @@ def test_the_legend_is_one_press_away_on_a_replay(recorded: Path, open_page):
 
 def test_a_printed_replay_is_one_white_sheet(recorded: Path, open_page):
     page = open_page(recorded.as_uri())
-    page.evaluate("octet.go(octet.data.last)")
+    page.evaluate("octet.go(octet.last)")
 
     sheet = page.pdf(format="A4", margin=dict.fromkeys(("top", "right", "bottom", "left"), "10mm"))
 

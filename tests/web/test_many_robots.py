@@ -275,7 +275,7 @@ def test_a_recorded_run_shows_each_robot_as_it_was(tmp_path, open_page):
     assert octet("run", "--bus", "none", *words, "--quiet", "--out", tmp_path).returncode == 0
     page = open_page((tmp_path / "replay.html").as_uri())
 
-    page.evaluate("octet.go(octet.data.last)")
+    page.evaluate("octet.go(octet.last)")
 
     summary = json.loads((tmp_path / "summary.json").read_text())
     shown = page.evaluate("octet.scene.states.map(({ node, memory }) => [node, memory])")

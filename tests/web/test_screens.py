@@ -60,7 +60,7 @@ def test_replay(recorded, look):
     for size in SIZES:
         page = look(recorded.as_uri(), size)
         page.click("#pin")
-        page.evaluate("octet.go(Math.floor(octet.data.last * 0.4))")
+        page.evaluate("octet.go(Math.floor(octet.last * 0.4))")
         next_frame(page)
         check_schemes(page, f"replay-{{}}-{size}")
 

@@ -5,25 +5,30 @@ import { byId, setText } from "../core/elements.js";
 import { heard, inEachLanguage, say } from "../core/language.js";
 import { ShownRun, restartNames } from "./shown_run.js";
 import { Toast } from "../core/toast.js";
-import { PlayingPage } from "../replay/playing_page.js";
+import { PlayingPage } from "./playing_page.js";
 import { Simulator } from "./simulator.js";
 
 /**
- * What the page has in it: page.wasm and the worker's script, packed, the worlds, and the programs to choose from.
- * @typedef {{wasm: string, worker: string, worlds: Worlds, programs: Record<string, string>}} Parts
+ * What the page has in it, as host_sim/report/octet_page.py says: page.wasm and the worker's script, packed, and for a
+ * recorded run what repeats it; or why it simulates nothing.
+ * @typedef {{worlds: Worlds, programs: Record<string, string>, wasm: string, worker: string, recorded?: RecordedRun, why?: string}} Parts
  */
 
 const LANES_MAX = 4;
+/** What is behind the address of a live run that has ended. */
+export const ENDED = "#ended";
 
 /** A class that extends it shows the runs: `onLanes`, `onScene` and `onRefusal` tell it what has changed. */
 export class Laboratory extends PlayingPage {
   /**
    * @param {Parts} parts
    * @param {Experiment} experiment - The first run's.
+   * @param {RunData} [recorded] - That run, if it is a recorded one.
    */
-  constructor(parts, experiment) {
-    super(0);
+  constructor(parts, experiment, recorded) {
+    super(recorded?.first ?? 0);
     const { worlds, programs } = parts;
+    this.recorded = recorded;
     this.programs = programs;
     this.worlds = worlds;
     this.params = worlds.random;
@@ -33,8 +38,21 @@ export class Laboratory extends PlayingPage {
     this.playsNext = false;
     /** @type {ShownRun[]} */
     this.lanes = [];
-    this.lane = this.addLane(experiment);
+    this.lane = this.addLane(experiment, recorded);
+    /** Settled when it is known how a recorded run is repeated; it fails with the reason if it cannot be. */
+    this.recalled = this.recall(parts, this.lane);
+    this.recalled.catch(() => {});
     inEachLanguage(() => this.showStatus());
+  }
+
+  /**
+   * @param {Parts} parts
+   * @param {ShownRun} lane - The first one.
+   */
+  async recall({ why, recorded }, lane) {
+    if (why) throw new Error(why);
+    if (recorded) lane.experiment = await this.simulator.ask("repeat", { recorded });
+    this.stale = true;
   }
 
   /** Called when the number of runs has changed. */
@@ -58,7 +76,7 @@ export class Laboratory extends PlayingPage {
 
   /** @override */
   get tickMs() {
-    return this.params.tick_s * 1000;
+    return this.recorded?.measures.tick_ms ?? this.params.tick_s * 1000;
   }
 
   /** The scene that is selected; undefined before the first run. */
@@ -76,14 +94,18 @@ export class Laboratory extends PlayingPage {
     for (const lane of this.lanes) lane.go(this.tick, false);
   }
 
-  /** @param {Experiment} experiment - Of the run to add and to simulate. */
-  addLane(experiment) {
+  /**
+   * @param {Experiment} experiment - Of the run to add, and to simulate if it is not recorded.
+   * @param {RunData} [recorded]
+   */
+  addLane(experiment, recorded) {
     const lane = new ShownRun(experiment, byId("floors"), this.viewport);
     this.lanes.push(lane);
     lane.canvas.addEventListener("pointerdown", () => this.select(lane), { capture: true });
     lane.canvas.addEventListener("focus", () => this.select(lane));
+    if (recorded) lane.keep(recorded);
     this.onLanes();
-    this.simulate(lane);
+    if (!recorded) this.simulate(lane);
     return lane;
   }
 
@@ -118,17 +140,38 @@ export class Laboratory extends PlayingPage {
     if (lane === this.lane) return;
     this.lane = lane;
     this.onScene();
+    this.showStatus();
+  }
+
+  /** @override */
+  whatIf() {
+    if (this.lane.isRecorded) this.inCopy(() => {});
+    else this.copy();
   }
 
   /**
-   * Copies the selected run beside it; what is changed next is changed there.
-   * @override
+   * Makes a change in the selected run or, if that is recorded, in a copy; if there cannot be one, says why.
+   * @param {() => void} change
    */
-  whatIf() {
+  inCopy(change) {
+    if (!this.lane.isRecorded) return change();
+    this.recalled.then(() => {
+      if (this.lane.isRecorded) this.copy();
+      if (!this.lane.isRecorded) change();
+    }).catch((error) => {
+      this.note.show(heard(error.message));
+      this.onRefusal();
+    });
+  }
+
+  /** Copies the selected run beside it; what is changed next is changed there. */
+  copy() {
     if (this.isFull) return;
     this.setPlaying(false);
-    const { experiment } = this.lane;
-    this.select(this.addLane({ ...experiment, changes: [...experiment.changes], ticks_max: undefined }));
+    const { experiment, scene } = this.lane;
+    const copy = this.addLane({ ...experiment, changes: [...experiment.changes], ticks_max: undefined });
+    copy.node = scene?.node;
+    this.select(copy);
     this.note.show(say("copyHint"));
   }
 
@@ -152,7 +195,13 @@ export class Laboratory extends PlayingPage {
 
   showStatus() {
     const isRunning = this.lanes.some((lane) => lane.isRunning);
-    setText(byId("status"), say(!isRunning ? "realFirmware" : this.scene ? "runningAhead" : "waking"));
+    const words = say(!isRunning ? "realFirmware" : this.scene ? "runningAhead" : "waking");
+    setText(byId("status"), this.lane.isRecorded ? this.title : words);
+  }
+
+  /** What the recorded run is. */
+  get title() {
+    return location.hash === ENDED ? say("runRecorded") : heard(this.recorded?.run.title ?? "");
   }
 
   /**
@@ -171,6 +220,11 @@ export class Laboratory extends PlayingPage {
    * @param {Change} change
    */
   change(change) {
+    this.inCopy(() => this.changeLane(change));
+  }
+
+  /** @param {Change} change */
+  changeLane(change) {
     const { lane } = this;
     const isFresh = lane.experiment.changes.some(({ tick }) => tick === this.tick) && !this.playing;
     const next = isFresh ? this.tick : this.tick + 1;
@@ -178,5 +232,13 @@ export class Laboratory extends PlayingPage {
     lane.change({ ...change, tick });
     this.goAhead(tick);
     this.simulate(lane);
+  }
+
+  /** @param {Partial<RobotSetup>} setup - How the selected robot starts. */
+  setUp(setup) {
+    this.inCopy(() => {
+      this.lane.setUp(setup);
+      this.simulate(this.lane);
+    });
   }
 }

@@ -1,5 +1,5 @@
 // @ts-check
-/* octet.html: runs of the real firmware in this page, side by side; each change leads to another future. */
+/* The page: a recorded run, or runs of the real firmware, side by side; each change leads to another future. */
 
 import { SidePanel } from "./side_panel.js";
 import { buttonOf } from "../core/dom.js";
@@ -8,13 +8,14 @@ import { LANGUAGES, heard, inEachLanguage, languageCode, nameIn, say } from "../
 import { LabEditor } from "./lab_editor.js";
 import { experimentOf, inWords } from "./shown_run.js";
 import { nextTick } from "./run_events.js";
-import { Laboratory } from "./laboratory.js";
+import { ENDED, Laboratory } from "./laboratory.js";
 import { Course } from "../lessons/course.js";
 import { PLANS } from "../lessons/plans.js";
 import { settingAt } from "../lessons/evidence.js";
 import { Panel } from "../panel/panel.js";
 import { DivergenceView } from "../panel/divergence.js";
 import { RobotPicker } from "../panel/robot_picker.js";
+import { RunData } from "../core/run_data.js";
 import { linkOf } from "../program/link.js";
 import { ProgramTab } from "../program/program_tab.js";
 import { fieldsOf } from "./share.js";
@@ -22,20 +23,20 @@ import { drawMarks } from "../panel/timeline.js";
 import { Conversations } from "../talk/conversation.js";
 import { TalkBox } from "../talk/talk_box.js";
 
-/**
- * A recorded run that the page begins with: the tick and the robot that are shown.
- * @typedef {{recorded: RecordedRun, tick: number, node: number}} Begin
- */
+/** What a page that simulates nothing does not have. */
+const SIMULATED = "#lift, #add-bar, #add-plant, #erase, #freeze, #break, #behaviour, #robot-seed, #when, #new-run :is(button, input, select), "
+  + "#tab-parameters, #tab-program, #tab-files, #tab-lessons";
 
 /** Shows the laboratory's runs, and what belongs to the one that is selected. */
 class LabPage extends Laboratory {
   /**
    * @param {import("./laboratory.js").Parts} parts
-   * @param {Begin | null} begin - What to begin with; null for a new run.
+   * @param {RunData} [recorded] - The run to show; a new one by default.
    */
-  constructor(parts, begin) {
-    const first = experimentOf({ seed: 1, environments: 5, robots: 1, profile: "article" });
-    super(parts, begin ? { ...first, ticks_max: 1 } : first);
+  constructor(parts, recorded) {
+    const { seed, of } = recorded?.sceneAt(recorded.first) ?? { seed: 1, of: 5 };
+    const robots = recorded?.robots.length ?? 1;
+    super(parts, experimentOf({ seed, environments: of, robots, profile: recorded ? "" : "article" }), recorded);
     this.panel = new Panel((cell, side) => this.change({ do: "write", robot: this.lane.robot, cell, side }));
     this.desk = new SidePanel(this);
     this.conversations = new Conversations();
@@ -47,35 +48,52 @@ class LabPage extends Laboratory {
     this.share = buttonOf("", () => this.copyLink());
     this.share.id = "copy-link";
     byId("status").after(this.share);
+    /** @type {number | undefined} - The tick that the memory is compared with. */
+    this.pinned = undefined;
+    byId("pin").addEventListener("click", () => this.pin());
+    byId("back").addEventListener("click", () => location.reload());
     inEachLanguage(() => {
       setText(this.share, say("copyLink"));
       this.share.title = say("copyLinkHelp");
+      this.showPin();
     });
     /** @type {RobotPicker | undefined} */
     this.picker = undefined;
     /** @type {LabEditor | undefined} */
     this.editor = undefined;
-    /** Settled when a recorded run that the page begins with, and its copy, are simulated to their ends. */
-    this.repeated = begin ? this.repeat(begin) : Promise.resolve();
     addEventListener("hashchange", () => location.reload()); // what follows the # is read when the page begins
-    this.playsNext = !begin && !location.hash && mayMove();
+    this.playsNext = !recorded && !location.hash && mayMove();
+    if (parts.why) withhold(SIMULATED, parts.why, this.note);
+    this.onScene();
+    if (recorded) this.followAddress();
   }
 
-  /**
-   * Simulates a recorded run again, and lays a copy beside it.
-   * @param {Begin} begin
-   */
-  async repeat({ recorded, tick, node }) {
-    this.begin(await this.simulator.ask("repeat", { recorded }));
-    await this.lane.done;
-    this.go(tick);
-    this.whatIf();
-    await this.lane.done;
-    this.pick(node);
+  /** Does what the address asks for, if it is a live run's: shows the tick before which it was left, or its end. */
+  followAddress() {
+    if (!location.protocol.startsWith("http")) return;
+    const asked = new URLSearchParams(location.hash.slice(1));
+    byId("to-live").hidden = location.hash === ENDED;
+    byId("to-live").addEventListener("click", () => location.assign("/"));
+    this.go(Number(asked.get("tick") ?? this.last));
+    if (asked.has("what-if")) this.whatIf();
+  }
+
+  /** Begins to compare the present memory with that of other times; called again, ends it. */
+  pin() {
+    this.pinned = this.pinned === undefined ? this.tick : undefined;
+    this.showPin();
+    this.stale = true;
+  }
+
+  showPin() {
+    const { pinned, scene } = this;
+    byId("pin").setAttribute("aria-pressed", `${pinned !== undefined}`);
+    setText(byId("pin"), pinned === undefined ? say("compareNow") : say("comparedWith", { time: scene?.clock(pinned) ?? "" }));
   }
 
   /** @override */
   onLanes() {
+    byId("back").hidden = !this.recorded || this.lanes.some(({ isRecorded }) => isRecorded);
     byId("floors").dataset.lanes = `${this.lanes.length}`;
     typedById("remove-lane", HTMLButtonElement).disabled = this.lanes.length < 2;
     typedById("what-if", HTMLButtonElement).disabled = this.isFull;
@@ -108,8 +126,9 @@ class LabPage extends Laboratory {
   async ask(who, sentence) {
     const { data, robot, experiment } = this.lane;
     if (!data) return;
+    const { profile } = experiment.robots[robot];
     /** @type {[number, string][]} */
-    const starts = [[0, experiment.robots[robot].profile]];
+    const starts = profile ? [[0, profile]] : []; // of a recorded run it may not be known
     for (const change of experiment.changes) {
       const told = inWords(change);
       if (told.do === "start" && told.robot === robot) starts.push([change.tick, told.profile]);
@@ -200,9 +219,11 @@ class LabPage extends Laboratory {
       each.figure.classList.toggle("selected", each === lane);
     }
     this.panel.settle(scene, !this.playing);
-    const boredom = settingAt(lane, { robot: lane.robot, name: "boredom_limit" }, tick);
-    scene.measures = { ...scene.measures, boredom };
-    this.panel.show(scene, { exact: !this.playing, ...this.otherMemory() });
+    if (!lane.isRecorded) {
+      const boredom = settingAt(lane, { robot: lane.robot, name: "boredom_limit" }, tick);
+      scene.measures = { ...scene.measures, boredom };
+    }
+    this.panel.show(scene, { exact: !this.playing, ...this.otherMemory(data) });
     this.picker?.show();
     this.desk.show();
     setText(byId("news"), scene.lastNews);
@@ -213,8 +234,12 @@ class LabPage extends Laboratory {
     this.showTime(scene.clock(tick));
   }
 
-  /** The memory in the first other run, to compare with. */
-  otherMemory() {
+  /**
+   * The memory at another time, or in the first other run, to compare with.
+   * @param {RunData} data
+   */
+  otherMemory(data) {
+    if (this.pinned !== undefined) return { then: data.robots[this.lane.robot].memoryAt(this.pinned) };
     const other = this.lanes.find((lane) => lane !== this.lane && lane.scene);
     const states = other?.scene?.states ?? [];
     return { then: states[Math.min(this.lane.robot, states.length - 1)]?.memory, where: say("inRun") };
@@ -226,7 +251,7 @@ class LabPage extends Laboratory {
    */
   takesKey(event) {
     const inArena = event.target instanceof HTMLCanvasElement;
-    const fields = event.key === " " ? "select, button, input, summary, textarea" : "select, input:not(#scrub), [role=tab], textarea";
+    const fields = event.key === " " ? "select, button, input:not(#scrub), summary, textarea" : "select, input:not(#scrub), [role=tab], textarea";
     return isForPage(event, fields) && !event.defaultPrevented && !(inArena && event.key.startsWith("Arrow"));
   }
 
@@ -235,13 +260,34 @@ class LabPage extends Laboratory {
    * @param {number} step
    */
   actions(step) {
-    return { ...super.actions(step), b: () => this.jump(-1) };
+    return { ...super.actions(step), p: () => this.jump(-1), w: () => this.whatIf() };
   }
 }
 
-try {
-  const [parts, begin] = ["parts", "begin"].map((id) => JSON.parse(byId(id).textContent || "null"));
-  Object.assign(window, { octet: new LabPage(parts, begin) });
-} catch (error) {
-  setText(byId("status"), heard(error instanceof Error ? error.message : `${error}`));
+/**
+ * Controls of which this page cannot do what they are for say why, when they are looked at or pressed.
+ * @param {string} selector
+ * @param {string} why
+ * @param {import("../core/toast.js").Toast} note
+ */
+function withhold(selector, why, note) {
+  const controls = [...document.querySelectorAll(selector)];
+  inEachLanguage(() => controls.forEach((control) => control.setAttribute("title", heard(why))));
+  for (const control of controls) {
+    control.setAttribute("aria-disabled", "true");
+    if (control instanceof HTMLInputElement || control instanceof HTMLSelectElement) control.disabled = true;
+  }
+  document.addEventListener("click", (event) => {
+    if (!(event.target instanceof Element && event.target.closest("[aria-disabled=true]"))) return;
+    event.preventDefault();
+    event.stopPropagation();
+    note.show(heard(why));
+  }, { capture: true });
 }
+
+async function start() {
+  const [parts, run] = ["parts", "run"].map((id) => JSON.parse(byId(id).textContent || "null"));
+  Object.assign(window, { octet: new LabPage(parts, run ? await RunData.from(run) : undefined) });
+}
+
+start().catch((error) => setText(byId("status"), heard(error.message)));

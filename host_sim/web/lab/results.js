@@ -21,7 +21,7 @@ export const NAMES = ["run", "robot", "behaviour", "seed", "environment", "finis
  * @returns {Growth}
  */
 export function growthOf(robot, curve, tickMs) {
-  if (curve === "blocked") return blockedGrowth(robot.columns.reason, tickMs / 1000);
+  if (curve === "blocked") return blockedGrowth(robot, tickMs / 1000);
   const kind = curve === "trials" ? "trial" : "eat";
   const ticks = robot.run.events.filter(([, what]) => what === kind).map(([tick]) => tick);
   return { ticks, counts: ticks.map((_, i) => i + 1) };
@@ -60,7 +60,7 @@ export function rowsOf(lane, upTo) {
 function numbersOf(robot, first, last, tickMs) {
   const inside = (/** @type {number} */ tick) => tick >= first && tick <= last;
   const count = (/** @type {string} */ kind) => robot.run.events.filter(([tick, what]) => what === kind && inside(tick)).length;
-  const blocked = robot.columns.reason.subarray(first, last + 1).filter((reason) => AVOIDING.includes(reason)).length;
+  const blocked = robot.columns.reason.subarray(first - robot.first, last + 1 - robot.first).filter((reason) => AVOIDING.includes(reason)).length;
   return [count("trial"), count("lesson"), count("boredom"), seconds(blocked, tickMs), count("eat")];
 }
 
@@ -84,18 +84,18 @@ function tourOf({ tours, experiment }, environment, { speed_mm_s: speed = PARAME
 }
 
 /**
- * @param {Int32Array} reasons
+ * @param {RobotData} robot
  * @param {number} tickS
  * @returns {Growth}
  */
-function blockedGrowth(reasons, tickS) {
+function blockedGrowth({ first, columns }, tickS) {
   /** @type {Growth} */
   const growth = { ticks: [], counts: [] };
   let blocked = 0;
-  reasons.forEach((reason, tick) => {
+  columns.reason.forEach((reason, i) => {
     if (!AVOIDING.includes(reason)) return;
     blocked += 1;
-    growth.ticks.push(tick);
+    growth.ticks.push(first + i);
     growth.counts.push(blocked * tickS);
   });
   return growth;

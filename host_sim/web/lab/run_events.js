@@ -20,15 +20,15 @@ export function nextTick(robot, kind, tick, step) {
  * @param {number} tick
  */
 export function actionStart(robot, tick) {
-  return begins(robot, tick) ? tick : (search(robot, tick, -1, (at) => begins(robot, at)) ?? 0);
+  return begins(robot, tick) ? tick : (search(robot, tick, -1, (at) => begins(robot, at)) ?? robot.first);
 }
 
 /**
  * @param {RobotData} robot
  * @param {number} tick
  */
-function begins({ columns: { action } }, tick) {
-  return tick === 0 || action[tick] !== action[tick - 1];
+function begins({ first, columns: { action } }, tick) {
+  return tick === first || action[tick - first] !== action[tick - first - 1];
 }
 
 /**
@@ -36,8 +36,8 @@ function begins({ columns: { action } }, tick) {
  * @param {RobotData} robot
  * @param {number} tick
  */
-function meets({ columns: { pattern } }, tick) {
-  return pattern[tick] !== 0 && (tick === 0 || pattern[tick - 1] === 0);
+function meets({ first, columns: { pattern } }, tick) {
+  return pattern[tick - first] !== 0 && (tick === first || pattern[tick - first - 1] === 0);
 }
 
 /**
@@ -46,7 +46,7 @@ function meets({ columns: { pattern } }, tick) {
  * @param {number} step
  * @param {(tick: number) => boolean} wanted
  */
-function search({ columns: { action } }, from, step, wanted) {
-  for (let tick = from + step; tick >= 0 && tick < action.length; tick += step) if (wanted(tick)) return tick;
+function search({ first, columns: { action } }, from, step, wanted) {
+  for (let tick = from + step; tick >= first && tick < first + action.length; tick += step) if (wanted(tick)) return tick;
   return undefined;
 }

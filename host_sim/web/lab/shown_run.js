@@ -51,6 +51,10 @@ export class ShownRun {
     /** How often it was asked to simulate, and whether the last simulation is still running. */
     this.asked = 0;
     this.isRunning = false;
+    /** Whether it was not simulated here. */
+    this.isRecorded = false;
+    /** @type {number | undefined} - The node of the robot to select first. */
+    this.node = undefined;
     /** @type {Promise<void>} - Settled when what was asked for last is simulated to its end. */
     this.done = Promise.resolve();
   }
@@ -112,12 +116,27 @@ export class ShownRun {
 
   /** @param {import("../sim/page_worker.js").Recorded} recorded - What was simulated. */
   take({ run, columns, tours, beads }) {
-    this.data = new RunData(run, columns);
     this.tours = tours;
     this.beads = beads;
-    const { first } = this.data;
-    if (!this.scene) this.scene = new Scene(run.measures, this.data.sceneAt(first), this.data.statesAt(first));
-    this.scene.measures = run.measures;
+    this.showRun(new RunData(run, columns));
+  }
+
+  /** @param {RunData} data - A recorded run, which it shows as it is. */
+  keep(data) {
+    this.isRecorded = true;
+    this.showRun(data);
+    this.go(data.first, true);
+  }
+
+  /** @param {RunData} data */
+  showRun(data) {
+    const { first, measures, run } = data;
+    this.data = data;
+    if (!this.scene) {
+      this.scene = new Scene(measures, data.sceneAt(first), data.statesAt(first));
+      this.scene.node = this.node ?? this.scene.node;
+    }
+    this.scene.measures = measures;
     this.scene.news = run.news ?? [];
   }
 

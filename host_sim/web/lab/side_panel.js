@@ -156,8 +156,7 @@ export class SidePanel {
   /** Starts the robot with other random turns. */
   reseed() {
     if (!this.robotSeed.checkValidity() || this.robotSeed.value === "") return;
-    this.lab.lane.setUp({ seed: Number(this.robotSeed.value) });
-    this.lab.simulate(this.lab.lane);
+    this.lab.setUp({ seed: Number(this.robotSeed.value) });
   }
 
   /** Whether a change is to hold from the start of the run. */
@@ -169,10 +168,7 @@ export class SidePanel {
   choose(profile) {
     const { lane } = this.lab;
     if (!this.fromStart && lane.setup.program === undefined) this.lab.change({ do: "start", robot: lane.robot, profile });
-    else {
-      lane.setUp({ profile, program: undefined });
-      this.lab.simulate(lane);
-    }
+    else this.lab.setUp({ profile, program: undefined });
   }
 
   /**
@@ -182,10 +178,7 @@ export class SidePanel {
   set(parameter, value) {
     const { lane } = this.lab;
     if (!this.fromStart) this.lab.change({ do: "set", robot: lane.robot, parameter, value });
-    else {
-      lane.setUp({ settings: { ...lane.setup.settings, [parameter]: value } });
-      this.lab.simulate(lane);
-    }
+    else this.lab.setUp({ settings: { ...lane.setup.settings, [parameter]: value } });
   }
 
   /** @param {File[]} files */
@@ -206,8 +199,7 @@ export class SidePanel {
     const robots = lane.experiment.robots.map((it, robot) => (robot === lane.robot ? { ...it, memory } : it));
     const experiment = { ...lane.experiment, robots };
     await simulator.ask("memory", { experiment, robot: lane.robot, tick: 0 }); // it throws if they are not a memory
-    lane.setUp({ memory });
-    this.lab.simulate(lane);
+    this.lab.setUp({ memory });
     this.report(() => say("memoryBegins", { file: file.name }));
   }
 
@@ -242,7 +234,7 @@ export class SidePanel {
     }
     byId("freeze").setAttribute("aria-pressed", `${Boolean(state.frozen)}`);
     setText(byId("freeze"), say(state.frozen ? "frozen" : "freeze"));
-    typedById("undo", HTMLButtonElement).disabled = lane.experiment.changes.length === 0;
+    typedById("undo", HTMLButtonElement).disabled = lane.isRecorded || lane.experiment.changes.length === 0;
     const robot = data.robots[lane.robot];
     if (this.tab === "run") {
       this.lessons.show(scene, robot.lessonsUpTo(state.tick, scene.environment.start_tick));

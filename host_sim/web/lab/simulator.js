@@ -23,10 +23,12 @@ export class Simulator {
     this.running = undefined;
     /** The worker, when it has what it needs. */
     this.worker = this.begin(parts);
+    this.worker.catch(() => {}); // who asks is told
   }
 
   /** @param {import("./laboratory.js").Parts} parts */
-  async begin({ wasm, worker, worlds }) {
+  async begin({ wasm, worker, worlds, why }) {
+    if (why) throw new Error(why);
     const [bytes, script] = await Promise.all([inflate(wasm), inflate(worker)]);
     const begun = new Worker(URL.createObjectURL(new Blob([script], { type: "text/javascript" })));
     begun.addEventListener("message", ({ data }) => this.take(data));
@@ -67,7 +69,7 @@ export class Simulator {
     this.lastId += 1;
     const id = this.lastId;
     this.waiting.set(id, onAnswer);
-    this.worker.then((worker) => worker.postMessage({ do: what, id, asked }));
+    this.worker.then((worker) => worker.postMessage({ do: what, id, asked }), ({ message }) => this.take({ id, done: true, error: message }));
     return id;
   }
 

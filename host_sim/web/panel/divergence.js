@@ -73,10 +73,21 @@ export function partingWords(one, other) {
   const { tick, robot } = parting;
   const ended = [one, other].find(({ data }) => data && data.last < tick);
   if (ended) return say("sameUntil", { time: one.scene.clock(tick) });
+  if (one.isRecorded && tick < changedFrom(one, other)) return say("notRecorded", { time: one.scene.clock(tick) });
   const [a, b] = [one, other].map(({ data }) => data?.statesAt(Math.min(tick, data.last))[robot]);
   if (!a || !b) return "";
   const [said, otherSaid] = [a, b].map((state) => sentence(state, true, robotWords()));
   return say("partAt", { a: one.name, b: other.name, time: one.scene.clock(tick), tick, said, otherSaid, why: reasonOf(a, b) });
+}
+
+/**
+ * The first tick in which a copy of a recorded run may do something else, because a person changed it.
+ * @param {ShownRun} recorded
+ * @param {ShownRun} copy
+ */
+function changedFrom({ experiment: { robots, changes } }, { experiment: copy }) {
+  const own = copy.changes.find((change) => !changes.includes(change));
+  return copy.robots === robots ? (own?.tick ?? Infinity) : 0;
 }
 
 /**

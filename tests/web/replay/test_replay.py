@@ -36,7 +36,7 @@ def test_it_plays_and_pauses(page):
 
 
 def test_scrubbing_shows_any_tick_and_the_way_there(page):
-    middle = page.evaluate("Math.floor(octet.data.last / 2)")
+    middle = page.evaluate("Math.floor(octet.last / 2)")
     page.locator("#scrub").fill(str(middle))
     assert tick(page) == middle
     scrubbed = page.evaluate("[octet.scene.state, octet.scene.trail.length]")
@@ -51,7 +51,7 @@ def test_it_jumps_to_the_next_event_and_back(page, kind):
     page.evaluate("octet.go(10)")
     page.click("#after")
     at = tick(page)
-    assert [at, kind] in page.evaluate("octet.robot.run.events")
+    assert [at, kind] in page.evaluate("octet.lane.data.robots[0].run.events")
     assert at > 10
     page.evaluate("tick => octet.go(tick + 1)", at)
     page.click("#before")
@@ -60,7 +60,7 @@ def test_it_jumps_to_the_next_event_and_back(page, kind):
 
 def test_it_compares_the_memory_at_two_times(page):
     page.click("#pin")
-    page.evaluate("octet.go(octet.data.last)")
+    page.evaluate("octet.go(octet.last)")
     wait_for(page, "document.querySelectorAll('.cell.changed').length > 0")
     assert "then: empty" in page.inner_text("#cells .changed >> nth=0")
     page.click("#pin")
@@ -68,11 +68,13 @@ def test_it_compares_the_memory_at_two_times(page):
 
 
 def test_keyboard_alone(page):
+    page.select_option("#kind", "trial")
+    page.focus("#scrub")
     page.keyboard.press("ArrowRight")
     page.keyboard.press("Shift+ArrowRight")
     assert tick(page) == 51
     page.keyboard.press("End")
-    assert tick(page) == page.evaluate("octet.data.last")
+    assert tick(page) == page.evaluate("octet.last")
     page.keyboard.press("Home")
     page.keyboard.press("n")
     assert page.evaluate("octet.scene.state.reason") == 5
@@ -82,6 +84,7 @@ def test_keyboard_alone(page):
 
 def say(page: Page, sentence: str, who: str = "robot") -> str:
     """What is answered to a sentence."""
+    page.click("#tab-talk")
     page.select_option("#talk-who", who)
     page.fill("#talk-line", sentence)
     page.press("#talk-line", "Enter")
@@ -90,7 +93,7 @@ def say(page: Page, sentence: str, who: str = "robot") -> str:
 
 
 def test_the_robot_answers_from_the_run_and_what_it_means_lights_up(page):
-    page.evaluate("octet.go(octet.data.last)")
+    page.evaluate("octet.go(octet.last)")
 
     assert say(page, "What have you learned?").startswith("[log]")
 
@@ -102,7 +105,7 @@ def test_the_robot_answers_from_the_run_and_what_it_means_lights_up(page):
 
 
 def test_a_time_in_an_answer_shows_that_time_and_the_place_is_marked(page):
-    page.evaluate("octet.go(octet.data.last)")
+    page.evaluate("octet.go(octet.last)")
     say(page, "When was your last meal?")
     at = page.evaluate("octet.talk.history.at(-1).said.ticks.at(-1)")
     place = page.evaluate("octet.scene.meant.places.at(-1)")
@@ -115,6 +118,7 @@ def test_a_time_in_an_answer_shows_that_time_and_the_place_is_marked(page):
 
 
 def test_keys_in_the_line_are_no_keys_of_the_page(page):
+    page.click("#tab-talk")
     page.click("#talk-line")
     page.keyboard.type("n w p end")
 

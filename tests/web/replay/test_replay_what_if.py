@@ -1,11 +1,11 @@
-"""What if? on the page of a recorded run: the firmware runs on from any tick with whatever is changed."""
+"""A recorded run is changed on its page: the firmware runs on, in a copy, from any tick with whatever is changed."""
 
 import re
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Frame, Page
+from playwright.sync_api import Page
 
 from tests.runs.support import octet
 from tests.web.fake_run import HOME
@@ -13,9 +13,9 @@ from tests.web.looks import TOO_SMALL, resize, violations_at
 from tests.web.support import wait_for, wait_for_text
 
 PHONES = [(390, 844), (844, 390)]
-LABORATORY = re.compile(r'<script type="application/json" id="laboratory">.*?</script>', re.DOTALL)
-REPEATED = "document.querySelector('#what-if-news').textContent.startsWith('A is')"
-SAME = "A is the recorded run, tick for tick; B is yours to change."
+RECORDED = re.compile(r'"recorded":\{.*?\}')
+COPIED = "octet.lanes.length === 2 && octet.lane.data && !octet.lane.isRunning"
+SAME = "They do the same until the end."
 
 
 @pytest.fixture(scope="module")
@@ -36,63 +36,65 @@ def plain(page_of) -> Path:
     return page_of("--environments", "1", "--seed", "3", "--profile", "adaptive", "--set", "turn_deg=15")
 
 
-def ask(page: Page, tick: int) -> Frame:
-    """Opens the laboratory at a tick."""
+def ask(page: Page, tick: int) -> None:
+    """Lays a copy beside the run at a tick."""
     page.evaluate("tick => octet.go(tick)", tick)
     page.click("#what-if")
-    wait_for(page, REPEATED)
-    return page.frames[1]
+    simulated(page)
 
 
-def simulated(lab: Frame) -> None:
-    wait_for(lab, "octet.simulator.running === undefined && octet.simulator.queued.size === 0")
+def simulated(page: Page) -> None:
+    wait_for(page, COPIED)
 
 
-def test_the_recorded_run_is_repeated_and_a_changed_cell_makes_another_future(plain, open_page):
+def test_the_run_is_repeated_and_a_changed_cell_makes_another_future(plain, open_page):
     page = open_page(plain.as_uri())
-    lab = ask(page, 800)
-    assert page.inner_text("#what-if-news") == SAME
-    assert lab.evaluate("[octet.tick, octet.lane.name, octet.lanes.length]") == [800, "copy", 2]
+    ask(page, 800)
+    wait_for_text(page, "#parting", SAME)
+    assert page.evaluate("[octet.tick, octet.lane.name, octet.lanes.length]") == [800, "copy", 2]
 
-    lab.click("#cells li:nth-child(2) button")
-    simulated(lab)
+    page.click("#cells li:nth-child(2) button")
+    simulated(page)
 
-    wait_for_text(lab, "#parting", "They diverge at")
-    tick = lab.evaluate("Number(/tick (\\d+)/.exec(document.querySelector('#parting').textContent)[1])")
-    x = "octet.lanes.map((lane) => [...lane.data.robots[0].columns.x])"
-    recorded, changed = lab.evaluate(x)
+    wait_for_text(page, "#parting", "They diverge at")
+    tick = page.evaluate("Number(/tick (\\d+)/.exec(document.querySelector('#parting').textContent)[1])")
+    recorded, changed = page.evaluate("octet.lanes.map((lane) => [...lane.data.robots[0].columns.x])")
     assert tick > 800
-    assert recorded == page.evaluate("[...octet.robot.columns.x]")
     assert recorded[:tick] == changed[:tick]
     assert recorded != changed
 
 
-@pytest.mark.parametrize("change", ["behaviour", "parameter", "obstacle"])
-def test_a_behaviour_a_parameter_or_an_obstacle_makes_another_future(plain, open_page, change):
-    lab = ask(open_page(plain.as_uri()), 500)
+@pytest.mark.parametrize("change", ["cell", "behaviour", "parameter", "from the start", "obstacle"])
+def test_a_change_of_the_recorded_run_itself_is_made_in_a_copy(plain, open_page, change):
+    page = open_page(plain.as_uri())
+    page.evaluate("octet.go(500)")
 
-    if change == "behaviour":
-        lab.select_option("#behaviour", "searcher")
+    if change == "cell":
+        page.click("#cells li:nth-child(2) button")
+    elif change == "obstacle":
+        page.click("#add-bar")
     elif change == "parameter":
-        lab.click("#tab-parameters")
-        lab.locator(".slider input").first.fill("90")
-        lab.locator(".slider input").first.dispatch_event("change")
+        page.click("#tab-parameters")
+        page.locator(".slider input").first.fill("90")
+        page.locator(".slider input").first.dispatch_event("change")
     else:
-        lab.click("#add-bar")
-    simulated(lab)
+        page.select_option("#when", "now" if change == "behaviour" else "start")
+        page.select_option("#behaviour", "searcher")
+    simulated(page)
 
-    wait_for_text(lab, "#parting", "They diverge at")
+    wait_for_text(page, "#parting", "They diverge at")
+    assert page.evaluate("octet.lanes.map(({ isRecorded }) => isRecorded)") == [True, False]
 
 
 def test_a_future_goes_on_where_the_recorded_run_was_ended_early(page_of, open_page):
     page = open_page(page_of("--environments", "1", "--limit-s", "6").as_uri())
-    lab = ask(page, 100)
-    assert page.inner_text("#what-if-news") == SAME
+    ask(page, 100)
+    wait_for_text(page, "#parting", SAME)
 
-    lab.select_option("#behaviour", "fixed")
-    simulated(lab)
+    page.select_option("#behaviour", "fixed")
+    simulated(page)
 
-    assert lab.evaluate("octet.lanes[1].last") == page.evaluate("octet.data.last") == 299
+    assert page.evaluate("octet.lanes.map(({ last }) => last)") == [299, 299]
 
 
 def test_several_robots_and_their_memories_are_repeated(page_of, open_page, tmp_path):
@@ -102,82 +104,68 @@ def test_several_robots_and_their_memories_are_repeated(page_of, open_page, tmp_
     page = open_page(page_of(*words).as_uri())
     page.keyboard.press("2")
 
-    lab = ask(page, 300)
+    ask(page, 300)
 
-    assert page.inner_text("#what-if-news") == SAME
-    assert lab.evaluate("octet.scene.node") == 2
+    wait_for_text(page, "#parting", SAME)
+    assert page.evaluate("octet.scene.node") == 2
 
 
 def test_a_run_that_it_repeats_otherwise_is_told(plain, page_of, open_page, tmp_path):
-    other = LABORATORY.search(page_of("--environments", "1", "--seed", "4").read_text())[0]
+    other = RECORDED.search(page_of("--environments", "1", "--seed", "4").read_text())[0]
     mixed = tmp_path / "mixed.html"
-    mixed.write_text(LABORATORY.sub(lambda _: other, plain.read_text()))
+    mixed.write_text(RECORDED.sub(lambda _: other, plain.read_text()))
     page = open_page(mixed.as_uri())
 
     ask(page, 10)
 
-    assert page.inner_text("#what-if-news").startswith("A is not the recorded run: it differs from ")
+    wait_for_text(page, "#parting", "The copy is not the recorded run: it differs from ")
 
 
-def test_a_run_that_it_cannot_repeat_is_told_on_the_page(plain, open_page, tmp_path):
+@pytest.mark.parametrize(
+    ("damage", "why"),
+    [((r'"world":".*?[^\\]"', '"world":"nothing"'), "not a world file"), ((r'"wasm":"[^"]{1000}', '"wasm":"'), "")],
+)
+def test_a_run_that_it_cannot_repeat_is_told_on_the_page(plain, open_page, tmp_path, damage, why):
     broken = tmp_path / "broken.html"
-    broken.write_text(re.sub(r'"world":".*?[^\\]"', '"world":"nothing"', plain.read_text()))
+    broken.write_text(re.sub(*damage, plain.read_text()))
     page = open_page(broken.as_uri())
 
     page.click("#what-if")
 
-    wait_for_text(page, "#no-what-if", "that is not a world file")
-    assert not page.evaluate("document.querySelector('dialog').open")
+    wait_for(page, "why => document.querySelector('#note').textContent.includes(why || ' ')", why)
+    assert page.evaluate("octet.lanes.length") == 1
 
 
-def test_a_damaged_laboratory_is_told_on_the_page(plain, open_page, tmp_path):
-    broken = tmp_path / "broken.html"
-    broken.write_text(re.sub(r'{"page":"[^"]{1000}', '{"page":"', plain.read_text()))
-    page = open_page(broken.as_uri())
-
-    page.click("#what-if")
-
-    wait_for(page, "document.querySelector('#no-what-if').textContent !== ''")
-    assert not page.evaluate("document.querySelector('dialog').open")
-
-
-def test_it_closes_and_the_recorded_run_is_where_it_was(plain, open_page):
+def test_a_new_run_takes_the_place_of_the_recorded_one_until_that_is_asked_back(plain, open_page):
     page = open_page(plain.as_uri())
-    ask(page, 700)
+    assert not page.is_visible("#back")
 
+    page.click("#new-run button")
+    wait_for(page, "octet.lane.data && !octet.lane.isRunning")
+    assert page.evaluate("octet.lane.isRecorded") is False
     page.click("#back")
 
-    wait_for(page, "document.querySelector('iframe') === null")
-    assert page.evaluate("octet.tick") == 700
-    page.keyboard.press("w")
-    wait_for(page, REPEATED)
-    page.keyboard.press("ArrowRight")
-    assert page.evaluate("octet.tick") == 700
-
-
-def test_keys_leave_the_recorded_run_where_it_is_while_the_laboratory_opens(plain, open_page):
-    page = open_page(plain.as_uri())
-
-    press = "document.body.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true }))"
-    page.evaluate(f"['w', 'ArrowRight'].forEach((key) => {press})")
-
-    assert page.evaluate("[octet.tick, document.querySelector('dialog').open]") == [0, True]
+    wait_for(page, "window.octet?.lane.isRecorded")
 
 
 def test_a_page_without_it_says_how_to_get_it(recorded, open_page):
     page = open_page(recorded.as_uri())
-
-    page.click("#what-if")
-
     command = "tools/octet replay out/run.log --html out/replay.html --what-if"
-    wait_for_text(page, "#no-what-if", f"This command writes one that does: {command}")
+
+    for button in ("#what-if", "#add-bar", "#tab-lessons", "#cells li:nth-child(2) button"):
+        page.evaluate("document.querySelector('#note').textContent = ''")
+        page.click(button, force=True)  # it is marked as disabled
+        wait_for_text(page, "#note", f"This command writes one that does: {command}")
+
+    assert page.get_attribute("#behaviour", "title").endswith(command)
+    assert page.evaluate("octet.lanes.length") == 1
 
 
 def test_axe_finds_nothing_and_fingers_hit_everything(plain, open_page):
     def serve(page: Page) -> None:
         page.route(HOME, lambda route: route.fulfill(body=plain.read_text(), content_type="text/html"))
 
-    page = open_page(HOME, prepare=serve)  # axe-core cannot reach into a frame of a file
+    page = open_page(HOME, prepare=serve)  # as a live run's page is
     ask(page, 400)
 
     assert violations_at(page) == []
