@@ -54,9 +54,9 @@ def _hold(arguments: argparse.Namespace) -> int:
 
     from host_sim.live.class_roster import Roster
     from host_sim.live.listener import Listener
-    from host_sim.report.octet_page import octet_page
+    from host_sim.report.octet_page import class_page
 
-    roster, page = Roster(arguments.file), octet_page()
+    roster, page = Roster(arguments.file), class_page()
     listener = Listener(arguments.listen, arguments.port)
     try:
         asyncio.run(_serve(roster, listener, page))

@@ -20,10 +20,6 @@ _BODY_MAX = 16_384
 """Maximum size of a report, bytes."""
 
 _SAVE_S = 1.0
-_NO_NETWORK, _OWN_SERVER = "default-src 'none';", "default-src 'none'; connect-src 'self';"
-_MARK = '<meta name="octet-class" content="">'
-"""An element in the head by which the page knows that it reports to a class."""
-
 _PAGE, _BOARD = "page", "board"
 
 
@@ -38,11 +34,11 @@ class ClassServer(PageServer):
         Args:
             roster: The class.
             listener: The socket to serve on.
-            page: The page that `tools/octet page` writes.
+            page: The page of each pupil.
         """
         super().__init__(listener, _BODY_MAX)
         self._roster = roster
-        self._page_text = page.replace(_NO_NETWORK, _OWN_SERVER, 1).replace("<title", f"{_MARK}\n<title", 1)
+        self._page_text = page
         self.add_routes(
             web.get("/", self._page),
             web.post("/report", self._report),

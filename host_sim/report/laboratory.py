@@ -23,8 +23,7 @@ from host_sim.sim.world_record import WorldRecord
 _WORLD_MAX = 16_000_000
 
 NO_FIRMWARE = {
-    "why": "This page contains no firmware. "
-    "This command writes one that does: tools/octet replay out/run.log --html out/replay.html --what-if"
+    "why": "This page has no firmware; to add it: tools/octet replay out/run.log --html out/replay.html --what-if"
 }
 """Why the page of a run repeats nothing if the firmware was not built for pages."""
 

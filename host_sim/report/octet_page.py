@@ -10,12 +10,14 @@ from host_sim.base.files import write_bytes
 from host_sim.base.paths import PACKAGE, PAGE_WASM
 from host_sim.protocol.generated import PARAMETERS
 from host_sim.recording.state import measures
-from host_sim.report.page_bundle import bundle, packed, page_of, with_data
+from host_sim.report.page_bundle import bundle, packed, packed_page, page_of, with_data
 from host_sim.report.speakers import with_speakers
 from host_sim.world.names import STILL_WORLDS
 from host_sim.world.worlds import world_of
 
 _TEMPLATE, _WORKER = "octet.html", "sim/page_worker.js"
+_MARK = '<meta name="octet-class" content="">'
+"""An element in the head by which the page knows that it reports to a class."""
 
 
 def write_octet_page(path: Path) -> int:
@@ -24,9 +26,19 @@ def write_octet_page(path: Path) -> int:
     Raises:
         OctetError: The WebAssembly is not built, or the file cannot be written.
     """
-    text = octet_page().encode()
+    text = packed_page(octet_page()).encode()
     write_bytes(path, text)
     return len(text)
+
+
+def class_page() -> str:
+    """The page of a pupil, which reports to its server.
+
+    Raises:
+        OctetError: The WebAssembly is not built.
+    """
+    allowed = octet_page().replace("default-src 'none';", "default-src 'none'; connect-src 'self';", 1)
+    return packed_page(allowed.replace("<title", f"{_MARK}\n<title", 1))
 
 
 def octet_page(laboratory: Mapping[str, Any] | None = None) -> str:

@@ -2,8 +2,8 @@
 
 In the page:
 - `<link rel="stylesheet" href="X">` becomes the style sheet;
-- `<script type="module" src="X"></script>` becomes a script that unpacks and runs that module, after all modules that
-  it imports, directly or not, each in its own function. An import must be one line, `import { a, b } from "./y.js";`,
+- `<script type="module" src="X"></script>` becomes a script that runs that module, after all modules that it imports,
+  directly or not, each in its own function. An import must be one line, `import { a, b } from "./y.js";`,
   an export the word before a declaration. A module in a folder of `web/` is known by its path from there,
   `folder/y.js`.
 
@@ -24,14 +24,35 @@ from host_sim.talk.languages import as_script, template, with_languages
 _STYLE = re.compile(r'<link rel="stylesheet" href="([\w./-]+)">')
 _SPACE, _CLOSED = re.compile(r"\s*([{};,])\s*|(?<=\w)(:)\s+"), r"\1\2"
 _SCRIPT = re.compile(r'<script type="module" src="([\w./-]+)"></script>')
-_UNPACK = """<script type="module">
-const packed = Uint8Array.from(atob("{data}"), (sign) => sign.charCodeAt(0));
-const script = document.createElement("script");
-script.type = "module";
-const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
-script.textContent = await new Response(unpacked).text();
-document.head.append(script);
-</script>"""
+_NO_SCRIPT = re.compile(r"<noscript>.*?</noscript>", re.DOTALL)
+_SIGNS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;,=>?@^_`{|}~"
+"""The digits of `b85encode`, but for one that would mean something in HTML."""
+_UNPACK = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<title>Octet</title>
+</head>
+<body>
+NO_SCRIPT
+<script type="module">
+const signs = "SIGNS";
+const text = "DATA";
+const view = new DataView(new ArrayBuffer(4 * Math.ceil(text.length / 5)));
+for (let i = 0; i < text.length; i += 5) {
+  let value = 0;
+  for (let j = i; j < i + 5; j += 1) value = 85 * value + (j < text.length ? signs.indexOf(text[j]) : 84);
+  view.setUint32((4 * i) / 5, value);
+}
+const packed = new Blob([view.buffer.slice(0, SIZE)]).stream().pipeThrough(new DecompressionStream("deflate"));
+const page = await new Response(packed).text();
+document.open();
+document.write(page);
+document.close();
+</script>
+</body>
+</html>
+"""
 _IMPORT = re.compile(r'^import (\{[^}]*\}) from "(\.\.?/[\w./-]+)";$', re.MULTILINE)
 _COMMENT = re.compile(r"^[ \t]*(?:/\*[^*]*\*+(?:[^/*][^*]*\*+)*/|//[^\n]*)\n", re.MULTILINE)
 _NOT_READ = re.compile(r"^\s+|/\*\* @type [^*]*\*/ ?", re.MULTILINE)
@@ -44,7 +65,15 @@ def page_of(name: str) -> str:
         lambda match: f"<style>\n{_SPACE.sub(_CLOSED, _read(match[1]))}</style>",
         with_languages(_plain(template(name))),
     )
-    return _SCRIPT.sub(lambda match: _UNPACK.replace("{data}", packed(bundle(match[1]))), text)
+    return _SCRIPT.sub(lambda match: f'<script type="module">\n{bundle(match[1])}</script>', text)
+
+
+def packed_page(page: str) -> str:
+    """A page that unpacks itself: about half as large."""
+    data = zlib.compress(page.encode(), 9)
+    text = base64.b85encode(data).decode("ascii").replace("<", ",")
+    parts = {"SIGNS": _SIGNS, "SIZE": f"{len(data)}", "DATA": text, "NO_SCRIPT": "".join(_NO_SCRIPT.findall(page))}
+    return re.sub("|".join(parts), lambda match: parts[match[0]], _UNPACK)
 
 
 def with_data(text: str, element_id: str, data: object) -> str:

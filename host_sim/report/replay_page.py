@@ -30,6 +30,9 @@ heading is in mrad:
 
     x y heading lifted feel bump beacon left right reason repeat_count action pattern frozen
 
+Two are stored so that they seldom change: `right` as the sum of left and right, and `heading` less the sum of
+(left - right) >> 3 up to its tick, which is nearly what the wheels turn the robot by.
+
 A column is stored as its differences, the first from 0, each zigzag-encoded (0, -1, 1, -2, ... is 0, 1, 2, 3, ...)
 as a 32-bit number, in planes: the low bytes of all `ticks` differences, then the next higher bytes, and so on. In
 JavaScript, with the inflated bytes b, column c, n ticks and value = 0 before the first:
@@ -43,7 +46,8 @@ import base64
 import struct
 import zlib
 from collections.abc import Iterable, Mapping, Sequence
-from operator import sub
+from itertools import accumulate
+from operator import add, sub
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -53,7 +57,7 @@ from host_sim.recording.state import measures
 from host_sim.recording.trajectory import RobotTrack, Trajectory
 from host_sim.report.laboratory import NO_FIRMWARE
 from host_sim.report.octet_page import octet_page
-from host_sim.report.page_bundle import with_data
+from host_sim.report.page_bundle import packed_page, with_data
 
 T = TypeVar("T", bound=tuple[Any, ...])
 
@@ -127,7 +131,7 @@ def pack(columns: Iterable[Sequence[int]]) -> str:
     Args:
         columns: A number for each tick; differences from tick to tick must fit in 31 bits.
     """
-    stream = zlib.compressobj()
+    stream = zlib.compressobj(9)
     parts = [stream.compress(_planes(column)) for column in columns]
     return base64.b64encode(b"".join([*parts, stream.flush()])).decode("ascii")
 
@@ -141,12 +145,17 @@ def _planes(column: Sequence[int]) -> bytes:
 
 def page(run: dict[str, Any], laboratory: Mapping[str, Any] = NO_FIRMWARE) -> str:
     """The page's HTML."""
-    return with_data(octet_page(laboratory), "run", run)
+    return packed_page(with_data(octet_page(laboratory), "run", run))
 
 
 def _column(track: RobotTrack, name: str) -> Sequence[int]:
-    """A column as integers."""
-    if name not in _POSE:
-        return track.column(ROW[COLUMNS[name]])
+    """A column as integers, as it is stored."""
+    if name in COLUMNS:
+        values: Sequence[int] = track.column(ROW[COLUMNS[name]])
+        return list(map(add, values, _column(track, "left"))) if name == "right" else values
     axis, scale = _POSE[name]
-    return [round(value * scale) for value in track.poses_flat[axis :: len(_POSE)]]
+    values = [round(value * scale) for value in track.poses_flat[axis :: len(_POSE)]]
+    if name != "heading":
+        return values
+    left, right = (track.column(ROW[COLUMNS[side]]) for side in ("left", "right"))
+    return list(map(sub, values, accumulate(speed >> 3 for speed in map(sub, left, right))))

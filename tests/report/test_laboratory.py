@@ -1,9 +1,6 @@
 """What the page of a run has so that its future can be changed, and what it says where it has not."""
 
-import base64
 import json
-import re
-import zlib
 from pathlib import Path
 
 import pytest
@@ -12,8 +9,10 @@ from host_sim.cli import replay_command
 from host_sim.protocol.codec import Frame
 from host_sim.recording.log_reader import read_log
 from host_sim.report import octet_page as octet_page_module
+from host_sim.report.laboratory import NO_FIRMWARE
 from host_sim.report.octet_page import octet_page
-from tests.runs.support import octet, octet_process
+from host_sim.report.page_bundle import packed_page
+from tests.runs.support import data_in, octet, octet_process
 
 
 @pytest.fixture
@@ -29,29 +28,30 @@ def run_of(tmp_path: Path):
 
 
 def laboratory_in(page: Path) -> dict:
-    element = r'<script type="application/json" id="laboratory">(.*?)</script>'
-    text = re.search(element, page.read_text(), re.DOTALL)[1]
-    return json.loads(text) if text else {}
+    """The parts of a page; of their wasm and worker only that they are there."""
+    parts = data_in(page.read_text(), "parts")
+    return {name: bool(part) if name in ("wasm", "worker") else part for name, part in parts.items()}
 
 
-def test_the_page_holds_octet_html_and_what_the_robots_were_told(run_of, tmp_path):
+def test_the_page_holds_the_firmware_and_what_the_robots_were_told(run_of, tmp_path):
     log, page = run_of("--robots", "2", "--set", "turn_deg=20"), tmp_path / "page.html"
 
     done = octet("replay", log, "--html", page, "--what-if")
 
     assert (done.returncode, done.stderr) == (0, "")
     held = laboratory_in(page)
-    assert zlib.decompress(base64.b64decode(held["page"])).decode() == octet_page()
-    assert held["run"]["ticks"] == 200
-    assert json.loads(held["run"]["world"])["robots"] == 2
+    run = held["recorded"]
+    assert [held["wasm"], held["worker"]] == [True, True]
+    assert run["ticks"] == 200
+    assert json.loads(run["world"])["robots"] == 2
     commands = [line.frame for line in read_log(log) if line.frame.id in (0x021, 0x022)]
-    told = [Frame(0x021 + robot, bytes.fromhex(digits)) for _, robot, digits in held["run"]["commands"]]
+    told = [Frame(0x021 + robot, bytes.fromhex(digits)) for _, robot, digits in run["commands"]]
     assert told == commands
-    assert {tick for tick, *_ in held["run"]["commands"]} == {0, 200}
+    assert {tick for tick, *_ in run["commands"]} == {0, 200}
 
 
 def test_octet_html_is_small_enough_for_a_slow_line():
-    assert len(octet_page().encode()) <= 400_000
+    assert len(packed_page(octet_page()).encode()) <= 260_000
 
 
 def test_a_run_writes_into_its_page_what_its_log_says(tmp_path):
@@ -62,8 +62,9 @@ def test_a_run_writes_into_its_page_what_its_log_says(tmp_path):
     assert (done.returncode, done.stderr) == (0, "")
     octet_process("replay", tmp_path / "run.log", "--html", tmp_path / "page.html")
     [own, replayed] = [laboratory_in(tmp_path / name) for name in ("replay.html", "page.html")]
-    assert [own["page"], own["run"]["world"]] == [replayed["page"], replayed["run"]["world"]]
-    assert sorted(own["run"]["commands"]) == sorted(replayed["run"]["commands"])
+    told = [sorted(it["recorded"].pop("commands")) for it in (own, replayed)]
+    assert told[0] == told[1]
+    assert own == replayed
 
 
 def test_a_page_is_without_it_where_the_firmware_was_not_built_for_pages(run_of, tmp_path, monkeypatch):
@@ -73,7 +74,9 @@ def test_a_page_is_without_it_where_the_firmware_was_not_built_for_pages(run_of,
     done = octet("replay", log, "--html", page)
 
     assert (done.returncode, done.stderr) == (0, "")
-    assert laboratory_in(page) == laboratory_in(log.with_name("replay.html")) == {}
+    assert laboratory_in(page) == laboratory_in(log.with_name("replay.html"))
+    assert NO_FIRMWARE.items() <= laboratory_in(page).items()
+    assert "wasm" not in laboratory_in(page)
 
 
 def test_what_must_be_built_for_it_is_named(run_of, tmp_path, monkeypatch):
@@ -106,7 +109,7 @@ def test_a_run_in_an_unknown_world_says_so(run_of, tmp_path):
     done = octet("replay", run_of(), "--html", page, "--no-world", "--what-if")
 
     assert done.stderr == "octet: What if? needs the world of the run, which is not known here.\n"
-    assert laboratory_in(page) == {"why": "What if? needs the world of the run, which is not known here."}
+    assert laboratory_in(page)["why"] == "What if? needs the world of the run, which is not known here."
 
 
 def test_it_is_for_a_page(run_of):

@@ -1,9 +1,9 @@
 """The page of a run: small, whole, and true."""
 
 import base64
-import json
 import re
 import zlib
+from itertools import accumulate
 
 import numpy as np
 import pytest
@@ -15,9 +15,12 @@ from host_sim.recording.resimulation import resimulate
 from host_sim.recording.state_types import State
 from host_sim.recording.trajectory import Trajectory, at
 from host_sim.report import page_bundle
+from host_sim.report.octet_page import class_page
 from host_sim.report.replay_page import pack, page, run_data, write_page
 from host_sim.talk import languages
 from tests.recording.support import record_run
+from tests.runs.support import data_in
+from tests.runs.support import unpacked as unpacked_page
 
 SVG = "http://www.w3.org/2000/svg"
 """The name of a language, which nobody fetches."""
@@ -46,8 +49,7 @@ def state_in(run: dict, robot: dict, columns: dict[str, list[int]], tick: int) -
 
 
 def run_in(text: str) -> dict:
-    match = re.search(r'<script type="application/json" id="run">(.*?)</script>', text, re.DOTALL)
-    return json.loads(match[1])
+    return data_in(text, "run")
 
 
 def test_the_page_has_the_state_of_every_tick(kept, tmp_path):
@@ -57,6 +59,9 @@ def test_the_page_has_the_state_of_every_tick(kept, tmp_path):
 
     robot = run["robots"][0]
     columns = dict(zip(robot["columns"], unpacked(robot["data"], len(robot["columns"])), strict=True))
+    columns["right"] = [both - left for both, left in zip(columns["right"], columns["left"], strict=True)]
+    turned = accumulate((left - right) >> 3 for left, right in zip(columns["left"], columns["right"], strict=True))
+    columns["heading"] = [rest + so_far for rest, so_far in zip(columns["heading"], turned, strict=True)]
     for tick in (*range(0, kept.trajectory.ticks, 61), kept.trajectory.ticks - 1):
         assert state_in(run, robot, columns, tick) == kept.trajectory.at(tick)
     assert run["ticks"] == kept.trajectory.ticks
@@ -110,14 +115,14 @@ def test_modules_come_once_each_after_what_they_need(tmp_path, monkeypatch):
         monkeypatch.setattr(module, "WEB", tmp_path)
     (tmp_path / "common").mkdir()
     (tmp_path / "common/style.html").write_text('<link rel="stylesheet" href="s.css">\n')
-    (tmp_path / "replay.html").write_text('  <!-- common/style.html -->\n<script type="module" src="a.js"></script>')
+    (tmp_path / "page.html").write_text('  <!-- common/style.html -->\n<script type="module" src="a.js"></script>')
     (tmp_path / "s.css").write_text("p { margin: 0 }\n")
     (tmp_path / "a.js").write_text('import { b } from "./b.js";\nimport { C, d } from "./c.js";\nb(C, d);\n')
     (tmp_path / "b.js").write_text('import { C } from "./c.js";\nexport const b = C;\n')
     (tmp_path / "c.js").write_text('export class C {}\nexport async function d() { return "</script>"; }\n')
 
-    text = page({})
-    script = zlib.decompress(base64.b64decode(re.search(r'atob\("(.+)"\)', text)[1])).decode()
+    text = page_bundle.page_of("page.html")
+    script = text.partition('<script type="module">')[2].partition("</script>")[0]
 
     assert "<style>\np{margin:0}</style>" in text
     assert page_bundle.modules_of("a.js") == ["c.js", "b.js", "a.js"]
@@ -168,12 +173,18 @@ def test_a_page_that_cannot_be_written_is_one_line(short, tmp_path, capsys, name
     assert re.fullmatch(r"octet: cannot write .*\n", capsys.readouterr().err)
 
 
-@pytest.mark.parametrize("name", ["octet.html", "replay.html"])
-def test_a_page_that_is_written_as_a_file_may_load_nothing(name):
-    text = page_bundle.page_of(name)
+def test_a_page_that_is_written_as_a_file_may_load_nothing():
+    text = page_bundle.page_of("octet.html")
 
     policy = re.search(r'<meta http-equiv="Content-Security-Policy" content="([^"]*)">', text)
     assert policy is not None
     assert policy[1].startswith("default-src 'none'; ")
     assert "http" not in policy[1]
     assert text.index(policy[0]) < text.index("<script")
+
+
+def test_the_page_of_a_class_may_reach_its_server_and_says_that_it_is_one():
+    text = unpacked_page(class_page())
+
+    assert "default-src 'none'; connect-src 'self'; " in text
+    assert '<meta name="octet-class"' in text

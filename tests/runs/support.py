@@ -1,5 +1,6 @@
 """Whole runs, and what they leave behind."""
 
+import base64
 import contextlib
 import io
 import json
@@ -8,9 +9,11 @@ import signal
 import subprocess
 import sys
 import time
+import zlib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 from unittest import mock
 
 from host_sim.cli.main import main
@@ -69,6 +72,18 @@ def octet_process(*words: str | Path, **kwargs) -> Ended:
     """`tools/octet WORDS` as a person starts it, without setting up anew."""
     command = [sys.executable, "-m", "host_sim", *map(os.fspath, words)]
     return subprocess.run(command, capture_output=True, text=True, check=False, **kwargs)
+
+
+def data_in(html: str, name: str) -> Any:
+    """The data in an element of a page."""
+    text = unpacked(html).partition(f'<script type="application/json" id="{name}">')[2].partition("</script>")[0]
+    return json.loads(text)
+
+
+def unpacked(html: str) -> str:
+    """What the one script of a page writes into it."""
+    data = html.partition('const text = "')[2].partition('"')[0].replace(",", "<")
+    return zlib.decompress(base64.b85decode(data)).decode() if data else html
 
 
 def is_right(memory: Sequence[int]) -> bool:

@@ -10,7 +10,7 @@ from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.crates import Crates
 from host_sim.world.edits import Edit
-from tests.runs.support import octet
+from tests.runs.support import octet, unpacked
 
 BLIND = [word for sensor in ("front", "front-left", "front-right") for word in ("--change", f"stuck-off:{sensor}@0s")]
 BRIEF = ("--world", "crates", "--environments", "2", "--limit-s", "20", "--seed", "2", *BLIND)
@@ -30,7 +30,7 @@ def test_a_run_is_the_same_over_another_bus_and_repeated_from_its_log(run):
 
 def test_pushes_are_no_news_and_their_page_says_why_it_cannot_ask_what_if(run):
     done = run(*BRIEF, "--bus", "none")
-    page = (done.out / "replay.html").read_text()
+    page = unpacked((done.out / "replay.html").read_text())
 
     assert "What if? cannot repeat this run: pymunk moved its crates." in page
     assert not any("push" in sentence for _, sentence in resimulate(done.out / "run.log").trajectory.news)

@@ -16,6 +16,7 @@ from host_sim.sim.robot_process import RobotProcess
 from tests.runs.support import (
     BUSY_HOST,
     DEADLINE_S,
+    data_in,
     octet,
     octet_process,
     robot_of,
@@ -31,8 +32,7 @@ LONG = ("--environments", "30", "--bus", "fd", "--seed", "8")
 
 def title(out: Path) -> str:
     """The title of the page."""
-    text = (out / "replay.html").read_text().partition('id="run">')[2].partition("</script>")[0]
-    return json.loads(text)["title"]
+    return data_in((out / "replay.html").read_text(), "run")["title"]
 
 
 def assert_whole(out: Path, seed: int) -> None:

@@ -27,6 +27,7 @@ from host_sim.report.laboratory import laboratory
 from host_sim.sim import own_brain
 from host_sim.sim.in_process_link import InProcessLink
 from host_sim.sim.world_record import Source, WorldRecord
+from tests.runs.support import unpacked
 
 TEMPLATE = ROOT / "host_sim/program/own/mine.c"
 WRONG = parse_toml((Path(__file__).parent / "wrong_brains.toml").read_text())
@@ -340,7 +341,7 @@ def test_the_file_s_name_and_sha256_are_in_what_a_run_leaves(tmp_path):
     own = {"name": "mine.c", "sha256": sha256(TEMPLATE)}
     assert json.loads((out / "summary.json").read_text())["own"] == own
     assert json.loads((out / "run.world.json").read_text())["own"] == {**own, "source": TEMPLATE.read_text()}
-    page = (out / "replay.html").read_text()
+    page = unpacked((out / "replay.html").read_text())
     assert f"seed 1, mine.c (SHA-256 {own['sha256'][:12]})" in page
 
 

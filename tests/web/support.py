@@ -15,7 +15,7 @@ from playwright.sync_api import Frame, Page
 
 from host_sim.protocol.codec import DecodedFrame, Protocol
 from host_sim.recording.log_reader import read_log
-from tests.runs.support import ROOT, start_octet
+from tests.runs.support import ROOT, data_in, start_octet
 
 READY = "window.octet?.scene?.state"
 """Whether a page shows a run."""
@@ -103,8 +103,7 @@ class Faults:
 
 def run_in(page: Path) -> dict[str, Any]:
     """The run in the page of a recorded run, but for its title."""
-    text = page.read_text().partition('<script type="application/json" id="run">')[2].partition("</script>")[0]
-    return {**json.loads(text), "title": None}
+    return {**data_in(page.read_text(), "run"), "title": None}
 
 
 def state(page: Page) -> dict[str, Any]:
@@ -150,7 +149,7 @@ def full_speed(page: Page) -> None:
 
 def place_on_page(page: Page, x: float, y: float) -> tuple[float, float]:
     """Where a place of the arena is on the page."""
-    box = page.locator("#arena").bounding_box()
+    box = page.locator("#arena, .lane canvas").first.bounding_box()
     assert box is not None
     per_mm = box["width"] / (4000 + 80)
     return box["x"] + (x + 40) * per_mm, box["y"] + (y + 40) * per_mm

@@ -25,7 +25,6 @@ SAID_IN_ENGLISH = {
     "host_sim/world/native/edits.c": r'(?:return|:|=) "([^"]+)"',
     "host_sim/web/sim": r'(?:Error|LineError|error)\((?:\w+, )?(["`][^"`]+["`])\)',
     "host_sim/web/lab": r"Error\((`[^`]+`)\)",
-    "host_sim/web/replay": r'(?:why:|return) (["`][A-Z][^"`]+["`])',
     "host_sim/report/laboratory.py": r'"why": f?("[^"]+")',
     "host_sim/live/server.py": r'_told\(("[^"]+")',
     "host_sim/live/join_code.py": r'Error\(("[^"]+")',

@@ -36,7 +36,7 @@ LIVE = (
     "#add-bar",
     "#next",
 )
-REPLAY = ("#floor", "#play", "#scrub", "#doing", "#cells", "#pin", "#before", "#after")
+REPLAY = ("#floors", "#play", "#scrub", "#doing", "#cells", "#pin", "#before", "#after")
 # How far from the middle of each item, at right angles to a bar, a finger may be: px.
 REACH = """async () => {
   const { itemAt } = await import("/edit/hit_testing.js");
@@ -106,7 +106,7 @@ def test_the_arena_is_what_a_live_page_shows_first(live):
 def test_the_arena_is_what_a_replay_shows_first(recorded: Path, open_page):
     page = open_page(recorded.as_uri())
 
-    assert too_small(page, ARENA, "#arena") == []
+    assert too_small(page, ARENA, ".lane canvas") == []
     assert page.evaluate(NEAR_THE_TOP)
 
 
@@ -115,11 +115,11 @@ def test_an_arena_that_is_small_or_covered_is_found(recorded: Path, open_page):
     page.evaluate("document.querySelector('#stage').append(document.querySelector('.viewport'))")
     page.evaluate("document.querySelector('.viewport').style = 'position: absolute; left: 12px; top: 60px'")
 
-    assert len(too_small(page, {(1366, 657): (720, 540)}, "#arena")) == 1
+    assert len(too_small(page, {(1366, 657): (720, 540)}, ".lane canvas")) == 1
     page.evaluate("document.querySelector('.viewport').remove()")
-    assert too_small(page, {(1366, 657): (720, 540)}, "#arena") == []
-    page.evaluate("document.querySelector('#floor').style.width = '500px'")
-    assert len(too_small(page, {(1366, 657): (720, 540)}, "#arena")) == 1
+    assert too_small(page, {(1366, 657): (720, 540)}, ".lane canvas") == []
+    page.evaluate("document.querySelector('.lane canvas').style.width = '500px'")
+    assert len(too_small(page, {(1366, 657): (720, 540)}, ".lane canvas")) == 1
 
 
 def test_the_replay_has_all_that_matters_in_view_even_while_it_compares(recorded: Path, open_page):

@@ -64,7 +64,7 @@ def test_a_robot_alone_has_no_number_and_no_buttons(open_page):
 
     assert page.evaluate(COLOUR_AT, number_of(800, 700)) == page.evaluate(COLOUR_OF, "floor")
     assert not page.is_visible("#robots")
-    assert page.inner_text("#memory-title") == "Memory: eight bytes, all it ever learns"
+    assert page.inner_text("#memory-title") == "Memory: eight bytes"
 
 
 def test_every_robot_leaves_its_trail(page, run):

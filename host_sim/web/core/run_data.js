@@ -17,8 +17,16 @@ export class RunData {
    */
   static async from(run) {
     if (run.version !== VERSION) throw new Error(`This page shows runs of version ${VERSION}, not ${run.version}.`);
-    const columns = run.robots.map((robot) => unpackColumns(robot.data, robot.columns, run.ticks));
-    return new RunData(run, await Promise.all(columns));
+    const columns = await Promise.all(run.robots.map((robot) => unpackColumns(robot.data, robot.columns, run.ticks)));
+    for (const { left, right, heading } of columns) {
+      let turned = 0;
+      left.forEach((speed, i) => {
+        right[i] -= speed;
+        turned += (speed - right[i]) >> 3;
+        heading[i] += turned;
+      });
+    }
+    return new RunData(run, columns);
   }
 
   /**

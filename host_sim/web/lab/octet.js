@@ -68,9 +68,12 @@ class LabPage extends Laboratory {
     if (recorded) this.followAddress();
   }
 
-  /** Does what the address asks for, if it is a live run's: shows the tick before which it was left, or its end. */
+  /** Shows the tick that the run names; of a live run, does what the address asks for: the tick before which it was left, or its end. */
   followAddress() {
-    if (!location.protocol.startsWith("http")) return;
+    if (!location.protocol.startsWith("http")) {
+      this.go(this.recorded?.run.shown ?? this.first);
+      return;
+    }
     const asked = new URLSearchParams(location.hash.slice(1));
     byId("to-live").hidden = location.hash === ENDED;
     byId("to-live").addEventListener("click", () => location.assign("/"));

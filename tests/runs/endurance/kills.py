@@ -17,7 +17,7 @@ from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 from tests.runs.endurance.interrupted_runs import Outcome, Witness, at_instruction, run_interrupted, with_full_disk
-from tests.runs.support import octet, start_octet
+from tests.runs.support import octet, start_octet, unpacked
 
 SIGNALS = (signal.SIGTERM, signal.SIGHUP, signal.SIGINT)
 USAGE = 2
@@ -122,7 +122,7 @@ def is_of_one_run(out: Path, seeds: list[int]) -> bool:
     """Whether log, world, summary and page are whole and belong together."""
     summary = json.loads((out / "summary.json").read_text())
     world = json.loads((out / "run.world.json").read_text())
-    page = f'"seed {summary["seed"]}"' in (out / "replay.html").read_text()
+    page = f'"seed {summary["seed"]}"' in unpacked((out / "replay.html").read_text())
     is_one = summary["seed"] == world["seed"] and summary["seed"] in seeds and page
     return is_one and octet("replay", out / "run.log").returncode == 0 and not list(out.glob("*.part"))
 

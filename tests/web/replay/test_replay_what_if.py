@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page
 
-from tests.runs.support import octet
+from tests.runs.support import octet, unpacked
 from tests.web.fake_run import HOME
 from tests.web.looks import TOO_SMALL, resize, violations_at
 from tests.web.support import wait_for, wait_for_text
@@ -111,9 +111,9 @@ def test_several_robots_and_their_memories_are_repeated(page_of, open_page, tmp_
 
 
 def test_a_run_that_it_repeats_otherwise_is_told(plain, page_of, open_page, tmp_path):
-    other = RECORDED.search(page_of("--environments", "1", "--seed", "4").read_text())[0]
+    other = RECORDED.search(unpacked(page_of("--environments", "1", "--seed", "4").read_text()))[0]
     mixed = tmp_path / "mixed.html"
-    mixed.write_text(RECORDED.sub(lambda _: other, plain.read_text()))
+    mixed.write_text(RECORDED.sub(lambda _: other, unpacked(plain.read_text())))
     page = open_page(mixed.as_uri())
 
     ask(page, 10)
@@ -127,7 +127,7 @@ def test_a_run_that_it_repeats_otherwise_is_told(plain, page_of, open_page, tmp_
 )
 def test_a_run_that_it_cannot_repeat_is_told_on_the_page(plain, open_page, tmp_path, damage, why):
     broken = tmp_path / "broken.html"
-    broken.write_text(re.sub(*damage, plain.read_text()))
+    broken.write_text(re.sub(*damage, unpacked(plain.read_text())))
     page = open_page(broken.as_uri())
 
     page.click("#what-if")
@@ -155,7 +155,7 @@ def test_a_page_without_it_says_how_to_get_it(recorded, open_page):
     for button in ("#what-if", "#add-bar", "#tab-lessons", "#cells li:nth-child(2) button"):
         page.evaluate("document.querySelector('#note').textContent = ''")
         page.click(button, force=True)  # it is marked as disabled
-        wait_for_text(page, "#note", f"This command writes one that does: {command}")
+        wait_for_text(page, "#note", f"to add it: {command}")
 
     assert page.get_attribute("#behaviour", "title").endswith(command)
     assert page.evaluate("octet.lanes.length") == 1
