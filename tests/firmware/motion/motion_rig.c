@@ -53,6 +53,17 @@ bool tick(void)
     return motion_ended(&motion, &config, &senses);
 }
 
+void roll(int left_counts, int right_counts)
+{
+    const struct senses senses = {
+        .tick = ++body.tick,
+        .odometer_left = (uint16_t)((motion.odometer_left + left_counts) & (ODOMETER_SPAN - 1)),
+        .odometer_right = (uint16_t)((motion.odometer_right + right_counts) & (ODOMETER_SPAN - 1)),
+    };
+
+    motion_track(&motion, &senses);
+}
+
 void begin(int turn_deg, unsigned forward_mm)
 {
     const struct action action = {.turn_deg = (int16_t)turn_deg, .forward_mm = (uint8_t)forward_mm};

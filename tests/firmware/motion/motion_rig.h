@@ -40,6 +40,9 @@ struct drive driven(void);
 bool tick(void);
         /* The wheels turn for one tick, and what they did is sensed. True: the action has ended. */
 
+void roll(int left_counts, int right_counts);
+        /* A tick in which the odometers count that far, whatever the wheels are told. */
+
 void begin(int turn_deg, unsigned forward_mm);
         /* A turn, a step of up to STEP_MAX_MM, or with 0 and 0 a rest. */
 

@@ -18,17 +18,6 @@ void setUp(void)
     stand_at(0.0, 0.0);
 }
 
-static void roll(int left_counts, int right_counts)
-{
-    const struct senses senses = {
-        .tick = ++body.tick,
-        .odometer_left = (uint16_t)((motion.odometer_left + left_counts) & (ODOMETER_SPAN - 1)),
-        .odometer_right = (uint16_t)((motion.odometer_right + right_counts) & (ODOMETER_SPAN - 1)),
-    };
-
-    motion_track(&motion, &senses);
-}
-
 static bool has_ended(void)
 {
     const struct senses senses = {.tick = body.tick};

@@ -12,8 +12,8 @@ struct input in;
 
 int port_open(struct port *port, int argc, char *const argv[])
 {
-    (void)argc;
-    (void)argv;
+    fake.argc = argc;
+    fake.argv = argv;
     *port = (struct port){.link = "fake", .node = NODE, .reset_cause = fake.reset_cause, .crash = fake.crash,
                           .clock_exact = fake.clock_exact};
     return fake.port_result;

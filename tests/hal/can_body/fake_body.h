@@ -28,6 +28,8 @@ struct fake {
     bool closed;
     struct frame sent[SENT_MAX];
     int open_result, port_result, store_result;
+    int argc;                             /* what the port was opened with */
+    char *const *argv;
     bool needs_rest;                      /* to store anything */
     unsigned stores;                      /* that were not put off */
     uint8_t stored[CELL_COUNT];           /* by the last of them */

@@ -19,6 +19,22 @@ TEST(arguments_that_make_no_sense_are_a_usage_error)
     TEST_ASSERT_EQUAL(HAL_E_USAGE, open_body());
 }
 
+TEST(a_machine_without_a_body_has_none)
+{
+    fake.port_result = HAL_E_BODY;
+    TEST_ASSERT_EQUAL(HAL_E_BODY, open_body());
+}
+
+TEST(the_machine_gets_the_arguments)
+{
+    static char name[] = "robot";
+    char *const argv[] = {name, NULL};
+
+    TEST_ASSERT_EQUAL(0, hal_open(&hal, 1, argv));
+    TEST_ASSERT_EQUAL_INT(1, fake.argc);
+    TEST_ASSERT_EQUAL_PTR(argv, fake.argv);
+}
+
 TEST(a_link_name_that_makes_no_sense_is_a_usage_error)
 {
     fake.open_result = LINK_E_NAME;
@@ -65,6 +81,19 @@ TEST(silence_is_100_ms_without_senses)
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL_UINT32(120, fake.clock_ms);
     assert_faults((struct octet_faults_t){.silences = 1});
+}
+
+TEST(each_silence_is_one_wait)
+{
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    TEST_ASSERT_EQUAL_UINT(1, fake.receives);
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    TEST_ASSERT_EQUAL_UINT(2, fake.receives);
+    TEST_ASSERT_EQUAL(0, open_body());
+    senses_come(200, 0);
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    TEST_ASSERT_EQUAL_UINT(4, fake.receives);
 }
 
 TEST(senses_after_99_ms_are_no_silence)

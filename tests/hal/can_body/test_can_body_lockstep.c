@@ -111,6 +111,7 @@ TEST(in_lockstep_senses_begin_the_count_of_silences_anew)
     TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
     silences(9);
     TEST_ASSERT_EQUAL(INPUT_SILENCE, owner_starts(1820, 2));
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, owner_starts(1920, 2));
 }
 
 TEST(in_lockstep_an_owner_that_never_sends_senses_is_soon_no_owner)
