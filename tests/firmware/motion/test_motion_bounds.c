@@ -161,6 +161,19 @@ TEST(wheels_slower_than_half_are_denied_after_ten_ticks)
     }
 }
 
+TEST(wheels_that_grow_slow_in_a_turn_are_denied)
+{
+    begin(210, 0);
+    for (unsigned i = 0; i < 20; i++) {
+        (void)driven();
+        roll(50, -50);
+    }
+    TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
+    (void)driven();
+    roll(24, -24);
+    TEST_ASSERT_TRUE(motion_is_denied(&motion, &config));
+}
+
 TEST(wheels_at_half_their_speed_are_not_too_slow)
 {
     begin(210, 0);
@@ -328,6 +341,15 @@ TEST(what_wheels_are_told_is_what_they_have_to_roll)
     assert_told(&BACK, -200, -200, 0, -80);
 }
 
+TEST(a_glance_goes_on_when_food_is_seen)
+{
+    const struct senses senses = {.look = true, .tick = 1};
+
+    motion_begin(&motion, &config, &GLANCE);
+    motion_track(&motion, &senses);
+    TEST_ASSERT_EQUAL_INT32(90 * DEGREE, motion.turn_left);
+}
+
 TEST(food_turns_the_robot_back_to_where_it_was_seen)
 {
     struct senses senses = {.look = true, .tick = 1, .odometer_left = 30, .odometer_right = ODOMETER_SPAN - 30};
@@ -335,8 +357,22 @@ TEST(food_turns_the_robot_back_to_where_it_was_seen)
     motion_begin(&motion, &config, &FOOD_TURN);
     motion_track(&motion, &senses);
     TEST_ASSERT_EQUAL_INT32(0, motion.turn_left);
-    senses = (struct senses){.tick = 2, .odometer_left = 40, .odometer_right = ODOMETER_SPAN - 40};
+    senses = (struct senses){.look = true, .tick = 2, .odometer_left = 40, .odometer_right = ODOMETER_SPAN - 40};
     motion_track(&motion, &senses);
     TEST_ASSERT_EQUAL_INT32(-20 * COUNT, motion.turn_left);
     TEST_ASSERT_LESS_THAN_INT16(0, driven().left_mm_s);
+}
+
+TEST(a_wheel_that_has_rolled_and_stops_is_dead_after_two_seconds)
+{
+    unsigned ticks = 0;
+
+    begin(90, 0);
+    roll(50, -50);
+    for ((void)driven(); !motion_gave_up(&motion); (void)driven()) {
+        TEST_ASSERT_LESS_THAN_UINT(200, ++ticks);
+        roll(ticks % 2 ? 20 : -20, 0);
+        begin(ticks % 2 ? 3 : -3, 0);
+    }
+    TEST_ASSERT_EQUAL_UINT(100, ticks);
 }

@@ -42,7 +42,7 @@ static uint32_t mask_of(uint32_t offset, uint32_t count)
 
 static void assert_within(unsigned page, uint32_t offset, uint32_t count)
 {
-    TEST_ASSERT_LESS_THAN_UINT(FLASH_PAGES, page);
+    TEST_ASSERT_LESS_THAN_UINT(FAKE_PAGES, page);
     TEST_ASSERT_EQUAL_UINT32(0, offset % fake_flash.kind.unit);
     TEST_ASSERT_EQUAL_UINT32(0, count % fake_flash.kind.unit);
     TEST_ASSERT_LESS_OR_EQUAL_UINT32(flash_page_size(), offset + count);

@@ -1,4 +1,4 @@
-/* fake_flash.h: two small pages of flash in RAM, of any write unit, whose power fails on plan. */
+/* fake_flash.h: four small pages of flash in RAM, of any write unit, whose power fails on plan. */
 #ifndef OCTET_FAKE_FLASH_H
 #define OCTET_FAKE_FLASH_H
 
@@ -8,6 +8,7 @@
 #include "hal/flash_store/flash.h"
 
 enum {
+    FAKE_PAGES = 2 * FLASH_PAGES,  /* of two stores */
     FAKE_RECORDS = 4,              /* of a page */
     FAKE_PAGE_MAX = FLASH_UNIT_MAX * FAKE_RECORDS
 };
@@ -20,8 +21,8 @@ struct fake_flash_kind {
 
 struct fake_flash {
     struct fake_flash_kind kind;
-    uint8_t bytes[FLASH_PAGES][FAKE_PAGE_MAX];
-    uint32_t unreadable[FLASH_PAGES];   /* bit n: word n */
+    uint8_t bytes[FAKE_PAGES][FAKE_PAGE_MAX];
+    uint32_t unreadable[FAKE_PAGES];   /* bit n: word n */
     unsigned operations;        /* so far: each step written, each page erased */
     unsigned cut_at;            /* power fails within this one, counted from 1; 0: never */
     unsigned damage;            /* how far it gets then: FAKE_DAMAGES kinds */
@@ -30,8 +31,8 @@ struct fake_flash {
     bool erase_fails;
     bool erase_does_nothing;    /* and says that it did */
     bool write_fails;           /* says so, though all is written */
-    bool weak[FLASH_PAGES];     /* its erase was cut short: what is written there decays, and nobody may */
-    uint8_t worn[FLASH_PAGES];  /* bit r: record r of the page takes no writes */
+    bool weak[FAKE_PAGES];     /* its erase was cut short: what is written there decays, and nobody may */
+    uint8_t worn[FAKE_PAGES];  /* bit r: record r of the page takes no writes */
 };
 
 enum { FAKE_DAMAGES = 5 };      /* not begun, half done, nearly or wholly done, unreadable where that can be, half otherwise */

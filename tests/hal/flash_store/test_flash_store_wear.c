@@ -163,3 +163,19 @@ TEST(a_page_worn_all_over_never_costs_the_memory_in_the_other)
         TEST_ASSERT_EQUAL(HAL_E_STORE, save(99));
     assert_found(CHANGES - 1);
 }
+
+TEST(a_store_in_other_pages_turns_its_own)
+{
+    struct flash_store other;
+
+    FOR_EACH_KIND {
+        setUp();
+        save_many(1);
+        (void)flash_store_open_at(&other, FLASH_PAGES, found);
+        for (unsigned n = 1; n <= 3 * CHANGES; n++)
+            TEST_ASSERT_EQUAL(0, flash_store_save(&other, memory_number(n), true));
+        TEST_ASSERT_EQUAL(1, flash_store_open_at(&other, FLASH_PAGES, found));
+        TEST_ASSERT_EQUAL_UINT8_ARRAY(memory_number(3 * CHANGES), found, CELL_COUNT);
+        assert_found(0);
+    }
+}

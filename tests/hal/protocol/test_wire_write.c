@@ -2,6 +2,7 @@
 #include "tests/test.h"
 #include "firmware/config.h"
 #include "firmware/memory/memory.h"
+#include "hal/protocol/e2e.h"
 #include "wire_frames.h"
 
 #include "writing_rig.h"
@@ -89,6 +90,29 @@ TEST(a_drive_has_the_counter_of_the_senses_that_it_answers)
     TEST_ASSERT_EQUAL_UINT8(27 % 15, drive_sent((struct drive){.tick = 27}).counter);
 }
 
+/* A body on pins writes the senses that its robot acts on. */
+TEST(senses_that_a_body_writes_are_read_whole)
+{
+    const struct senses senses = {
+        .tick = 200, .feel = FEEL_FRONT | 1, .bump = true, .look = true, .beacon_mm = 300,
+        .odometer_left = 4095, .odometer_right = 77,
+    };
+    struct frame frame;
+    struct wire reader;
+    struct input in;
+
+    wire_init(&reader, NODE);
+    wire_senses(&wire, &senses, &frame);
+    TEST_ASSERT_EQUAL(INPUT_SENSES, wire_read(&reader, &frame, &in));
+    TEST_ASSERT_EQUAL_UINT8(200, in.senses.tick);
+    TEST_ASSERT_EQUAL_UINT8(FEEL_FRONT | 1, in.senses.feel);
+    TEST_ASSERT_TRUE(in.senses.bump);
+    TEST_ASSERT_TRUE(in.senses.look);
+    TEST_ASSERT_EQUAL_UINT16(300, in.senses.beacon_mm);
+    TEST_ASSERT_EQUAL_UINT16(4095, in.senses.odometer_left);
+    TEST_ASSERT_EQUAL_UINT16(77, in.senses.odometer_right);
+}
+
 TEST(an_answer_to_get_has_the_value)
 {
     struct octet_answer_t sent;
@@ -142,6 +166,21 @@ TEST(faults_are_told_with_the_next_frame)
     TEST_ASSERT_EQUAL_UINT8(FAULT_STALE, sent.first);
     TEST_ASSERT_EQUAL_HEX16(1 << FAULT_STALE | 1 << FAULT_SILENCE | 1 << FAULT_DENIED, sent.kinds);
     TEST_ASSERT_EQUAL_UINT16(3, sent.faults);
+}
+
+TEST(senses_that_a_body_writes_are_counted_and_date_what_follows)
+{
+    struct octet_senses_t sent;
+    struct frame frame;
+
+    for (unsigned i = 1; i <= 2 * E2E_COUNTERS; i++) {
+        wire_senses(&wire, &(struct senses){.tick = (uint8_t)(100 + i)}, &frame);
+        TEST_ASSERT_EQUAL(0, octet_senses_unpack(&sent, frame.data, frame.len));
+        TEST_ASSERT_EQUAL_UINT8(i % E2E_COUNTERS, sent.counter);
+    }
+    expect(FAULT_STALE, 1);
+    wire_count(&wire, FAULT_STALE);
+    TEST_ASSERT_EQUAL_UINT8(100 + 2 * E2E_COUNTERS, emergency_sent().tick);
 }
 
 TEST(faults_are_told_once)
