@@ -87,6 +87,7 @@ TEST(a_start_forgets_what_was_awaited)
         brain_start(&brain, PROFILE_ARTICLE, 1);
         next(0);   /* a step, after which it would eat */
         brain_start(&brain, profile, 1);
+        TEST_ASSERT_EQUAL_UINT8(0, brain.awaits);
         TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_with_food_near().reason);   /* not: eat */
     }
 }
@@ -162,7 +163,9 @@ TEST(after_an_action_that_was_not_carried_out_it_does_not_look_around)
 
     brain_start(&brain, PROFILE_ARTICLE, 1);
     next(0);
+    brain.used = 7;
     brain_doubt(&brain, &nothing);
+    TEST_ASSERT_EQUAL_UINT8(0, brain.used);
     TEST_ASSERT_EQUAL(REASON_WANDER, next(0).reason);
 }
 
@@ -207,4 +210,16 @@ TEST(the_first_profile_of_all_is_asked_too)
     brain_start(&brain, PROFILE_ADAPTIVE, 1);
     TEST_ASSERT_TRUE(brain_adopt(&brain, sides));
     TEST_ASSERT_EQUAL_UINT8(0, brain.profile);
+}
+
+TEST(what_others_know_goes_to_empty_cells_that_boredom_did_not_empty)
+{
+    static const int8_t votes[CELL_COUNT] = {1, 1, -1, 1, -1};
+    static const uint8_t expected[CELL_COUNT] = {0, SIDE_LEFT, SIDE_LEFT, 0, SIDE_LEFT};
+
+    brain_start(&brain, PROFILE_ARTICLE, 1);
+    memory_learn(&brain.memory, 1, SIDE_LEFT);
+    brain.unlearned = 1u << 3;
+    TEST_ASSERT_TRUE(brain_take_votes(&brain, votes));
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, brain.memory.cell, CELL_COUNT);
 }

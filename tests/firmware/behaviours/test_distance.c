@@ -94,3 +94,11 @@ TEST(the_smallest_turn_is_to_its_side_too)
     TEST_ASSERT_EQUAL_INT(21, turn_with(SIDE_RIGHT, 2, 0));
     TEST_ASSERT_EQUAL_INT(-21, turn_with(SIDE_LEFT, 2, 0));
 }
+
+TEST(something_near_that_is_not_in_the_way_turns_nothing)
+{
+    struct senses senses = blocked(2, 30);
+
+    senses.feel = CLEAR;
+    TEST_ASSERT_EQUAL_INT(0, brain_next(&brain, &config, &senses).turn_deg);
+}
