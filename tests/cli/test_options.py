@@ -63,7 +63,7 @@ def test_check_prints_all_sentences_if_told_to(monkeypatch, words, lines):
 
 
 def test_a_campaign_in_real_time_runs_in_lockstep_too():
-    words = ("campaign", "a.html", "--links", "fd", "--profiles", "article")
+    words = ("campaign", "--html", "a.html", "--links", "fd", "--profiles", "article")
 
     paces = [handed("host_sim.lab.campaign.matrix.groups", *words, *more).args[2] for more in ((), ("--real-time",))]
 
@@ -88,7 +88,7 @@ def test_the_robot_that_is_calibrated_is_the_one_that_is_named():
 
 @pytest.mark.parametrize(("words", "asks"), [((), True), (("--yes",), False)])
 def test_calibrate_asks_before_a_step_unless_told_not_to(monkeypatch, words, asks):
-    calibration = SimpleNamespace(traits=dict)
+    calibration = SimpleNamespace(stored_values=dict)
     monkeypatch.setattr("host_sim.lab.calibrate.calibrate_command._reached", lambda *_: (calibration, None))
 
     call = handed("host_sim.lab.calibrate.calibrate_command._measures", "calibrate", "--bus", "virtual:1", *words)

@@ -7,7 +7,7 @@ from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
-from host_sim.cli.parsing import Subparsers, add_command, check_outputs, file_path, number, output_of
+from host_sim.cli.parsing import Subparsers, add_command, check_outputs, number, output_of
 from host_sim.protocol.words import PROFILES
 from host_sim.sim.access import BOARDS
 
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 _LINKS = ("none", "fd", "external", "slcan", "vcan", *BOARDS, "pins")
 _EXAMPLES = """\
 examples:
-  tools/octet campaign out/campaign.html                     every behaviour in lockstep, within this process
-  tools/octet campaign out/real.html --links fd slcan feather_stm32f405 --real-time --profiles article adaptive
-  tools/with-vcan tools/octet campaign out/vcan.html --links vcan
+  tools/octet campaign --html out/campaign.html              every behaviour in lockstep, within this process
+  tools/octet campaign --html out/real.html --links fd slcan feather_stm32f405 --real-time --profiles article adaptive
+  tools/with-vcan tools/octet campaign --html out/vcan.html --links vcan
   tools/octet campaign --walk 40 --links none fd slcan --limit-s 8
   tools/octet campaign --repeat 'article fd lockstep seed=12 limit=8 event=hang:300@100'
   tools/octet campaign --shrink 'article none lockstep seed=12 limit=30 fault=drop:30% fault=forge:stop@300/to'
@@ -44,7 +44,7 @@ def add(commands: Subparsers) -> None:
         stages=_stages,
     )
     add = parser.add_argument
-    add("html", type=file_path, nargs="?", metavar="FILE.html", help="where to write the report")
+    add("--html", type=output_of(".html"), metavar="FILE.html", help="write the report here")
     add(
         "--profiles",
         nargs="+",
@@ -88,10 +88,8 @@ def add(commands: Subparsers) -> None:
 
 def _check(arguments: argparse.Namespace) -> None:
     if arguments.html is None and not (arguments.repeat or arguments.shrink or arguments.walk):
-        raise UsageError("campaign needs FILE.html for the report, or --walk, --repeat or --shrink")
-    check_outputs(
-        "campaign", None, {"FILE.html": arguments.html, "--json": arguments.json, "--junit": arguments.junit}
-    )
+        raise UsageError("campaign needs --html FILE.html for the report, or --walk, --repeat or --shrink")
+    check_outputs("campaign", None, {"--html": arguments.html, "--json": arguments.json, "--junit": arguments.junit})
     links = (arguments.repeat or arguments.shrink or "").split() or arguments.links
     if bool(arguments.robot_command.strip()) != ("external" in links):
         raise UsageError("--links external and --robot-command CMD go together: give both")

@@ -55,7 +55,7 @@ def add(commands: Subparsers) -> None:
     there = "run a command of gdb there, and end; may be repeated"
     parser.add_argument("--ex", action="append", default=[], metavar="COMMAND", help=there)
     written = "instead, write the frames to DIR for an editor's debugger, and print gdb's command"
-    parser.add_argument("--write", type=file_path, metavar="DIR", help=written)
+    parser.add_argument("--out", type=file_path, metavar="DIR", help=written)
 
 
 def _debug(arguments: argparse.Namespace) -> int:
@@ -76,12 +76,12 @@ def _debug(arguments: argparse.Namespace) -> int:
         check_own(arguments, (it.frame for it in feed.heard if it.frame), protocol)
     tick = _tick(arguments, feed)
     with ExitStack() as stack:
-        folder = arguments.write or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="octet-debug-")))
+        folder = arguments.out or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="octet-debug-")))
         _write(folder, feed)
         program = os.fspath(own.debugger) if own else debug_program(OCTET_DEBUG)
         there = ["-ex", f"set cwd {folder.resolve()}", *_OF_OWN * (own is not None), "-ex", f"goto {tick}"]
         start = [program, "-x", LOG_SCRIPT, *there]
-        if arguments.write:
+        if arguments.out:
             print(f"wrote     {folder / 'feed'}; to start: {shlex.join(gdb_command(start))}")
             return 0
         gdb = Gdb([*start, *(word for it in arguments.ex for word in ("-ex", it)), *["-batch"] * bool(arguments.ex)])

@@ -52,7 +52,7 @@ def add(commands: Subparsers) -> None:
     page = f"of one file: write the run up to its first wrong decision to {_PAGE}, and open it there"
     parser.add_argument("--page", action="store_true", help=page)
     results = "write a file for each solution to DIR, in the format of Exercism's test runners"
-    parser.add_argument("--results", type=file_path, metavar="DIR", help=results)
+    parser.add_argument("--out", type=file_path, metavar="DIR", help=results)
 
 
 def _check(arguments: argparse.Namespace) -> None:
@@ -65,7 +65,7 @@ def _grade(arguments: argparse.Namespace) -> int:
     files = grading.files_of(arguments.paths)
     if arguments.page and len(files) > 1:
         raise UsageError(f"--page is for one file, not for {len(files)}: name one, or leave --page out")
-    for folder in (*[_PAGE.parent] * arguments.page, *filter(None, [arguments.results])):
+    for folder in (*[_PAGE.parent] * arguments.page, *filter(None, [arguments.out])):
         _make_folder(folder)
     if not grading.network_is_off():
         sys.stderr.write("octet: this system does not let solutions run without network (unshare --net)\n")
@@ -86,8 +86,8 @@ def _write(arguments: argparse.Namespace, grades: "Sequence[Grade]") -> None:
     for name, write in writers.items():
         if (path := getattr(arguments, name)) is not None:
             write(arguments.exercise, grades, path)
-    if arguments.results is not None:
-        grading.write_exercism(arguments.exercise, grades, arguments.results)
+    if arguments.out is not None:
+        grading.write_exercism(arguments.exercise, grades, arguments.out)
 
 
 def _open(grade: "Grade") -> None:

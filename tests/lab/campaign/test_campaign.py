@@ -26,7 +26,7 @@ from tests.runs.support import octet
 def test_each_fault_is_seen_and_told_however_short_the_runs_are(tmp_path):
     report = tmp_path / "campaign.html"
 
-    done = octet("campaign", report, "--profiles", "article", "--limit-s", "6")
+    done = octet("campaign", "--html", report, "--profiles", "article", "--limit-s", "6")
 
     assert (done.returncode, done.stderr) == (0, "")
     runs = 1 + len([each for each in matrix.CLASSES if not each.links and not each.profiles])
@@ -50,7 +50,7 @@ def test_a_fault_without_effect_fails_the_campaign(tmp_path, monkeypatch):
     nothing = FaultClass("nothing that happens", faults=("drop@999999",))
     monkeypatch.setattr(groups, "__defaults__", ((nothing,),))
 
-    done = octet("campaign", tmp_path / "campaign.html", "--profiles", "article", "--limit-s", "2")
+    done = octet("campaign", "--html", tmp_path / "campaign.html", "--profiles", "article", "--limit-s", "2")
 
     assert done.returncode == 1
     assert done.stderr.startswith("UNSEEN: nothing that happens: tools/run ")
@@ -180,7 +180,7 @@ def test_a_campaign_without_a_report_says_what_it_needs():
 
 
 def test_robots_do_not_meet_on_the_bus_that_they_share():
-    done = octet("campaign", "campaign.html", "--links", "fd", "vcan", "--jobs", "2")
+    done = octet("campaign", "--html", "campaign.html", "--links", "fd", "vcan", "--jobs", "2")
 
     assert (done.returncode, done.stderr) == (
         2,
@@ -261,7 +261,7 @@ def test_a_fault_that_never_comes_fails_the_campaign(tmp_path, monkeypatch):
     monkeypatch.setattr("host_sim.lab.campaign.matrix.groups.__defaults__", ((NEVER,),))
     words = ("--profiles", "article", "--limit-s", "3", "--json", tmp_path / "campaign.json")
 
-    done = octet("campaign", tmp_path / "campaign.html", *words)
+    done = octet("campaign", "--html", tmp_path / "campaign.html", *words)
 
     assert done.returncode == 1
     assert "none reached its receiver: a fault that never comes" in done.stdout

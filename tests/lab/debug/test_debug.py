@@ -144,7 +144,7 @@ def test_the_debugger_stands_at_tick_10000_soon(log, capsys):
 
 def test_an_editor_stops_before_the_tick_as_the_page_says(log, tmp_path):
     (text,) = LAUNCH.findall((ROOT / "docs/debugging.md").read_text())
-    octet_process("debug", log, "--write", tmp_path / "out/debug").check_returncode()
+    octet_process("debug", log, "--out", tmp_path / "out/debug").check_returncode()
     (launch,) = json.loads(text.replace("${workspaceFolder}/build", str(ROOT / "build")))["configurations"]
     commands = [
         f'-environment-cd "{launch["cwd"].replace("${workspaceFolder}", str(tmp_path))}"',
@@ -192,7 +192,7 @@ def test_who_leaves_the_debugger_ends_the_run(tmp_path):
         ("debug {log} --tick 99999999", "has no tick 99999999: the last one is "),
         ("debug {log} --decision 99999999", "decisions of node 1, not 99999999"),
         ("debug {log} --node 2", "has no heartbeat of node 2"),
-        ("debug {log} --write {log}/x", "cannot write to "),
+        ("debug {log} --out {log}/x", "cannot write to "),
         ("debug {program} --tick 3", "is a program, not C"),
         ("run --gdb --real-time", "leave --real-time out"),
         ("run --gdb --robots 2", "leave --robots out"),

@@ -88,7 +88,7 @@ def test_a_folder_gives_tables_for_people_and_programs(tmp_path):
     folder = submissions(tmp_path / "submissions")
     outputs = [word for it in ("--html", "--csv", "--junit") for word in (it, tmp_path / f"grades.{it[2:]}")]
 
-    done = octet_process("grade", "4", folder, *outputs, "--results", tmp_path / "results")
+    done = octet_process("grade", "4", folder, *outputs, "--out", tmp_path / "results")
 
     statuses = ["pass", "pass", "fail", "fail", "error"]
     assert done.returncode == 1
