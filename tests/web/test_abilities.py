@@ -88,7 +88,8 @@ def table() -> dict[str, dict[str, str]]:
     """The cells of the table, by ability and source."""
     text = (ROOT / "docs/page.md").read_text().partition("## What each source can do")[2].partition("\n## ")[0]
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in re.findall(r"^\|.*\|$", text, re.M)]
-    return {name: dict(zip(SOURCES, cells, strict=True)) for names, *cells in rows[2:] for name in names.split("; ")}
+    found = {name: dict(zip(SOURCES, cells, strict=True)) for names, *cells in rows[2:] for name in names.split("; ")}
+    return dict(sorted(found.items(), key=lambda it: [*ABILITIES].index(it[0])))
 
 
 @pytest.fixture(scope="module")
