@@ -18,7 +18,7 @@ from tests.web.support import full_speed, wait_for, wait_for_text
 CHANGES = ("--change", "plant@1s", "--change", "swap-motors@2s", "--change", "grow:900@3s")
 GREEN = """() => {
   const [, x, y, radius] = octet.scene.environment.plants[0];
-  const { canvas, context, scale } = octet.lane.renderer ?? octet.view.renderer;
+  const { canvas, context, scale } = octet.lane?.renderer ?? octet.view.renderer;
   const at = [x + 0.9 * radius * Math.cos(0.2), y + 0.9 * radius * Math.sin(0.2)].map((mm) => (mm + 40) * scale);
   const [red, green, blue] = context.getImageData(...at, 1, 1).data;
   return green > red && red > blue;

@@ -10,7 +10,7 @@ from tests.web.support import next_frame, wait_for
 LESSONS = tuple(languages()["en"]["lessons"]["lessons"])
 
 READY = "window.octet?.scene?.state && octet.last > 0"
-DONE = "document.querySelector('#status').textContent === 'the real firmware, in this page'"
+DONE = "document.querySelector('#status')?.textContent === 'the real firmware, in this page'"
 REACHED = "[...document.querySelectorAll('#goals li')].map((goal) => goal.classList.contains('reached'))"
 SIZES = [(1024, 768), (1366, 657), (1440, 900), (1920, 1080)]
 
