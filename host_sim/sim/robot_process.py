@@ -21,6 +21,7 @@ PROGRAM = BUILD / "host" / "hal" / "port" / "posix" / "octet-robot"
 _READY_S = 10.0
 _END_S = 2.0
 _PRINTED_CHARS = 400
+_REPORT_FOLLOWS = "\nown: ,"  # until the robot has ended, the sanitizer's report may not be whole
 _OF_PROGRAM = "> "  # before a line that the robot's program prints
 
 
@@ -80,7 +81,8 @@ class RobotProcess:
         """
         code = self._process.poll()
         self._read()
-        if mistake := self.mistake(self._printed.decode(errors="replace")):
+        printed = self._printed.decode(errors="replace")
+        if (code is not None or _REPORT_FOLLOWS not in printed) and (mistake := self.mistake(printed)):
             raise BrainError(mistake, self._node)
         if code is None:
             return f"is running and {self._quoted()}"
