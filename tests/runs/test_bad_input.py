@@ -72,6 +72,17 @@ def test_a_memory_is_not_kept_in_a_file_of_the_run(tmp_path, name):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_memory_that_is_no_regular_file_is_refused(tmp_path):
+    (tmp_path / "robot.mem").mkdir()
+
+    done = octet(
+        "run", "--bus", "none", "--limit-s", "2", "--out", tmp_path / "out", "--memory", tmp_path / "robot.mem"
+    )
+
+    assert done.returncode == 2
+    assert done.stderr == f"octet: cannot write {tmp_path / 'robot.mem'}: it is not a regular file\n"
+
+
 def test_two_runs_do_not_learn_into_one_memory(tmp_path):
     memory, words = tmp_path / "robot.mem", ("run", "--bus", "none", "--limit-s", "2", "--out", tmp_path / "out")
 

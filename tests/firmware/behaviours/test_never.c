@@ -90,3 +90,11 @@ TEST(a_limit_that_is_lowered_meanwhile_counts_at_once)
     config.value[BOREDOM_LIMIT] = 5;
     TEST_ASSERT_EQUAL(REASON_BOREDOM, next(ALL_THREE).reason);
 }
+
+TEST(a_meal_is_no_trial)
+{
+    begin(PROFILE_NEVER);
+    next(CLEAR);
+    TEST_ASSERT_EQUAL(REASON_EAT, next_seeing_food(CLEAR, 1).reason);
+    TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
+}
