@@ -44,15 +44,20 @@ for (let i = 0; i < text.length; i += 5) {
   for (let j = i; j < i + 5; j += 1) value = 85 * value + (j < text.length ? signs.indexOf(text[j]) : 84);
   view.setUint32((4 * i) / 5, value);
 }
-const packed = new Blob([view.buffer.slice(0, SIZE)]).stream().pipeThrough(new DecompressionStream("deflate"));
-const page = await new Response(packed).text();
-document.open();
-document.write(page);
-document.close();
+if (window.DecompressionStream) {
+  const packed = new Blob([view.buffer.slice(0, SIZE)]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const page = await new Response(packed).text();
+  document.open();
+  document.write(page);
+  document.close();
+} else {
+  document.body.textContent = "NO_STREAM";
+}
 </script>
 </body>
 </html>
 """
+_NO_STREAM = "This page needs a newer browser: Chrome or Edge 80, Firefox 113, Safari 16.4."
 _IMPORT = re.compile(r'^import (\{[^}]*\}) from "(\.\.?/[\w./-]+)";$', re.MULTILINE)
 _COMMENT = re.compile(r"^[ \t]*(?:/\*[^*]*\*+(?:[^/*][^*]*\*+)*/|//[^\n]*)\n", re.MULTILINE)
 _NOT_READ = re.compile(r"^\s+|/\*\* @type [^*]*\*/ ?", re.MULTILINE)
@@ -72,7 +77,8 @@ def packed_page(page: str) -> str:
     """A page that unpacks itself: about half as large."""
     data = zlib.compress(page.encode(), 9)
     text = base64.b85encode(data).decode("ascii").replace("<", ",")
-    parts = {"SIGNS": _SIGNS, "SIZE": f"{len(data)}", "DATA": text, "NO_SCRIPT": "".join(_NO_SCRIPT.findall(page))}
+    without = {"NO_SCRIPT": "".join(_NO_SCRIPT.findall(page)), "NO_STREAM": _NO_STREAM}
+    parts = {"SIGNS": _SIGNS, "SIZE": f"{len(data)}", "DATA": text, **without}
     return re.sub("|".join(parts), lambda match: parts[match[0]], _UNPACK)
 
 

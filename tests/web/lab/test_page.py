@@ -20,6 +20,13 @@ def test_the_page_is_one_small_file(file):
     assert file.stat().st_size < SIZE_MAX
 
 
+def test_a_browser_that_cannot_unpack_the_page_is_told_so(file, open_page):
+    without = "delete window.DecompressionStream"
+    page = open_page(file.as_uri(), ready="document.body", prepare=lambda page: page.add_init_script(without))
+
+    wait_for(page, "document.body.innerText.startsWith('This page needs a newer browser')")
+
+
 def test_the_page_is_the_same_from_the_same_sources(file, tmp_path):
     assert octet("page", tmp_path / "again.html").returncode == 0
 
