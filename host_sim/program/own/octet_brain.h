@@ -36,7 +36,7 @@ struct action own_next(struct brain *brain, const struct config *config, const s
    senses, read only:
        feel             proximity, a sum of FEEL_RIGHT 1, FEEL_FRONT_RIGHT 2, FEEL_FRONT 4, FEEL_FRONT_LEFT 8 and
                         FEEL_LEFT 16
-       look             food is straight ahead, beacon_mm 1..1023 mm away; beacon_mm is 0 if none is seen
+       look             food is straight ahead, beacon_mm 1..8191 mm away; beacon_mm is 0 if none is seen
        bump             the body touches an obstacle
    pattern_of(feel)     the three front sensors, a sum of 1 front-right, 2 front, 4 front-left; 0: the way is clear
    pattern_count(p)     how many of the three, 0..3
