@@ -57,8 +57,13 @@ class Connector:
         if access.command:
             self._ways["spawn"] = self._own_program
 
-    def client(self, node: int, log: FrameLog) -> RobotClient:
+    def client(self, node: int, log: FrameLog, *, senses_itself: bool = False) -> RobotClient:
         """Connects to one of the robots. It is stopped and identified, but not started.
+
+        Args:
+            node: Its number.
+            log: Records the frames.
+            senses_itself: Whether an external robot has a body of its own; then senses on the bus are no rival's.
 
         Raises:
             UsageError: The bus cannot be opened, or the robot cannot be started.
@@ -69,9 +74,11 @@ class Connector:
         external = access.robot == "external"
         if access.faults:
             connection = self._with_faults(connection, protocol)
+        if senses_itself and connection.sense is None:
+            connection = replace(connection, sense=lambda _body, senses, _tick: senses)
         client = RobotClient(connection, protocol, log, lockstep=access.lockstep, owner=access.owner)
         client.deadlines.limits = access.limits
-        handshake(client, _EXTERNAL_S if external else connection.deadline_s, shared=external)
+        handshake(client, _EXTERNAL_S if external else connection.deadline_s, shared=external and not senses_itself)
         return client
 
     def connection(self, node: int) -> Connection:

@@ -10,7 +10,8 @@ PROVE: Mapping[str, tuple[str, ...]] = {
         "tests/tools/test_build_environment.py",
     ),
     "judges": tuple(
-        f"tests/judges/test_{name}.py" for name in ("closed_loop", "lockstep", "pico", "pico_pins", "starts")
+        f"tests/judges/test_{name}.py"
+        for name in ("calibrate", "closed_loop", "lockstep", "pico", "pico_pins", "starts")
     ),
     "eva": ("tests/proof/test_proof.py", "tests/proof/test_contracts.py"),
     "fuzz": ("tests/proof/test_fuzz.py", "tests/proof/test_readers.py"),

@@ -109,7 +109,7 @@ def _reached(stack: ExitStack, arguments: argparse.Namespace) -> "tuple[Calibrat
     )
     log = NoLog()
     stack.callback(log.close)
-    client = Connector(stack, config.access).client(config.node, log)
+    client = Connector(stack, config.access).client(config.node, log, senses_itself=True)
     if not emulated:
         return Calibration(client, time.sleep), None
     from host_sim.emulator.pins_board import PinsBoard
