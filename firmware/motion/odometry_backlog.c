@@ -60,9 +60,8 @@ static int32_t possible(const struct backlog *backlog, int32_t counts, int32_t r
 
 void backlog_roll(struct backlog *backlog, int32_t rolled, unsigned ticks)
 {
-    const int16_t *commanded = backlog->commanded;
-    bool rests = (rolled | backlog->counts | commanded[0] | commanded[1]) == 0;   /* no more than a shortcut */
-    int32_t counts = rests ? 0 : backlog->counts + more(backlog, rolled, commanded[0] * (int32_t)ticks);
+    bool rests = (rolled | backlog->counts | backlog->commanded[0] | backlog->commanded[1]) == 0;   /* a shortcut */
+    int32_t counts = rests ? 0 : backlog->counts + more(backlog, rolled, backlog->commanded[0] * (int32_t)ticks);
 
     if (!rests)
         backlog->counts = (int16_t)wheels_limited(possible(backlog, counts, rolled), COUNTS_MAX);
