@@ -17,6 +17,7 @@ from tests.runs.support import ROOT
 
 FILES_MAX, LINES_MIN, LINE_MAX = 30, 40, 118
 STAND_ALONE = {
+    "host_sim/__main__.py": "a program, which a test imports as well",
     "host_sim/web/sim/due_changes.js": "the schedule of changes, apart from what they do",
     "host_sim/web/sim/world_news.js": "the sentences of changes, apart from the rows of a run",
     "host_sim/world/arena.py": "a view of one struct, as body.py is",

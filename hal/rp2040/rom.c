@@ -22,8 +22,8 @@ struct call {
 
 uint32_t rom_call(const struct call *calls);
 
-/* Calls each function of a list, and returns what the last one does. It lies in RAM. In assembly, since no compiler can
- * tell what stack the ROM's functions use: at most 200 bytes. */
+/* Calls each function of a list, and returns what the last one does. It lies in RAM. In assembly, since no compiler
+ * can tell what stack the ROM's functions use: at most 200 bytes. */
 __attribute__((naked, used, section(".in_ram")))
 uint32_t rom_call(const struct call *calls __attribute__((unused)))
 {
@@ -44,7 +44,10 @@ uint32_t rom_call(const struct call *calls __attribute__((unused)))
 static uint32_t find(uint32_t name)
 {
     /* The half-words at 0x14 and 0x18 are the table and the function that looks up. */
-    const struct call calls[] = {{.first = ROM[5] & 0xFFFFu, .second = name, .function = ROM[6] & 0xFFFFu}, {.function = 0}};
+    const struct call calls[] = {
+        {.first = ROM[5] & 0xFFFFu, .second = name, .function = ROM[6] & 0xFFFFu},
+        {.function = 0},
+    };
 
     return rom_call(calls);
 }
