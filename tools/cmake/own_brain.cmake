@@ -4,7 +4,7 @@ if(OCTET_OWN_BRAIN)
   get_target_property(sources octet_core SOURCES)
   list(FILTER sources EXCLUDE REGEX "/own\\.c$")
   set_target_properties(octet_core PROPERTIES
-    SOURCES "${sources};${OCTET_OWN_BRAIN};${CMAKE_CURRENT_LIST_DIR}/image.c")
+    SOURCES "${sources};${OCTET_OWN_BRAIN};${PROJECT_SOURCE_DIR}/host_sim/program/own/image.c")
   set_source_files_properties(${OCTET_OWN_BRAIN} TARGET_DIRECTORY octet_core PROPERTIES
-    COMPILE_OPTIONS "-w;-Wno-error;-I${CMAKE_CURRENT_LIST_DIR};-include;octet_brain.h")
+    COMPILE_OPTIONS "-w;-Wno-error;-I${PROJECT_SOURCE_DIR}/host_sim/program/own;-include;octet_brain.h")
 endif()
