@@ -139,8 +139,8 @@ def test_the_campaign_makes_the_faults_of_a_process_happen_to_it(capsys, event, 
 
 
 def test_the_campaign_needs_the_robot_that_is_external(capsys):
-    assert main(["campaign", "x.html", "--links", "external"]) == 2
-    assert main(["campaign", "x.html", "--robot-command", EXAMPLE]) == 2
+    assert main(["campaign", "--html", "x.html", "--links", "external"]) == 2
+    assert main(["campaign", "--html", "x.html", "--robot-command", EXAMPLE]) == 2
     assert capsys.readouterr().err.count("go together") == 2
 
 
@@ -153,7 +153,7 @@ def test_a_campaign_writes_its_outcomes_for_build_servers(monkeypatch, tmp_path)
     words = [str(word) for pair in files.items() for word in pair]
     where = ["--links", "external", "--robot-command", EXAMPLE, "--profiles", "article", "--limit-s", "4"]
 
-    main(["campaign", str(tmp_path / "c.html"), *where, *words])
+    main(["campaign", "--html", str(tmp_path / "c.html"), *where, *words])
 
     cases = json.loads(files["--json"].read_text())
     assert [case["name"].rpartition(": ")[2] for case in cases] == ["no fault", *(each.name for each in few)]
