@@ -12,7 +12,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
@@ -46,12 +46,13 @@ def faults() -> list[Fault]:
 
 @contextmanager
 def copy_of_the_tree() -> Iterator[Path]:
-    """A copy of the sources, with what was built of them."""
+    """A copy of the sources, with what was built of them; its tools/setup does nothing, lest it changes that."""
     with TemporaryDirectory() as folder:
         tree = Path(folder) / "tree"
         shutil.copytree(ROOT, tree, ignore=_NOT_COPIED, symlinks=True)
         for name in ("build", ".venv"):
             (tree / name).symlink_to(ROOT / name)
+        (tree / "tools/setup").write_text("#!/bin/sh\n")
         yield tree
 
 
@@ -88,8 +89,8 @@ def _is_found_in_c(fault: Fault) -> bool:
     mutate = runpy.run_path(os.fspath(ROOT / "tools/mutate"))
     told = mutate["output"]("ctest", "--test-dir", mutate["BUILD"], "--show-only=json-v1")
     names = [test["name"] for test in json.loads(told)["tests"]]
-    source = mutate["Source"](ROOT / fault.file, [name for name in names if name.startswith(fault.tests)])
-    return not source.survives(fault.text)
+    with closing(mutate["Source"](ROOT / fault.file, [it for it in names if it.startswith(fault.tests)])) as source:
+        return not source.survives(fault.text)
 
 
 def missed(chosen: Sequence[tuple[int, Fault]]) -> list[str]:
