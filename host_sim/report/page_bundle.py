@@ -46,10 +46,9 @@ for (let i = 0; i < text.length; i += 5) {
 }
 if (window.DecompressionStream) {
   const packed = new Blob([view.buffer.slice(0, SIZE)]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const page = await new Response(packed).text();
-  document.open();
-  document.write(page);
-  document.close();
+  document.documentElement.innerHTML = await new Response(packed).text();
+  const { textContent } = document.querySelector("script[type=module]");
+  document.head.append(Object.assign(document.createElement("script"), { type: "module", textContent }));
 } else {
   document.body.textContent = "NO_STREAM";
 }
@@ -57,6 +56,7 @@ if (window.DecompressionStream) {
 </body>
 </html>
 """
+"""It writes no new document: after `document.open()`, Chromium captures no pointer."""
 _NO_STREAM = "This page needs a newer browser: Chrome or Edge 80, Firefox 113, Safari 16.4."
 _IMPORT = re.compile(r'^import (\{[^}]*\}) from "(\.\.?/[\w./-]+)";$', re.MULTILINE)
 _COMMENT = re.compile(r"^[ \t]*(?:/\*[^*]*\*+(?:[^/*][^*]*\*+)*/|//[^\n]*)\n", re.MULTILINE)

@@ -9,12 +9,12 @@ from playwright.sync_api import Page
 from tests.web.support import next_frame
 
 AT = """([x, y]) => {
-  const place = octet.renderer.placeOf({ clientX: x, clientY: y });
+  const place = octet.lane.renderer.placeOf({ clientX: x, clientY: y });
   return [place.x, place.y];
 }"""
 
 SEVERAL = """([type, ...each]) => {
-  const canvas = document.querySelector("#arena");
+  const canvas = document.querySelector(".lane canvas");
   const box = canvas.getBoundingClientRect();
   const [clientX, clientY] = [box.x + 0.4 * box.width, box.y + 0.6 * box.height];
   const make = { keydown: (key) => new KeyboardEvent(type, { key, bubbles: true }),
@@ -32,12 +32,12 @@ def page(recorded: Path, open_page: Callable[..., Page]) -> Page:
 def at(page: Page, x: float, y: float) -> list[float]:
     """The place in the arena at a part of its picture, mm."""
     next_frame(page)
-    box = page.locator("#arena").bounding_box()
+    box = page.locator(".lane canvas").bounding_box()
     return page.evaluate(AT, [box["x"] + x * box["width"], box["y"] + y * box["height"]])
 
 
 def point(page: Page, x: float, y: float) -> None:
-    box = page.locator("#arena").bounding_box()
+    box = page.locator(".lane canvas").bounding_box()
     page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
 
 
@@ -63,7 +63,7 @@ def test_a_pointer_on_the_floor_and_arrows_in_the_arena_move_what_is_in_view(pag
     assert at(page, 0.6, 0.7) == pytest.approx(before, abs=3)
 
     tick, before = page.evaluate("octet.tick"), at(page, 0.5, 0.5)
-    page.focus("#arena")
+    page.focus(".lane canvas")
     page.keyboard.press("ArrowRight")
     page.keyboard.press("ArrowDown")
     x, y = at(page, 0.5, 0.5)
@@ -119,7 +119,7 @@ def test_it_follows_the_robot_up_to_the_walls_until_all_is_in_view_again(page):
 def test_two_fingers_zoom(recorded, open_page):
     page = open_page(recorded.as_uri(), has_touch=True, viewport={"width": 390, "height": 844})
     fingers = page.context.new_cdp_session(page)
-    box = page.locator("#arena").bounding_box()
+    box = page.locator(".lane canvas").bounding_box()
 
     def touch(kind: str, apart: float) -> None:
         x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
@@ -135,7 +135,7 @@ def test_two_fingers_zoom(recorded, open_page):
 FIRST_LOOK = """() => {
   const canvas = document.createElement("canvas");
   document.body.append(canvas);
-  const { context, palette } = new octet.renderer.constructor(canvas);
+  const { context, palette } = new octet.lane.renderer.constructor(canvas);
   const [r, g, b] = context.getImageData(150, 75, 1, 1).data;
   return [`#${[r, g, b].map((part) => part.toString(16).padStart(2, "0")).join("")}`, palette.of.floor];
 }"""
