@@ -13,7 +13,7 @@ from host_sim.base.toml_file import parse_toml
 from host_sim.lab.grade.attempt import TITLES
 from host_sim.lab.grade.grade_command import EXERCISES
 from host_sim.lab.grade.grading import grade
-from tests.runs.support import octet_process
+from tests.runs.support import data_in, octet_process
 
 ROOT = Path(__file__).resolve().parents[3]
 SOLUTIONS = Path(__file__).parent / "solutions"
@@ -122,7 +122,7 @@ def test_the_page_and_the_debugger_open_at_the_first_wrong_decision(tmp_path, mo
     tick = int(re.search(r"at tick (\d+), .* you chose a turn right by 10 degrees", verdict)[1])
     shown = octet_process(*shlex.split(command.partition("tools/octet")[2]), "--ex", "print sensed->feel").stdout
 
-    assert f'"shown":{tick}' in Path(page.split()[-1]).read_text().replace(" ", "")
+    assert data_in(Path(page.split()[-1]).read_text(), "run")["shown"] == tick
     assert re.search(rf"^tick {tick}, .*\n(.*\n)*\$1 = [1-9]", shown, re.MULTILINE)
 
 
