@@ -10,9 +10,9 @@ from host_sim.protocol.codec import Frame
 from host_sim.recording.log_reader import read_log
 from host_sim.report import octet_page as octet_page_module
 from host_sim.report.laboratory import NO_FIRMWARE
-from host_sim.report.octet_page import octet_page
+from host_sim.report.octet_page import class_page, octet_page
 from host_sim.report.page_bundle import packed_page
-from tests.runs.support import data_in, octet, octet_process
+from tests.runs.support import data_in, octet, octet_process, unpacked
 
 
 @pytest.fixture
@@ -52,6 +52,13 @@ def test_the_page_holds_the_firmware_and_what_the_robots_were_told(run_of, tmp_p
 
 def test_octet_html_is_small_enough_for_a_slow_line():
     assert len(packed_page(octet_page()).encode()) <= 260_000
+
+
+def test_the_page_of_a_class_may_reach_its_server_and_says_that_it_is_one():
+    text = unpacked(class_page())
+
+    assert "default-src 'none'; connect-src 'self'; " in text
+    assert '<meta name="octet-class"' in text
 
 
 def test_a_run_writes_into_its_page_what_its_log_says(tmp_path):

@@ -15,12 +15,10 @@ from host_sim.recording.resimulation import resimulate
 from host_sim.recording.state_types import State
 from host_sim.recording.trajectory import Trajectory, at
 from host_sim.report import page_bundle
-from host_sim.report.octet_page import class_page
 from host_sim.report.replay_page import pack, page, run_data, write_page
 from host_sim.talk import languages
 from tests.recording.support import record_run
 from tests.runs.support import data_in
-from tests.runs.support import unpacked as unpacked_page
 
 SVG = "http://www.w3.org/2000/svg"
 """The name of a language, which nobody fetches."""
@@ -181,10 +179,3 @@ def test_a_page_that_is_written_as_a_file_may_load_nothing():
     assert policy[1].startswith("default-src 'none'; ")
     assert "http" not in policy[1]
     assert text.index(policy[0]) < text.index("<script")
-
-
-def test_the_page_of_a_class_may_reach_its_server_and_says_that_it_is_one():
-    text = unpacked_page(class_page())
-
-    assert "default-src 'none'; connect-src 'self'; " in text
-    assert '<meta name="octet-class"' in text
