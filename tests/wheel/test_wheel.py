@@ -16,7 +16,7 @@ from urllib.request import HTTPCookieProcessor, build_opener
 import pytest
 
 from host_sim.cli.main import parser_of
-from tests.runs.support import octet_process
+from tests.runs.support import octet_process, unpacked
 
 ROOT = Path(__file__).resolve().parents[2]
 PLAN = """\
@@ -108,11 +108,11 @@ def test_a_command_serves_its_page(name, environment, tmp_path):
     command, browser = [environment / "bin/octet", *USES[name].split()], build_opener(HTTPCookieProcessor())
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, text=True) as watched:
         address = next(found[0] for line in watched.stdout if (found := re.search(r"http://\S+", line)))
-        page = browser.open(address, timeout=20).read()
+        page = browser.open(address, timeout=20).read().decode()
         watched.send_signal(signal.SIGINT)
         watched.wait(30)
 
-    assert b'id="arena' in page
+    assert 'id="arena' in unpacked(page)
 
 
 def test_the_api_has_the_name_of_the_project(environment, tmp_path):
