@@ -9,8 +9,8 @@ import { PlayingPage } from "./playing_page.js";
 import { Simulator } from "./simulator.js";
 
 /**
- * What the page has in it, as host_sim/report/octet_page.py says: page.wasm and the worker's script, packed, and for a
- * recorded run what repeats it; or why it simulates nothing.
+ * What `octet_page` has put into the page: page.wasm and the worker's script, packed, and for a recorded run what repeats
+ * it; or why it simulates nothing.
  * @typedef {{worlds: Worlds, programs: Record<string, string>, wasm: string, worker: string, recorded?: RecordedRun, why?: string}} Parts
  */
 
