@@ -5,7 +5,6 @@ import { made } from "../core/dom.js";
 import { heard, say } from "../core/language.js";
 import { setText } from "../core/elements.js";
 import { OPCODE, PARAMETERS, PROFILES } from "../generated.js";
-import { showTick } from "../draw/recorded_scene.js";
 import { Renderer } from "../draw/renderer.js";
 import { RunData } from "../core/run_data.js";
 import { Scene } from "../draw/scene.js";
@@ -146,7 +145,15 @@ export class ShownRun {
    * @param {boolean} anew - Whether the trail must be drawn from its beginning.
    */
   go(tick, anew) {
-    if (this.data && this.scene) showTick(this.scene, this.data, tick, anew);
+    const { data, scene } = this;
+    if (!data || !scene) return;
+    const [before, now] = [scene.state.tick, Math.min(tick, data.last)];
+    const environment = data.sceneAt(now);
+    const goesOn = !anew && now >= before && environment.first_tick === scene.environment.first_tick;
+    if (goesOn) data.addTrails(scene.trails, before + 1, now);
+    else data.trailsAt(now, scene.trails);
+    scene.environment = environment;
+    scene.states = data.statesAt(now);
   }
 
   /** @param {number} tick */
