@@ -19,7 +19,7 @@ from tests.web.looks import (
     violations,
     violations_at,
 )
-from tests.web.support import wait_for
+from tests.web.support import next_frame, wait_for
 
 SIZES = DESKTOPS + PHONES
 LIVE = (
@@ -156,6 +156,7 @@ def test_the_legend_is_one_press_away_on_a_replay(recorded: Path, open_page):
 def test_a_printed_replay_is_one_white_sheet(recorded: Path, open_page):
     page = open_page(recorded.as_uri())
     page.evaluate("octet.go(octet.last)")
+    next_frame(page)
 
     sheet = page.pdf(format="A4", margin=dict.fromkeys(("top", "right", "bottom", "left"), "10mm"))
 
