@@ -170,16 +170,11 @@ def _contest(file: Path, seed: int) -> Verdict:
 
 def main() -> int:
     """Returns 0; the verdict is on standard output."""
-    number, seed, file, page = (
-        int(sys.argv[1]),
-        int(sys.argv[2]),
-        Path(sys.argv[3]),
-        [*map(Path, sys.argv[4:]), None][0],
-    )
+    number, seed, file, *page = sys.argv[1:]
     limits = {resource.RLIMIT_CPU: _CPU_S, resource.RLIMIT_FSIZE: _FILE_BYTES, resource.RLIMIT_NOFILE: _FILES}
     for limit, value in limits.items():
         resource.setrlimit(limit, (value, value))
-    sys.stdout.write(json.dumps(asdict(attempt(number, seed, file, page))) + "\n")
+    sys.stdout.write(json.dumps(asdict(attempt(int(number), int(seed), Path(file), *map(Path, page)))) + "\n")
     return 0
 
 
