@@ -22,6 +22,15 @@ static bool has_ended(uint8_t feel)
     return motion_ended(&motion, &config, &senses);
 }
 
+/* Some ticks in which each wheel rolls so many counts. */
+static void roll_for(unsigned ticks, int left, int right)
+{
+    for (unsigned i = 0; i < ticks; i++) {
+        (void)driven();
+        roll(left, right);
+    }
+}
+
 /* Whether these odometers are credible after both wheels stood at another count. */
 static bool is_credible(int from, int left, int right, unsigned ticks)
 {
@@ -164,33 +173,23 @@ TEST(wheels_slower_than_half_are_denied_after_ten_ticks)
 TEST(wheels_that_grow_slow_in_a_turn_are_denied)
 {
     begin(210, 0);
-    for (unsigned i = 0; i < 20; i++) {
-        (void)driven();
-        roll(50, -50);
-    }
+    roll_for(20, 50, -50);
     TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
-    (void)driven();
-    roll(24, -24);
+    roll_for(1, 24, -24);
     TEST_ASSERT_TRUE(motion_is_denied(&motion, &config));
 }
 
 TEST(wheels_at_half_their_speed_are_not_too_slow)
 {
     begin(210, 0);
-    for (unsigned i = 0; i < 30; i++) {
-        (void)driven();
-        roll(25, -25);
-    }
+    roll_for(30, 25, -25);
     TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
 }
 
 TEST(a_turn_for_food_is_not_judged_by_its_pace)
 {
     motion_begin(&motion, &config, &FOOD_TURN);
-    for (unsigned i = 0; i < 30; i++) {
-        (void)driven();
-        roll(10, -10);
-    }
+    roll_for(30, 10, -10);
     TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
 }
 
