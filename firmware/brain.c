@@ -46,14 +46,17 @@ static bool understands(uint8_t profile, const struct memory *memory)
 
 bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT])
 {
+    uint8_t profile = PROFILE_COUNT;
+
     if (!memory_adopt(&brain->memory, cells))
         return false;
     if (understands(brain->profile, &brain->memory))
         return true;
-    /* Each kind belongs to some profile, so the last profile need not be checked. */
-    brain->profile = 0;
-    while (brain->profile < PROFILE_COUNT - 1 && !understands(brain->profile, &brain->memory))
-        brain->profile++;
+    while (profile > 0) {   /* backward, so that the first one is set last */
+        profile--;
+        if (understands(profile, &brain->memory))
+            brain->profile = profile;
+    }
     brain->learns = begin(brain);
     return true;
 }
@@ -101,7 +104,7 @@ bool brain_take_votes(struct brain *brain, const int8_t votes[CELL_COUNT])
 
 void brain_doubt(struct brain *brain, const struct senses *senses)
 {
-    brain->tried_feel = 0;
+    brain->tried_feel = TEACHES_NOTHING;
     brain->used = 0;
     if (brain->awaits == AWAITS_LOOK && !senses->look)
         brain->awaits = AWAITS_NOTHING;

@@ -16,13 +16,15 @@ struct action {
     bool until_food;      /* end the turn when food is seen; do not make up for the remainder */
 };
 
+enum { TEACHES_NOTHING = 0 };   /* tried_feel: nothing was in the way, or the turn does not count */
+
 struct brain {
     struct memory memory;
     struct random random;
     uint8_t profile;         /* of the behaviour that decides, an enum profile */
     uint8_t repeat_count;    /* remembered turns since the way was last clear; stays at 255 */
     uint8_t awaits;          /* what to do when the current action ends; 0: nothing */
-    uint8_t tried_feel;      /* feel when the last turn away from an obstacle began; 0: it teaches nothing */
+    uint8_t tried_feel;      /* feel when the last turn away from an obstacle began, or TEACHES_NOTHING */
     uint8_t tried_side;      /* and its side, tried or remembered */
     uint8_t used;            /* bit p for cell p */
     uint8_t unlearned;       /* likewise: emptied by boredom since the start */

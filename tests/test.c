@@ -23,13 +23,26 @@ __attribute__((destructor)) static void end(void)
         _exit(1);   /* a test has ended the program, perhaps by exit(0) */
 }
 
+static void (*prepare)(void), (*run)(void);
+
+static void run_prepared(void)
+{
+    if (prepare != NULL)
+        prepare();
+    run();
+}
+
 int tests_run(void)
 {
     running = getpid();
     UnityBegin(first == NULL ? "" : first->file);
-    for (const struct test *test = first; test != NULL; test = test->next)
-        if (test->applies == NULL || test->applies())
-            UnityDefaultTestRun(test->run, test->name, test->line);
+    for (const struct test *test = first; test != NULL; test = test->next) {
+        run = test->run;
+        if (test->is_preparation)
+            prepare = run;
+        else if (test->applies == NULL || test->applies())
+            UnityDefaultTestRun(run_prepared, test->name, test->line);
+    }
     running = 0;
     return UNITY_END() != 0 || Unity.NumberOfTests == 0;
 }

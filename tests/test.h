@@ -13,6 +13,7 @@ struct test {
     int line;
     void (*run)(void);
     bool (*applies)(void);   /* null: always */
+    bool is_preparation;
     struct test *next;
 };
 
@@ -28,9 +29,20 @@ int tests_run(void);
     static void test_##name(void); \
     __attribute__((constructor)) static void register_##name(void) \
     { \
-        static struct test test = {__FILE__, "test_" #name, __LINE__, test_##name, condition, NULL}; \
+        static struct test test = {__FILE__, "test_" #name, __LINE__, test_##name, condition, false, NULL}; \
         test_register(&test); \
     } \
     static void test_##name(void)
+
+/* BEFORE_EACH(name) { ... } runs before each test below it in the file, down to the next BEFORE_EACH; after setUp.
+ * A test may call it again: prepare_name(). */
+#define BEFORE_EACH(name) \
+    static void prepare_##name(void); \
+    __attribute__((constructor)) static void register_##name(void) \
+    { \
+        static struct test test = {__FILE__, #name, __LINE__, prepare_##name, NULL, true, NULL}; \
+        test_register(&test); \
+    } \
+    static void prepare_##name(void)
 
 #endif

@@ -1,11 +1,15 @@
 """The programming interface: the same runs as by the command line, and tables of them."""
 
+import doctest
+import importlib
 import json
+import pkgutil
 from dataclasses import fields
 
 import numpy as np
 import pytest
 
+import host_sim
 from host_sim.api import RunConfig, UsageError, resimulate, run
 from host_sim.cli.main import main
 from host_sim.client.frame_log import digest_of
@@ -97,3 +101,32 @@ def test_a_configuration_with_a_wrong_value_is_refused_by_its_name(name, value):
 def test_help_on_a_configuration_has_each_option_with_its_range():
     assert "seed: seed for environments and random turns (0..4294967295)." in RunConfig.__doc__
     assert all(f"        {field.name}: " in RunConfig.__doc__ for field in fields(RunConfig))
+
+
+MODULES = [
+    info.name
+    for info in pkgutil.walk_packages(host_sim.__path__, "host_sim.")
+    if ">>>" in (importlib.util.find_spec(info.name).loader.get_source(info.name) or "")
+]
+
+
+def failures_in(module: object) -> int:
+    return doctest.testmod(module, report=False).failed
+
+
+def test_there_are_examples():
+    assert {"host_sim.sim.make", "host_sim.world.arena", "host_sim.world.body", "host_sim.world.layouts"} <= set(
+        MODULES
+    )
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_the_examples_of_a_module_hold(name):
+    assert failures_in(importlib.import_module(name)) == 0
+
+
+def test_an_example_that_does_not_hold_is_noticed(capsys):
+    wrong = type(doctest)("wrong", "An example.\n\n>>> 1 + 1\n3\n")
+
+    assert failures_in(wrong) == 1
+    capsys.readouterr()

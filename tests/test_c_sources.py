@@ -6,6 +6,7 @@ one source does not have to read them all at once.
 """
 
 import json
+import re
 import subprocess
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
@@ -23,6 +24,7 @@ NOT_ON_THE_HOST = {
     "hal/port/cortex_m/startup.c": "written in the core's own assembler, and in symbols of the linker script",
     "hal/port/cortex_m/reset_chip.c": "as above",
     "hal/pins_body/body_main.c": "a main of its own; tests/image/test_body_node.py runs it",
+    "hal/rp2040/check_main.c": "a main of its own; tests/judges/test_check_wiring.py runs it",
     "hal/stm32/stm32g431/nmi.c": "written in the core's own assembler; what it calls is tested as flash_forgives",
     "hal/rp2040/boot2.c": "as above; tests/judges/test_pico.py runs it",
     "hal/rp2040/divide.c": "as above; tests/judges/test_pico.py runs it",
@@ -39,7 +41,7 @@ NOT_ON_THE_HOST = {
 
 
 FOR_OTHERS = "/octet_brain.dir/"
-"""The brain without the robot, for projects that ask for it; tests/tools/test_package.py builds it."""
+"""The brain without the robot, for projects that ask for it; tests/tools/test_release.py builds it."""
 
 PAGE_PARTS = ("commands", "frames", "history", "layouts", "memory", "open", "program", "state", "world")
 
@@ -229,3 +231,40 @@ def test_a_call_that_closes_a_ring_is_found(objects, low, symbol, ring):
     found = {source.rpartition("/")[2] for source in in_rings(calls([*objects, planted]))}
 
     assert found >= ring
+
+
+def sanitizer_flags() -> list[str]:
+    """What gcc builds the C tests with."""
+    options = re.findall(r"add_compile_options\((.*)\)", (ROOT / "tools/cmake/sanitizers.cmake").read_text())
+    return " ".join(options).split()
+
+
+CRASHES = {
+    "heap-buffer-overflow": "char *bytes = calloc(8, 1); int result = bytes[7 + argc]; free(bytes);",
+    "heap-use-after-free": "char *bytes = malloc(8); free(bytes); int result = bytes[argc];",
+    "signed integer overflow": "int result = INT_MAX; result += argc;",
+    "shift exponent": "int result = 1 << (31 + argc);",
+}
+
+
+def run_sanitized(folder: Path, body: str) -> subprocess.CompletedProcess[str]:
+    source = folder / "canary.c"
+    source.write_text(
+        "#include <limits.h>\n#include <stdlib.h>\n"
+        f"int main(int argc, char *argv[]) {{ (void)argv; {body} return result == 42; }}\n"
+    )
+    program = folder / "canary"
+    subprocess.run(["gcc", "-std=c99", *sanitizer_flags(), "-o", program, source], check=True)
+    return subprocess.run([program], capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize("error", CRASHES)
+def test_the_sanitizers_end_a_program_that_errs(tmp_path, error):
+    ended = run_sanitized(tmp_path, CRASHES[error])
+
+    assert ended.returncode != 0
+    assert error in ended.stderr
+
+
+def test_the_sanitizers_let_a_sound_program_be(tmp_path):
+    assert run_sanitized(tmp_path, "char *bytes = calloc(8, 1); int result = bytes[7]; free(bytes);").returncode == 0

@@ -28,6 +28,7 @@ MAY_INCLUDE = {
         *("hal/pins_body/", "hal/port/"),
     ),
     "hal/rp2040/": ("hal/flash_store/", "hal/link/", "hal/pins_body/", "hal/port/"),
+    "hal/rp2040/check_main.c": ("hal/hal.h", "hal/pins_body/pins.h", "hal/port/cortex_m/"),
     "hal/library/": ("firmware/", "hal/protocol/"),
     "hal/pins_body/": (
         "firmware/io.h",

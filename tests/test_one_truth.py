@@ -12,15 +12,15 @@ from pathlib import Path
 
 import pytest
 
+from tests.runs.support import ROOT
 from tools.robot_words.model import read
 
-ROOT = Path(__file__).resolve().parents[1]
 ROBOT = read(ROOT / "hal/protocol/octet.dbc", ROOT / "hal/protocol/robot.toml")
 FOLDERS = ("firmware", "hal", "host_sim", "tests", "tools")
-SUFFIXES = {".c", ".h", ".py", ".js", ".html", ""}
+SUFFIXES = {".c", ".h", ".py", ".ts", ".html", ""}
 NOT_SCANNED = (
     "host_sim/protocol/generated.py",
-    "host_sim/web/generated.js",
+    "host_sim/web/generated.ts",
     "tests/firmware/oracles/",  # a second opinion has numbers of its own
     "tools/robot_words/",  # what the numbers are written with
 )
@@ -128,20 +128,20 @@ def test_what_is_no_copy_is_let_through(text):
 
 
 TWIN = re.compile(
-    r"\bas [\w/]+\.(?:c|h|js|py) has (?:it|them)\b|\.(?:c|h|js|py)`? has the same\b"
-    r"|\bas (?:in )?`?[\w/]+\.(?P<suffix>c|h|js|py)\b",
+    r"\bas [\w/]+\.(?:c|h|ts|py) has (?:it|them)\b|\.(?:c|h|ts|py)`? has the same\b"
+    r"|\bas (?:in )?`?[\w/]+\.(?P<suffix>c|h|ts|py)\b",
     re.IGNORECASE,
 )
-SOURCES = ("firmware/*.[ch]", "hal/*.[ch]", "host_sim/*.[ch]", "host_sim/*.py", "host_sim/*.js")
-LANGUAGES = {"c": "C", "h": "C", "js": "JavaScript", "py": "Python"}
+SOURCES = ("firmware/*.[ch]", "hal/*.[ch]", "host_sim/*.[ch]", "host_sim/*.py", "host_sim/*.ts")
+LANGUAGES = {"c": "C", "h": "C", "ts": "TypeScript", "py": "Python"}
 
 TWINS = {
     "host_sim/sim/native/fleet.c": "tests/lab/study/test_trial.py",
     "host_sim/sim/native/log_lines.h": "tests/sim/test_native_equality.py",
-    "host_sim/web/lab/files.js": "tests/web/sim/test_page_opening.py",
+    "host_sim/web/lab/files.ts": "tests/web/sim/test_page_opening.py",
     "host_sim/web/native/page_open.c": "tests/web/sim/test_page_runs.py",
-    "host_sim/web/talk/eliza.js": "tests/web/talk/test_same_answers.py",
-    "host_sim/web/talk/facts.js": "tests/web/talk/test_same_answers.py",
+    "host_sim/web/talk/eliza.ts": "tests/web/talk/test_same_answers.py",
+    "host_sim/web/talk/facts.ts": "tests/web/talk/test_same_answers.py",
 }
 """What is still written in two languages: each with the test that holds both to the same results."""
 
@@ -179,4 +179,52 @@ def test_no_other_file_says_to_be_the_twin_of_another(texts):
     ],
 )
 def test_a_file_that_says_so_is_found(comment):
-    assert twins({"one.js": comment.replace("//", "*"), "other.js": "/* As in the article. */"}) == {"one.js"}
+    assert twins({"one.ts": comment.replace("//", "*"), "other.ts": "/* As in the article. */"}) == {"one.ts"}
+
+
+READS = {
+    ".c": re.compile(r"CLOCK_REALTIME|\b(gettimeofday|localtime|gmtime|time|ftime|clock)\s*\("),
+    ".py": re.compile(r"\btime\.(time|time_ns|localtime|gmtime|strftime)\b|\bdate(time)?\.(now|utcnow|today)\b"),
+}
+"""What reads it, by the ends of files' names."""
+
+ALLOWED = {
+    "host_sim/lab/campaign/host_events.py": "sets it, for those who read it",
+    "host_sim/live/class_roster.py": "tells when a page last reported",
+    "host_sim/live/class_server.py": "tells how long ago that was",
+    "host_sim/live/feed.py": "tells the page when a message was made",
+    "host_sim/sim/own_brain.py": "keeps in its cache what another run may be about to use",
+    "host_sim/transport/socket_pair_bus.py": "the time stamp that python-can wants of a frame",
+}
+
+
+def readers(suffix: str) -> set[str]:
+    folders = (ROOT / name for name in ("firmware", "hal", "host_sim"))
+    paths = [path for folder in folders for path in folder.rglob(f"*{suffix}")]
+    return {str(path.relative_to(ROOT)) for path in paths if READS[suffix].search(path.read_text())}
+
+
+@pytest.mark.parametrize("suffix", READS)
+def test_only_what_is_listed_reads_the_wall_clock(suffix):
+    assert readers(suffix) == {name for name in ALLOWED if Path(name).suffix == suffix}
+
+
+@pytest.mark.parametrize(
+    ("suffix", "line"),
+    [
+        (".c", "clock_gettime(CLOCK_REALTIME, &now);"),
+        (".c", "srand(time(NULL));"),
+        (".py", "began_s = time.time()"),
+        (".py", "datetime.now(timezone.utc)"),
+    ],
+)
+def test_a_reading_of_the_wall_clock_is_found(suffix, line):
+    assert READS[suffix].search(line)
+
+
+@pytest.mark.parametrize(
+    ("suffix", "line"),
+    [(".c", "clock_gettime(CLOCK_MONOTONIC, &now);"), (".py", "time.monotonic() + self.now()")],
+)
+def test_a_monotonic_clock_is_none(suffix, line):
+    assert not READS[suffix].search(line)

@@ -18,12 +18,10 @@ from tests.runs.support import ROOT
 FILES_MAX, LINES_MIN, LINE_MAX = 30, 40, 118
 STAND_ALONE = {
     "host_sim/__main__.py": "a program, which a test imports as well",
-    "host_sim/web/sim/due_changes.js": "the schedule of changes, apart from what they do",
-    "host_sim/web/sim/world_news.js": "the sentences of changes, apart from the rows of a run",
     "host_sim/world/arena.py": "a view of one struct, as body.py is",
 }
 PYTHON = re.compile(r"^\s*(?:from ([\w.]+) import ([\w, ]+|\()|import ([\w.]+))", re.MULTILINE)
-JAVASCRIPT = re.compile(r'from "(\.[^"]+)"')
+TYPESCRIPT = re.compile(r'^import \{[^}]*\} from "(\.[^"]+)\.js"', re.MULTILINE)
 
 
 def crowded(files: Iterable[str]) -> dict[str, int]:
@@ -34,8 +32,8 @@ def crowded(files: Iterable[str]) -> dict[str, int]:
 
 def imported(file: str, text: str) -> set[str]:
     """The modules that a file imports, as paths."""
-    if file.endswith(".js"):
-        return {os.path.normpath(PurePath(file).parent / name) for name in JAVASCRIPT.findall(text)}
+    if file.endswith(".ts"):
+        return {os.path.normpath(PurePath(file).parent / f"{name}.ts") for name in TYPESCRIPT.findall(text)}
     found: set[str] = set()
     for package, names, module in PYTHON.findall(text):
         dotted = [package or module, *(f"{package}.{name.strip()}" for name in names.split(",") if package)]
@@ -76,9 +74,9 @@ def test_one_file_too_many_is_found(files):
 
 @pytest.fixture(scope="module")
 def texts(files) -> dict[str, str]:
-    """The sources in Python and JavaScript."""
+    """The sources in Python and TypeScript."""
     scripts = [file for file in files if file.startswith("tools/") and "." not in PurePath(file).name]
-    sources = [file for file in files if file.endswith((".py", ".js"))]
+    sources = [file for file in files if file.endswith((".py", ".ts"))]
     return {file: (ROOT / file).read_text() for file in sources + scripts}
 
 
@@ -86,10 +84,10 @@ def test_no_module_is_too_small_to_stand_alone(texts):
     assert too_small(texts) <= set(STAND_ALONE)
 
 
-@pytest.mark.parametrize("where", ["host_sim/live/page_talk.py", "host_sim/web/board/board.js"])
+@pytest.mark.parametrize("where", ["host_sim/live/page_talk.py", "host_sim/web/board/board.ts"])
 def test_a_small_module_with_one_importer_is_found(texts, where):
     planted = str(PurePath(where).with_stem("planted"))
-    line = {".js": 'import { planted } from "./planted.js";', ".py": "from host_sim.live.planted import planted"}
+    line = {".ts": 'import { planted } from "./planted.js";', ".py": "from host_sim.live.planted import planted"}
     one = {**texts, planted: "\n", where: f"{line[PurePath(where).suffix]}\n{texts[where]}"}
     another = str(PurePath(where).with_stem("another"))
 

@@ -29,8 +29,8 @@ enum awaits {
     AWAITS_NOTHING,
     AWAITS_LOOK,      /* after a step forward: look for food */
     AWAITS_VERDICT,   /* after a trial turn: judge it */
-    AWAITS_CHECK,     /* after a remembered turn: nothing in the listing */
-    AWAITS_BOREDOM    /* after one remembered turn too many: about-face */
+    AWAITS_BOREDOM,   /* after one remembered turn too many: about-face */
+    AWAITS_CHECK      /* after any other remembered turn: nothing in the listing */
 };
 
 bool listing_trial_helped(const struct brain *brain, const struct senses *senses);

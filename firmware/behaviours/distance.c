@@ -19,10 +19,9 @@ static int nearest_mm(const struct senses *senses)
 {
     int nearest = REACH_OF_SENSORS_MM;
 
-    for (unsigned i = 0; i < FEEL_COUNT; i++) {
-        if ((1u << i & (FEEL_FRONT_RIGHT | FEEL_FRONT | FEEL_FRONT_LEFT)) != 0u && senses->range_mm[i] < nearest)
+    for (unsigned i = 1; i < FEEL_COUNT - 1; i++)   /* the first and the last look to the sides */
+        if (senses->range_mm[i] < nearest)
             nearest = senses->range_mm[i];
-    }
     return nearest;
 }
 

@@ -14,7 +14,7 @@ bool five_begin(struct brain *brain)
 static void forget(struct brain *brain)
 {
     brain->repeat_count = 0;
-    if (brain->frozen || brain->tried_feel == 0)
+    if (brain->frozen || brain->tried_feel == TEACHES_NOTHING)
         return;
     memory_put(&brain->memory, MEMORY_KIND_ALL_SENSORS, pattern_of(brain->tried_feel), SIDE_NOTHING);
     brain->changed = true;

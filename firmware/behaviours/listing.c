@@ -81,8 +81,8 @@ bool listing_trial_helped(const struct brain *brain, const struct senses *senses
 
 bool listing_remembered_in_vain(const struct brain *brain, const struct senses *senses)
 {
-    return brain->awaits >= AWAITS_CHECK   /* or AWAITS_BOREDOM */
-        && brain->tried_feel != 0 && !turn_helped(brain, senses);
+    return brain->awaits >= AWAITS_BOREDOM   /* or AWAITS_CHECK */
+        && brain->tried_feel != TEACHES_NOTHING && !turn_helped(brain, senses);
 }
 
 struct action listing_next(struct brain *brain, const struct config *config, const struct senses *senses,

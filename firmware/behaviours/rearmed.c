@@ -9,9 +9,7 @@ bool rearmed_begin(struct brain *brain)
 
 struct action rearmed_next(struct brain *brain, const struct config *config, const struct senses *senses)
 {
-    struct action action = article_next(brain, config, senses);
-
-    if (action.reason == REASON_BOREDOM)
+    if (brain->awaits == AWAITS_BOREDOM)
         brain->repeat_count = 0;
-    return action;
+    return article_next(brain, config, senses);
 }

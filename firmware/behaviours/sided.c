@@ -13,6 +13,6 @@ struct action sided_next(struct brain *brain, const struct config *config, const
     unsigned feel = brain->tried_feel;
 
     if (((feel ^ feel >> 2u) & FEEL_FRONT_RIGHT) == 0u)   /* front-left is two bits from front-right */
-        brain->tried_feel = 0;
+        brain->tried_feel = TEACHES_NOTHING;
     return article_next(brain, config, senses);
 }

@@ -1,13 +1,10 @@
 #include "firmware/memory/memory.h"
 
-/* The side sensors' bits of a reading, in each combination. */
-static const uint8_t beside[] = {0, FEEL_RIGHT, FEEL_LEFT, FEEL_RIGHT | FEEL_LEFT};
-
-enum { BESIDE_COUNT = sizeof beside / sizeof beside[0] };
+enum { BESIDE_COUNT = 4 };   /* combinations of the side sensors' bits */
 
 static uint8_t reading(uint8_t pattern, unsigned i)
 {
-    return (uint8_t)(pattern << 1 | beside[i]);
+    return (uint8_t)(2u * pattern | (i & 1u) * FEEL_RIGHT | (i >> 1) * FEEL_LEFT);
 }
 
 static bool has_a_cell_each(const uint8_t cells[CELL_COUNT], enum memory_kind kind)
@@ -47,9 +44,9 @@ static enum side side_of_most(const struct memory *memory, uint8_t pattern)
         if (side == SIDE_LEFT)
             right--;
     }
-    if (right == 0)
-        return SIDE_NOTHING;
-    return right < 0 ? SIDE_LEFT : SIDE_RIGHT;
+    if (right > 0)
+        return SIDE_RIGHT;
+    return right < 0 ? SIDE_LEFT : SIDE_NOTHING;
 }
 
 bool memory_translate(struct memory *memory, enum memory_kind kind)

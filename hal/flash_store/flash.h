@@ -11,7 +11,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { FLASH_PAGES = 2, FLASH_UNIT_MAX = 32 };
+enum { FLASH_PAGES = 2, FLASH_UNIT_MAX = 32, FLASH_UNIT_WORDS = FLASH_UNIT_MAX / 4 };
 
 bool flash_exists(void);
         /* False on a machine without writable flash, such as some emulators. Then nothing else here may be called. */

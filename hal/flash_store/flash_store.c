@@ -21,7 +21,7 @@ struct record {
 /* A place for one record: as many whole write units as needed. Words 1 and 2 are the eight bytes. */
 union place {
     struct record record;
-    uint32_t words[FLASH_UNIT_MAX / 4];
+    uint32_t words[FLASH_UNIT_WORDS];
 };
 
 /* A mark is a record whose CRC is inverted: firmware without marks skips it as an invalid record. */

@@ -1,6 +1,5 @@
 """Errors that people see, and the wording of their messages."""
 
-import re
 from collections.abc import Iterable
 
 
@@ -63,11 +62,20 @@ class BrainError(RobotError):
         tick: The tick; None at the start of a run.
     """
 
-    def __init__(self, message: str, node: int = 0) -> None:
-        """Takes the message, which names the tick."""
+    def __init__(self, message: str, tick: int | None = None, node: int = 0) -> None:
+        """Takes the message and its attributes."""
         super().__init__(message)
-        found = re.search(r"\bat tick (\d+), ", message)
-        self.node, self.tick = node, int(found[1]) if found else None
+        self.tick, self.node = tick, node
+
+    @classmethod
+    def from_failure(cls, failure: str, node: int = 0) -> "BrainError":
+        """Of a failure in the form of `guard.h`: the tick, -1 at the start of a run, a space, and the message."""
+        tick, _, message = failure.partition(" ")
+        return cls(message, int(tick) if int(tick) >= 0 else None, node)
+
+
+class PageNotBuiltError(OctetError):
+    """The program of a page is not built."""
 
 
 class DoubtfulError(OctetError):

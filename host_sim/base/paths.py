@@ -46,7 +46,10 @@ def as_called(text: str) -> str:
 
 
 WEB = PACKAGE / "web"
-"""The HTML, CSS and JavaScript of the pages."""
+"""The HTML and CSS of the pages, and in a checkout their TypeScript."""
+
+PAGE_SCRIPTS = BUILD / "web"
+"""The programs of the pages, each bundled into one file, from `tools/setup`."""
 
 PAGE_WASM = BUILD / "page" / "host_sim" / "web" / "native" / "page.wasm"
 """Robots and their world as WebAssembly, from `tools/setup page`."""

@@ -24,8 +24,8 @@ def add(commands: Subparsers) -> None:
     parser = add_command(
         commands,
         "class",
-        _hold,
-        summary="serve the page to a class, and a board with its goals",
+        _serve_class,
+        summary="serve the page to a class, and show its progress on a board",
         description="Serves the page to a class: each pupil's page runs a robot of its own. The goals reached in\n"
         "the lessons come to a board, and are kept in a file. Ctrl-C ends it.",
         epilog=_EXAMPLES,
@@ -49,7 +49,7 @@ def add(commands: Subparsers) -> None:
     add_option(parser, "port")
 
 
-def _hold(arguments: argparse.Namespace) -> int:
+def _serve_class(arguments: argparse.Namespace) -> int:
     import asyncio
 
     from host_sim.live.class_roster import Roster

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from host_sim.base.errors import counted
 from host_sim.base.files import write_bytes
-from host_sim.base.progress_line import ProgressLine
-from host_sim.cli.outputs import FLEET_PICTURE, SUMMARY, keep_earlier, tell
+from host_sim.base.terminal import ProgressLine
+from host_sim.cli.outputs import FLEET_PICTURE, SUMMARY, keep_earlier, print_result
 from host_sim.cli.run_options import FLEET_TABLE, RunOptions
 from host_sim.recording.fleet_summary import summarize_fleet, table
 from host_sim.recording.run_folder import run_folder
@@ -20,8 +20,8 @@ from host_sim.world.geometry import SimParams
 _WHERE = {"one": "all in one world", "own": "each in its own world", "hall": "all in one hall"}
 
 
-def conduct_fleet(options: RunOptions) -> Summary:
-    """Conducts the run of a fleet and writes its files.
+def run_fleet_command(options: RunOptions) -> Summary:
+    """Runs a fleet and writes its files to the folder `options.out`.
 
     Raises:
         UsageError: There is no such world; nothing was changed.
@@ -43,7 +43,7 @@ def conduct_fleet(options: RunOptions) -> Summary:
         write_bytes(options.out / FLEET_TABLE, table(results).encode())
         _draw(options.out / FLEET_PICTURE, config, results)
         summary.write(options.out / SUMMARY)
-    tell(options, summary, [options.out / name for name in (FLEET_PICTURE, FLEET_TABLE, SUMMARY)])
+    print_result(options, summary, [options.out / name for name in (FLEET_PICTURE, FLEET_TABLE, SUMMARY)])
     return summary
 
 

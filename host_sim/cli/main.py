@@ -19,6 +19,7 @@ from typing import NoReturn
 from host_sim.base.errors import OctetError, UsageError
 from host_sim.base.paths import INSTALLED, as_called, version
 from host_sim.base.system import ENDING_SIGNALS
+from host_sim.base.terminal import RED, coloured
 from host_sim.cli.parsing import Parser
 
 _ROOMS = ("cli", "lab/*")
@@ -27,7 +28,7 @@ _GROUPS = {
     "look at a run": ("replay", "picture", "export", "world", "debug"),
     "measure": ("compare", "study", "tune", "campaign", "grade"),
     "CAN bus and protocol": ("check", "dbc"),
-    "firmware": ("calibrate",),
+    "firmware": ("check-wiring", "calibrate"),
 }
 """The commands, in the order of the list."""
 
@@ -111,25 +112,29 @@ def _run(action: Callable[[], int]) -> int:
         try:
             return action()
         except OctetError as error:
-            print(as_called(f"octet: {error}"), file=sys.stderr)
+            _print_error(str(error))
             return error.exit_code
         except BrokenPipeError:  # the reader of standard output has closed it before the end
             _drop_output()
             return _BROKEN_PIPE
         except OSError as error:
             if error.filename is not None:  # a path that the system refuses, such as too long a name
-                print(f"octet: cannot use {error.filename}: {error.strerror}", file=sys.stderr)
+                _print_error(f"cannot use {error.filename}: {error.strerror}")
                 return UsageError.exit_code
             if error.errno not in _FULL:
                 raise
             _drop_output()
-            print(f"octet: cannot write to standard output: {error.strerror}", file=sys.stderr)
+            _print_error(f"cannot write to standard output: {error.strerror}")
             return 1
         except KeyboardInterrupt as end:
             number = end.number if isinstance(end, _EndedBySignal) else signal.SIGINT
             how = "interrupted" if number == signal.SIGINT else f"ended by {signal.Signals(number).name}"
-            print("; ".join([f"octet: {how}", *end.args]), file=sys.stderr)
+            _print_error("; ".join([how, *end.args]))
             return 128 + number
+
+
+def _print_error(message: str) -> None:
+    print(coloured("octet:", RED, sys.stderr), as_called(message), file=sys.stderr)
 
 
 def parser_of(given: Sequence[str]) -> Parser:
@@ -188,7 +193,7 @@ def _raise_end(number: int, _frame: FrameType | None) -> NoReturn:
 
 
 def _modules_for(arguments: Sequence[str]) -> list[str]:
-    """The module of the named command, so that others need not be loaded; otherwise all modules."""
+    """Names the module of the called command, so that no other is loaded; or all modules, if none is called."""
     top = Path(__file__).parents[1]
     files = sorted((file for room in _ROOMS for file in top.glob(f"{room}/*_command.py")), key=lambda file: file.stem)
     name = arguments[0].replace("-", "") if arguments else ""

@@ -9,7 +9,7 @@ from host_sim.base.paths import ROOT, as_called
 from host_sim.cli.parsing import Subparsers, add_command, check_outputs, file_path
 from host_sim.sim.run_config import C_FILE
 
-_BEGUN = ROOT / "host_sim" / "program" / "own" / "mine.c"
+_TEMPLATE = ROOT / "host_sim" / "program" / "own" / "mine.c"
 _EXAMPLES = """\
 examples:
   tools/octet new mine.c             the article's loop, to change
@@ -23,7 +23,7 @@ def add(commands: Subparsers) -> None:
         commands,
         "new",
         _new,
-        summary="begin a behaviour of your own, in a C file",
+        summary="begin a behaviour of your own in a C file",
         description="Writes the article's loop to a C file, as the beginning of a behaviour of your own.",
         epilog=_EXAMPLES,
         check=_check,
@@ -40,11 +40,11 @@ def _check(arguments: argparse.Namespace) -> None:
 
 def _new(arguments: argparse.Namespace) -> int:
     path: Path = arguments.file
-    if not _BEGUN.exists():
+    if not _TEMPLATE.exists():
         raise OctetError("behaviours in C files need a checkout of Octet with gcc, which a wheel is not")
     try:
         with path.open("xb") as file:
-            file.write(_BEGUN.read_bytes())
+            file.write(_TEMPLATE.read_bytes())
     except FileExistsError:
         raise UsageError(f"{path} is there already: choose another name") from None
     except OSError as error:

@@ -1,4 +1,4 @@
-"""The output folder of a run: always the files of one whole run, however it ended."""
+"""The output folder of a run. It never mixes files of two runs, however a run ends."""
 
 import json
 import os
@@ -11,11 +11,13 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
-from host_sim.base.errors import OctetError
+from host_sim.base.errors import OctetError, PageNotBuiltError
 from host_sim.base.extra_library import missing
 from host_sim.base.files import read_bytes, write_bytes
 from host_sim.base.paths import PAGE_WASM, as_called
 from host_sim.base.system import signals_held
+from host_sim.base.terminal import linked
+from host_sim.cli.own_source import log_words
 from host_sim.cli.run_options import FLEET_TABLE, LOGS, RunOptions
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import RobotClient
@@ -40,7 +42,7 @@ FLEET_PICTURE = "fleet.png"
 """The files of a fleet in its output folder, beside its table and summary."""
 
 FILES = (SUMMARY, PICTURE, PAGE, FAULTS, REFUSED, FLEET_PICTURE, FLEET_TABLE, *LOGS)
-"""All of them, apart from the world file beside the log."""
+"""All files of a run or a fleet, apart from the world file beside the log."""
 
 _SUMMARY_MAX = 10_000_000
 
@@ -56,7 +58,8 @@ class Outputs:
         log: Its log.
         episodes: The results of its environments so far.
         cut_short: Whether a person or a signal ended it early.
-        over_s: When a watched run was over, on the monotonic clock: its pages took longer. 0.0 for any other.
+        over_s: When the last environment of a watched run ended, s on the monotonic clock; 0.0 for other runs.
+            Its page may be served for longer.
     """
 
     options: RunOptions
@@ -67,6 +70,7 @@ class Outputs:
     cut_short: bool = False
     over_s: float = 0.0
     _began_s: float = field(default_factory=time.monotonic)
+    _packed: tuple[tuple[int, str], dict[str, Any]] = ((0, ""), {})
 
     @property
     def has_begun(self) -> bool:
@@ -75,7 +79,7 @@ class Outputs:
 
     @property
     def has_begun_or_is_first(self) -> bool:
-        """Whether to write it: a run without a tick replaces no other."""
+        """Whether to write the files: a run without a tick does not replace an earlier run."""
         return self.has_begun or not any((self.options.out / name).exists() for name in LOGS)
 
     def write(self) -> Summary:
@@ -118,8 +122,8 @@ class Outputs:
 
     def _draw(self) -> None:
         # Loaded late, so that runs start sooner.
-        if (text := self.page()) is not None:
-            write_bytes(self.options.out / PAGE, text.encode())
+        if parts := self._parts():
+            self._write_page(*parts)
             try:
                 from host_sim.report.picture import write_picture
 
@@ -128,13 +132,34 @@ class Outputs:
                 if self.options.verbose:
                     print(f"left out  {PICTURE}: {missing(error.name or '', 'run')}")
 
-    def page(self) -> str | None:
-        """The page of the run so far; None before its first tick."""
-        from host_sim.report.replay_page import page, run_data
+    def _write_page(self, run: dict[str, Any], laboratory: dict[str, Any]) -> None:
+        """Writes the page, unless its program was not built, which is no error."""
+        from host_sim.report.replay_page import page
+
+        try:
+            write_bytes(self.options.out / PAGE, page(run, laboratory).encode())
+        except PageNotBuiltError as error:
+            if self.options.verbose:
+                print(f"left out  {PAGE}: {error}")
+
+    def recording(self) -> str | None:
+        """The JSON that the page of a live run fetches: the objects `run` and `parts`; None before the first tick."""
+        parts = self._parts()
+        return json.dumps(dict(zip(("run", "parts"), parts, strict=True))) if parts else None
+
+    def _parts(self) -> tuple[dict[str, Any], dict[str, Any]] | None:
+        """The run so far, and the data to repeat it with; None before its first tick."""
+        from host_sim.report.replay_page import run_data
 
         trajectory, record = self.recorder.trajectory, self.simulation.record
         trajectory.news = news_of(record)
-        return page(run_data(trajectory, record.title), self._laboratory(trajectory)) if trajectory.ticks else None
+        if not trajectory.ticks:
+            return None
+        now = trajectory.ticks, record.title
+        if self._packed[0] != now:  # packing takes long, and pages have often just fetched it
+            self._packed = now, run_data(trajectory, record.title)
+        log = log_words(self.options.log, self.options.profile)
+        return {**self._packed[1], "log": log}, self._laboratory(trajectory)
 
     def _laboratory(self, trajectory: Trajectory) -> dict[str, Any]:
         """The data with which the page answers "What if?"."""
@@ -187,13 +212,13 @@ def keep_earlier(options: RunOptions) -> None:
             print(replaced + f", which is in {kept.name} now" * there)
 
 
-def tell(options: RunOptions, summary: Summary, files: Sequence[Path]) -> None:
+def print_result(options: RunOptions, summary: Summary, files: Sequence[Path]) -> None:
     """Prints the result of a run in the requested format, and the list of files."""
     if options.json:
         sys.stdout.write(summary.to_json())
     elif options.verbose:
         there = [path for path in files if path.exists()]
-        wrote = f"wrote     {', '.join(map(_linked, there))}"
+        wrote = f"wrote     {', '.join(map(linked, there))}"
         print("\n".join(filter(None, (summary.text, wrote, _next(options, there), summary.ending))))
 
 
@@ -205,13 +230,6 @@ def _next(options: RunOptions, there: Sequence[Path]) -> str:
     page = f"open {PAGE} in a browser; " if options.out / PAGE in there else ""
     then = f"next      {page}ask the robot: tools/octet talk{log}; change things while it runs: tools/octet watch"
     return as_called(then)
-
-
-def _linked(path: Path) -> str:
-    """The name of a file, as a hyperlink if the terminal may support it."""
-    if not sys.stdout.isatty() or os.environ.get("TERM", "dumb") in ("dumb", "linux"):
-        return str(path)
-    return f"\x1b]8;;{path.absolute().as_uri()}\x1b\\{path}\x1b]8;;\x1b\\"
 
 
 def _seed_of(summary: Path) -> str:

@@ -1,16 +1,18 @@
-"""The behaviour in a file that the robot of a log had: in its user's file, or in the log's world file.
+"""The user's behaviour of a recorded robot: from the file named by --profile, or from the log's world file.
 
-Opening a log compiles nothing that came with it, unless its user says so. A program is no danger.
+C source that came with a log is compiled only with --compile. A program is interpreted, which is safe.
 """
 
 import argparse
+import shlex
 import sys
 from collections.abc import Iterable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
 from host_sim.cli.parsing import file_path
-from host_sim.sim.run_config import PROGRAM_FILE
+from host_sim.sim.run_config import C_FILE, PROGRAM_FILE
 
 if TYPE_CHECKING:
     from host_sim.protocol.codec import Frame, Protocol
@@ -27,11 +29,17 @@ def add_source_options(parser: argparse.ArgumentParser) -> None:
     add("--compile", action="store_true", help=trusted)
 
 
+def log_words(log: Path, profile: str | Path | None) -> str:
+    """The arguments of `tools/octet debug` for a log: its path, and --profile if the behaviour was a C file."""
+    file = str(profile or "")
+    return shlex.join([str(log), *(["--profile", file] if file.endswith(C_FILE) else [])])
+
+
 def own_of(arguments: argparse.Namespace, record: "WorldRecord | None") -> "OwnBrain | Program | None":
     """The behaviour, compiled if it is in C; None if the options and the world file name none.
 
     Raises:
-        UsageError: It cannot be compiled; or nobody has said which file it is, or to compile the recorded source.
+        UsageError: It cannot be compiled; or neither --profile nor --compile is given for a recorded C file.
     """
     from host_sim.sim.in_process_link import Program, read_program
     from host_sim.sim.own_brain import own_brain, own_copy
@@ -54,7 +62,11 @@ def own_of(arguments: argparse.Namespace, record: "WorldRecord | None") -> "OwnB
 
 
 def check_own(arguments: argparse.Namespace, frames: "Iterable[Frame]", protocol: "Protocol") -> None:
-    """Refuses a robot that was started with a behaviour of its user, which is not known."""
+    """Refuses a robot that was started with a user's behaviour, because its source is unknown.
+
+    Raises:
+        UsageError: A command in the log starts that profile.
+    """
     from host_sim.protocol.generated import OWN_PROFILE
 
     commands = (protocol.decode(frame) for frame in frames if frame.id == protocol.id_of("COMMAND"))

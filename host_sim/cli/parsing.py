@@ -60,12 +60,12 @@ class Parser(argparse.ArgumentParser):
         self.error(f"unrecognized arguments: {' '.join(words)}" + (f": did you mean {near}?" if near else ""))
 
     def shorten_help(self, groups: Sequence[str], text: str) -> None:
-        """Leaves groups of options, and some last lines, to --help-all."""
+        """Shows these groups of options and these last lines with --help-all only."""
         self.more, self.more_text = groups, text
         self.add_argument("--help-all", action=_HelpAll, nargs=0, help="show every option and parameter, and exit")
 
     def format_help(self) -> str:
-        """As in `argparse.ArgumentParser`, with the project's commands as they are called here."""
+        """As in `argparse.ArgumentParser`, with commands named as in this installation."""
         it = copy(self)
         it.epilog = "\n\n".join(filter(None, [self.more_text, self.epilog]))
         return as_called(super(Parser, it).format_help())
@@ -202,7 +202,11 @@ def check_outputs(command: str, source: Path | None, outputs: Mapping[str, Path 
 
 
 def settings(text: str) -> dict[str, int]:
-    """An argument type: NAME=VALUE for a parameter, the value within its range; or @FILE, with one on each line."""
+    """An argument type: NAME=VALUE for a parameter, or @FILE with one per line.
+
+    Raises:
+        UsageError: There is no such parameter, the value is out of range, or the file cannot be read.
+    """
     if text.startswith("@"):
         return dict(read_words(Path(text[1:]), _SETTINGS_MAX, _setting))
     return dict([_setting(text)])

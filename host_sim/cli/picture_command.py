@@ -68,6 +68,8 @@ def _add_clip_options(parser: Parser) -> None:
 def _check(arguments: argparse.Namespace) -> None:
     if arguments.gif is None and arguments.png is None:
         raise UsageError("give --gif FILE for an animation, or --png FILE for a picture")
+    if arguments.to_s is not None and arguments.to_s < arguments.from_s:
+        raise UsageError(f"--to {arguments.to_s:g} s is before --from {arguments.from_s:g} s: exchange them")
     check_outputs("picture", arguments.log, {"--png": arguments.png, "--gif": arguments.gif})
 
 

@@ -1,13 +1,12 @@
 """`tools/octet replay`: compares a recorded log with the current firmware, or writes it as a page."""
 
 import argparse
-import shlex
 import sys
 from typing import TYPE_CHECKING, Any
 
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import PAGE_WASM, as_called
-from host_sim.cli.own_source import add_source_options, check_own, own_of
+from host_sim.cli.own_source import add_source_options, check_own, log_words, own_of
 from host_sim.cli.parsing import Subparsers, add_command, check_outputs, file_path
 from host_sim.cli.run_options import add_log_options, resimulated
 
@@ -103,8 +102,7 @@ def _compare(arguments: argparse.Namespace) -> int:
             check_own(arguments, (line.frame for line in lines), protocol)
         if outcome.difference and not isinstance(own, Program):
             where = f"--node {node} --at {outcome.difference.time_us / 1e6:.6f}".rstrip("0").rstrip(".")
-            where += f" --profile {shlex.quote(own.name)}" if own else ""
-            print(as_called(f"  debugger  tools/octet debug {shlex.quote(str(log))} {where}"))
+            print(as_called(f"  debugger  tools/octet debug {log_words(log, own.name if own else None)} {where}"))
     if note := lines.note():
         print(f"octet: {note}", file=sys.stderr)
     return 0 if equal else 1
@@ -116,7 +114,8 @@ def _write_page(arguments: argparse.Namespace) -> int:
 
     result = resimulated(arguments)
     laboratory = _laboratory(arguments, result) if arguments.what_if or PAGE_WASM.exists() else NO_FIRMWARE
-    write_page(arguments.html, result.trajectory, result.title, laboratory)
+    log = log_words(arguments.log, arguments.profile)
+    write_page(arguments.html, result.trajectory, result.title, laboratory, log=log)
     print(f"wrote     {arguments.html}")
     return 0
 

@@ -1,4 +1,4 @@
-"""The options of `run` and `watch`: those of `RunConfig`, its files, and how people watch it; and those of a log."""
+"""The options of `run` and `watch`: `RunConfig`, output files and views; and the options that name a log."""
 
 import argparse
 import sys
@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from host_sim.base.compressed_file import COMPRESSED
 from host_sim.base.errors import UsageError
+from host_sim.base.files import COMPRESSED
 from host_sim.cli.parsing import file_path, number, settings, word_or_file
 from host_sim.protocol.words import NODE_MAX
 from host_sim.sim.access import PICO, check_robot
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from host_sim.recording.resimulation import Resimulation
 
 LOGS = ("run.log", f"run.log{COMPRESSED}")
-"""The log in a run's output folder: the plain one and the compressed one."""
+"""The log in a run's output folder: the defaults one and the compressed one."""
 
 FLEET_TABLE = "robots.csv"
 """The table of a fleet in its output folder."""
@@ -43,28 +43,26 @@ _PARSERS: dict[Any, Callable[[str], Any]] = {
 
 
 _GROUPS = {
-    "the most used": (
+    "common options": (
         *("environments", "seed", "world", "profile", "settings", "robots", "memory", "out", "watch", "terminal"),
         *("real_time", "limit_s", "body", "changes", "robot"),
     ),
-    "the world": ("worlds", "physics"),
-    "the robot, and the bus that it is on": (
-        *("bus", "bitrate", "robot_command", "board", "node", "owner", "reconnect_s", "fast", "gdb"),
-    ),
-    "faults, and when a result is doubtful": ("faults", "fault_seed", "unanswered_max", "gap_max_s", "late_max"),
+    "world": ("worlds", "physics"),
+    "robot and bus": (*("bus", "bitrate", "robot_command", "board", "node", "owner", "reconnect_s", "fast", "gdb"),),
+    "faults, and limits of a reliable result": ("faults", "fault_seed", "unanswered_max", "gap_max_s", "late_max"),
 }
 """The options by their groups in the help text; the rest are output options."""
-_OUTPUT = "the output"
+_OUTPUT = "output"
 OTHER_GROUPS = (*list(_GROUPS)[1:], _OUTPUT)
 """The groups that only --help-all shows."""
 
 
 @dataclass(frozen=True)
 class RunOptions(RunConfig):
-    """A run, its files, and how people watch it.
+    """A run, its output files, and the views of it.
 
     Attributes:
-        speed: Initial speed of a run that people watch, as a multiple of real time; 0 is as fast as possible.
+        speed: Initial speed of a watched run, as a multiple of real time; 0 is as fast as possible.
         stays: Whether the page is still served after the last environment.
     """
 
@@ -203,7 +201,7 @@ def _check(options: RunOptions) -> None:
 
 
 def _check_gdb(options: RunOptions) -> None:
-    """Refuses what cannot wait for a robot at a breakpoint."""
+    """Refuses options that do not work while the robot waits at a breakpoint."""
     here = {"spawn": ("auto", "fd"), **dict.fromkeys(("qemu", "emulated"), ("auto", "none", "fd"))}
     if options.gdb and options.bus not in here.get(options.robot, ()):
         raise UsageError(
@@ -215,7 +213,7 @@ def _check_gdb(options: RunOptions) -> None:
     if options.gdb and options.profile.endswith(PROGRAM_FILE):
         raise UsageError(f"--gdb stops in C, and {options.profile} is a program: leave --gdb out")
     for flag in _given(options, ("real_time", "watch", "robots", "robot_command")) if options.gdb else ():
-        raise UsageError(f"--gdb stops one robot, and nobody else waits for it: leave {flag} out")
+        raise UsageError(f"--gdb debugs one robot in lockstep: leave {flag} out")
 
 
 def _check_fleet(options: RunOptions) -> None:
@@ -231,17 +229,17 @@ def _check_fleet(options: RunOptions) -> None:
 
 
 def _check_observer(options: RunOptions) -> None:
-    """Refuses what an observer would not heed: it only looks on."""
+    """Refuses options that have no effect on an observed robot."""
     check_robot(options.bus, options.robot, options.nodes)
-    heeded = ("bus", "bitrate", "robot", "node", "limit_s", "out", "watch", "terminal")
-    if ignored := _given(options, [it for it in options_of(RunOptions) if it not in heeded]):
+    used = ("bus", "bitrate", "robot", "node", "limit_s", "out", "watch", "terminal")
+    if ignored := _given(options, [it for it in options_of(RunOptions) if it not in used]):
         raise UsageError(f"--robot observe only looks on, at a robot that runs by itself: leave {ignored[0]} out")
 
 
 def _given(options: RunOptions, names: Iterable[str]) -> list[str]:
-    """Those of the options that have another value than by default, as on the command line."""
-    rows, plain = options_of(RunOptions), RunOptions()
-    return [flag_of(it, rows[it][1]) for it in names if getattr(options, it) != getattr(plain, it)]
+    """The flags of those options whose values differ from the defaults."""
+    rows, defaults = options_of(RunOptions), RunOptions()
+    return [flag_of(it, rows[it][1]) for it in names if getattr(options, it) != getattr(defaults, it)]
 
 
 def add_channel(parser: argparse.ArgumentParser) -> None:

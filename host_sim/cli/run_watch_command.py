@@ -29,7 +29,7 @@ examples:
   tools/octet watch --listen                         for other machines too: prints an address and a QR code
   tools/octet watch --terminal                       without a browser, for example over ssh
   tools/octet watch --bus socketcan:can0 --robot observe
-                                                     look on while a robot runs by itself, in this terminal
+                                                     watch a robot that runs by itself, in this terminal
 """
 _PROCESSES_MAX = 8
 """Maximum number of robots of a watched run that have a process each, unless a bus is named."""
@@ -63,7 +63,7 @@ def _add(commands: Subparsers, name: str, *, examples: str, summary: str, descri
     parser = add_command(
         commands,
         name,
-        lambda arguments: _conduct(arguments.options),
+        lambda arguments: _run(arguments.options),
         summary=summary,
         description=description,
         epilog=examples,
@@ -75,28 +75,29 @@ def _add(commands: Subparsers, name: str, *, examples: str, summary: str, descri
     add_options(parser, name)
 
 
-def _conduct(options: RunOptions) -> int:
-    from host_sim.cli.single_run import conduct
+def _run(options: RunOptions) -> int:
+    from host_sim.cli.single_run import run_single
 
     if options.robot == "observe":
-        _look_on(options)
+        _observe(options)
     elif options.is_fleet:
-        from host_sim.cli.fleet_run import conduct_fleet
+        from host_sim.cli.fleet_run import run_fleet_command
 
-        conduct_fleet(options)
+        run_fleet_command(options)
     elif options.watch:
-        conduct(_watched(options))
+        run_single(_watched(options))
     else:
         from host_sim.sim.access import choose_bus
 
         bus = "none" if options.fast else choose_bus(options.bus, options.robot)
-        conduct(replace(options, bus=bus))
+        run_single(replace(options, bus=bus))
     return 0
 
 
-def _look_on(options: RunOptions) -> None:
+def _observe(options: RunOptions) -> None:
     """Follows a robot that runs by itself until Ctrl-C or the limit, then draws its log."""
     from host_sim.cli.interruption import until_ctrl_c
+    from host_sim.cli.own_source import log_words
     from host_sim.client.frame_log import FrameLog
     from host_sim.live.observer import Line, observe
     from host_sim.recording.resimulation import resimulate
@@ -113,13 +114,13 @@ def _look_on(options: RunOptions) -> None:
         finally:
             log.close()
         seen = resimulate(path, options.node, ignore_world=True)
-        write_page(page, seen.trajectory, seen.title)
+        write_page(page, seen.trajectory, seen.title, log=log_words(path, None))
         write_picture(picture, seen.trajectory)
     print(f"wrote     {path}, {page}, {picture}")
 
 
 def _watched(options: RunOptions) -> RunOptions:
-    """A run that people watch.
+    """The options of a watched run.
 
     The page sets the pace, so the robot waits for it (lockstep); an external robot has its own clock, and the page
     follows. On a bus in a network namespace of its own, no browser could reach the page; a class needs no processes.

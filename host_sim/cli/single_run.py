@@ -1,7 +1,6 @@
-"""Takes a run from its start to its output files: as fast as possible, in real time, or at the pace of watchers."""
+"""A run from its start to its output files: as fast as possible, in real time, or at the speed set by viewers."""
 
 import os
-import shlex
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -12,16 +11,16 @@ from typing import TYPE_CHECKING
 
 from host_sim.base.errors import BrainError, DoubtfulError, OctetError, UsageError
 from host_sim.base.paths import as_called
-from host_sim.base.progress_line import ProgressLine
+from host_sim.base.terminal import ProgressLine
 from host_sim.cli.interruption import interrupted_between_ticks, stop_soon
-from host_sim.cli.outputs import FILES, PAGE, PICTURE, SUMMARY, Outputs, tell
+from host_sim.cli.outputs import FILES, PAGE, PICTURE, SUMMARY, Outputs, print_result
+from host_sim.cli.own_source import log_words
 from host_sim.cli.run_options import RunOptions
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.generated import CELL_COUNT
-from host_sim.recording.memory_file import MemorySaver, check_writable, load_memory, memory_path
-from host_sim.recording.memory_lock import memory_lock
+from host_sim.recording.memory_file import MemorySaver, check_writable, load_memory, memory_lock, memory_path
 from host_sim.recording.run_folder import run_folder
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, environment_line
@@ -36,7 +35,7 @@ if TYPE_CHECKING:
 _PAUSE_STEP_S = 0.05
 _MEMORIES_MAX = 4
 _WHERE = {"fd": "on a socket pair", "none": "in this process"}
-_SIGNS = ".LR"
+_CELL_LETTERS = ".LR"
 """The content of a cell: nothing, left or right."""
 
 
@@ -52,7 +51,7 @@ def open_listener(stack: ExitStack, options: RunOptions) -> "Listener | None":
 
 
 def run_loop(outputs: Outputs, listener: "Listener | None") -> None:
-    """Takes a run through its environments."""
+    """Runs all environments of a run, watched or unwatched."""
     if outputs.options.watch:
         _show(outputs, listener)
     else:
@@ -63,7 +62,7 @@ def _run_unwatched(outputs: Outputs) -> None:
     """Runs all environments, as fast as possible or in real time."""
     simulation, verbose = outputs.simulation, outputs.options.verbose
     with ProgressLine(shown=verbose) as progress:
-        _say_refused(simulation, progress.clear)
+        _print_refused(simulation, progress.clear)
         simulation.watch = each(simulation.watch, _progress_shown(progress))
         with interrupted_between_ticks(simulation):
             for episode in simulation.run():
@@ -83,7 +82,7 @@ def _progress_shown(line: ProgressLine) -> Callable[[Simulation], object]:
         if line.is_due():
             robot_s = simulation.tick * simulation.params.tick_s
             memories = " ".join(
-                "".join(_SIGNS[side] for side in sides_of(client.memory))
+                "".join(_CELL_LETTERS[side] for side in sides_of(client.memory))
                 for client in simulation.clients[:_MEMORIES_MAX]
             )
             eaten = simulation.arena.food.eaten
@@ -107,19 +106,19 @@ def _pause(simulation: Simulation) -> None:
         time.sleep(_PAUSE_STEP_S)
 
 
-def _say_refused(simulation: Simulation, before: Callable[[], object] = lambda: None) -> None:
+def _print_refused(simulation: Simulation, before: Callable[[], object] = lambda: None) -> None:
     """Reports each change that cannot be made, when it is due."""
-    said = 0
+    printed = 0
 
-    def say(simulation: Simulation) -> None:
-        nonlocal said
-        for refused in simulation.record.refused[said:]:
-            said += 1
+    def print_new(simulation: Simulation) -> None:
+        nonlocal printed
+        for refused in simulation.record.refused[printed:]:
+            printed += 1
             before()
             seconds = refused.tick * simulation.params.tick_s
             print(f"octet: at {seconds:.2f} s {refused.what} could not happen: {refused.why}", file=sys.stderr)
 
-    simulation.watch = each(simulation.watch, say)
+    simulation.watch = each(simulation.watch, print_new)
 
 
 def each(*watchers: Callable[[Simulation], object]) -> Callable[[Simulation], object]:
@@ -154,19 +153,21 @@ def _show(outputs: Outputs, listener: "Listener | None") -> None:
         return
     from host_sim.live.browser import watch_run
     from host_sim.live.server import LiveServer
+    from host_sim.report.octet_page import live_page
 
-    _say_refused(simulation)
+    _print_refused(simulation)
     if options.verbose:
         live.ended = lambda episode: print(environment_line(simulation.record.begun[-1].number, episode))
-    watch_run(live, LiveServer(live, listener, outputs.page), sys.stdout if options.verbose else sys.stderr)
+    server = LiveServer(live, listener, live_page(options.profile, options.robot_settings), outputs.recording)
+    watch_run(live, server, sys.stdout if options.verbose else sys.stderr)
     outputs.cut_short, outputs.over_s = live.closed, live.over_s
 
 
 _NOTHING = (0,) * CELL_COUNT
 
 
-def conduct(options: RunOptions) -> None:
-    """Conducts a run and writes log, world file, summary, picture and page to its folder, however the run ends.
+def run_single(options: RunOptions) -> None:
+    """Runs all environments, and writes log, world file, summary, picture and page, however the run ends.
 
     Raises:
         UsageError: The options are invalid; nothing was changed.
@@ -174,7 +175,7 @@ def conduct(options: RunOptions) -> None:
     """
     options.read_files()
     with _memories(options) as loaded, run_folder(options.out):
-        _announce(options, loaded)
+        _print_empty_memories(options, loaded)
         with ExitStack() as stack:
             listener = open_listener(stack, options)
             log = FrameLog(options.log)
@@ -189,18 +190,18 @@ def conduct(options: RunOptions) -> None:
             try:
                 run_loop(outputs, listener)
                 _stop(outputs)
-                _tell_of_programs(options, simulation)
+                _print_programs(options, simulation)
             except BaseException as end:
-                _write_what_there_is(outputs, end)
+                _write_partial_run(outputs, end)
                 raise
             if not outputs.has_begun_or_is_first:
                 return
             summary = outputs.write()
-    tell(options, summary, (*(options.out / name for name in (PAGE, PICTURE, SUMMARY)), options.log))
-    _check_trust(summary)
+    print_result(options, summary, (*(options.out / name for name in (PAGE, PICTURE, SUMMARY)), options.log))
+    _check_incidents(summary)
 
 
-def _tell_of_programs(options: RunOptions, simulation: Simulation) -> None:
+def _print_programs(options: RunOptions, simulation: Simulation) -> None:
     for client in simulation.clients if options.source and options.verbose else ():
         with suppress(OctetError):  # the robot has ended, which was reported
             _, stopped, told = client.connection.status().partition("the program: ")
@@ -238,8 +239,8 @@ def _check_no_output(memory: Path, options: RunOptions) -> None:
         raise UsageError(f"the run would overwrite {memory}: choose another file with --memory")
 
 
-def _announce(options: RunOptions, loaded: Sequence[Memory | None]) -> None:
-    """Says which memories begin empty."""
+def _print_empty_memories(options: RunOptions, loaded: Sequence[Memory | None]) -> None:
+    """Prints which memories start empty."""
     if not options.verbose:
         return
     for path, memory in zip(_memory_paths(options), loaded, strict=True):
@@ -247,8 +248,8 @@ def _announce(options: RunOptions, loaded: Sequence[Memory | None]) -> None:
             print(f"memory    {path} does not exist yet: the robot begins with an empty memory")
 
 
-def _write_what_there_is(outputs: Outputs, end: BaseException) -> None:
-    """Writes the data of an interrupted run; errors here are suppressed in favour of the original one."""
+def _write_partial_run(outputs: Outputs, end: BaseException) -> None:
+    """Writes the files of a run that ended early. Further errors are suppressed in favour of `end`."""
     with suppress(OctetError):
         if isinstance(end, KeyboardInterrupt):
             stop_soon(outputs.simulation.clients)
@@ -259,18 +260,18 @@ def _write_what_there_is(outputs: Outputs, end: BaseException) -> None:
         if isinstance(end, BrainError):
             end.args = (f"{end}{_debugger(outputs.options, end)}",)
         if isinstance(end, KeyboardInterrupt):
-            end.args = ("the log so far was written",)  # `main` tells it
+            end.args = ("the log so far was written",)  # `main` prints it
 
 
 def _debugger(options: RunOptions, mistake: BrainError) -> str:
-    """A line with the command that opens the debugger where a behaviour made its mistake; empty at a run's start."""
+    """A line with the command that opens the debugger at the tick of a mistake; empty if it has no tick."""
     if mistake.tick is None:
         return ""
-    where = ["--node", str(mistake.node), "--tick", str(mistake.tick), "--profile", options.profile]
-    return as_called(f"\n  debugger  tools/octet debug {shlex.join([str(options.log), *where])}")
+    words = log_words(options.log, options.profile)
+    return as_called(f"\n  debugger  tools/octet debug {words} --node {mistake.node} --tick {mistake.tick}")
 
 
-def _check_trust(summary: Summary) -> None:
+def _check_incidents(summary: Summary) -> None:
     if incidents := summary.content["incidents"]:
         first, *more = incidents
         others = f" (and {len(more)} more in {SUMMARY})" if more else ""

@@ -9,9 +9,9 @@ from host_sim.world.names import WORLD_NAMES
 
 _EXAMPLES = """\
 examples:
-  tools/octet world corridors --png corridors.png              the first environment of seed 1
-  tools/octet world corridors --seed 7 --number 2 --png b.png  the second one of seed 7
-  tools/octet world my.toml                                    check a file of your own
+  tools/octet world corridors --png corridors.png                   the first environment of seed 1
+  tools/octet world corridors --seed 7 --environment 2 --png b.png  the second one of seed 7
+  tools/octet world my.toml                                         check a file of your own
 """
 
 
@@ -29,7 +29,7 @@ def add(commands: Subparsers) -> None:
     add = parser.add_argument
     add("world", metavar="WORLD", help=f"one of {', '.join(WORLD_NAMES)}, or your own file, such as my.toml")
     add_option(parser, "seed")
-    add("--number", type=number(1, 1000), default=1, metavar="N", help="number of the environment" + DEFAULT)
+    add("--environment", type=number(1, 1000), default=1, metavar="N", help="number of the environment" + DEFAULT)
     add("--png", type=output_of(".png"), metavar="FILE", help="draw the environment to FILE")
     add("--width", type=number(100, 4000), default=640, metavar="PX", help="width of the picture" + DEFAULT)
 
@@ -38,7 +38,7 @@ def _world(arguments: argparse.Namespace) -> int:
     from host_sim.world.worlds import world_of
 
     world = world_of(arguments.world)
-    layout, params = world.generate(arguments.seed, arguments.number), world.params
+    layout, params = world.generate(arguments.seed, arguments.environment), world.params
     print(
         f"{world.name}: {params.width_mm:g} x {params.height_mm:g} mm, {len(layout.bars)} obstacles, "
         f"{len(layout.food)} pieces of food, all of which can be reached"

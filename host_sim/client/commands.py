@@ -6,7 +6,7 @@ from dataclasses import replace
 from host_sim.base.errors import RivalError, RobotError
 from host_sim.client.inbox import holds
 from host_sim.client.robot_client import RobotClient
-from host_sim.client.session import Session, Told
+from host_sim.client.session import HeldCheck, Session
 from host_sim.protocol.codec import Frame
 from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, MEMORY_KINDS, MemoryKind
 from host_sim.world.memory_kinds import translated, with_sides
@@ -34,7 +34,7 @@ def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) ->
         if shared:
             _listen(client)
         client.reports.forget()
-        client.inbox.told = Told(takes_senses=client.connection.sense is None)
+        client.inbox.held_check = HeldCheck(takes_senses=client.connection.sense is None)
         client.dialogue.expect_reports("stop")
         if client.dialogue.ask("stop", {}, timeout_s) is None:
             raise RobotError(

@@ -86,7 +86,7 @@ class Dialogue:
 
     def _once_more(self, opcode: str, attempt: int) -> str:
         """What to ask next: a second stop, only for a DRIVE at rest, since it sets the robot's check to 0."""
-        told, reports = self.inbox.told, self.inbox.reports
+        told, reports = self.inbox.held_check, self.inbox.reports
         if opcode != "stop" or not told.commands:
             return opcode
         told.settle(reports.held, reports.memory)

@@ -13,13 +13,13 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
-from host_sim.base.compressed_file import COMPRESSED
 from host_sim.base.errors import OctetError, UsageError
+from host_sim.base.files import COMPRESSED
 from host_sim.base.system import NO_LINK, NO_WAIT
 from host_sim.protocol.codec import NODE_MAX, Frame, Protocol
 
 if TYPE_CHECKING:
-    from host_sim.base.compressed_file import CompressedFile
+    from host_sim.base.files import CompressedFile
 
 CHANNEL = "octet"
 """The interface name in every log, for any bus."""
@@ -185,7 +185,7 @@ def _opened(path: Path, *, is_compressed: bool) -> "BinaryIO | CompressedFile":
     file = open(path, "wb", opener=_open_regular)  # noqa: SIM115 - the log closes it
     if not is_compressed:
         return file
-    from host_sim.base.compressed_file import CompressedFile  # noqa: PLC0415 - other runs begin sooner without
+    from host_sim.base.files import CompressedFile  # noqa: PLC0415 - other runs begin sooner without
 
     return CompressedFile(file)
 

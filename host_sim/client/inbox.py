@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from host_sim.base.errors import FirmwareError, SessionLostError
 from host_sim.client.robot_reports import REPORTS, Arrival, RobotReports
-from host_sim.client.session import AskedCommands, FrameCounts, Rivals, Session, Told
+from host_sim.client.session import AskedCommands, FrameCounts, HeldCheck, Rivals, Session
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, Protocol, counter_of
 from host_sim.protocol.generated import REST, TICK_SPAN, Drive, Fault, Reason, Result
 
@@ -53,7 +53,7 @@ class Inbox:
     owner: int
     counts: FrameCounts = field(default_factory=FrameCounts)
     asked: AskedCommands = field(default_factory=AskedCommands)
-    told: Told = field(default_factory=Told)
+    held_check: HeldCheck = field(default_factory=HeldCheck)
     refuse: Callable[[Frame, str], object] = lambda _frame, _why: None
     check: Callable[[DecodedFrame], object] = lambda _report: None
     reports: RobotReports = field(default_factory=RobotReports)
@@ -115,7 +115,7 @@ class Inbox:
         self.drive, self._drive_tick, self._drive_frame = drive, self.ticks, frame
         self.last = frame
         self.counts.received += 1
-        told = self.told
+        told = self.held_check
         if told.asked is not None:  # as told.take_drive does: a call takes too long in each tick
             told.answered.append((told.asked, frame))
             told.asked = None
@@ -177,7 +177,7 @@ class Inbox:
             self._accept(frame)
         elif is_new and self.session is not None and self.session.halted:
             self._drive_tick = self.ticks - ((self.sent_tick - drive.tick) & _TICK_MASK)
-            self.told.take_drive(frame)
+            self.held_check.take_drive(frame)
             self._accept(frame)
             return drive
         else:
@@ -235,7 +235,7 @@ class Inbox:
             self.answered_again += 1
             return None
         if decoded.signals["result"] == Result.DONE:
-            self.told.carry_out(self.asked.last, decoded)
+            self.held_check.carry_out(self.asked.last, decoded)
         self._accept(frame)
         return decoded
 
@@ -319,13 +319,13 @@ def _check_heartbeat(inbox: Inbox, heartbeat: DecodedFrame) -> None:
 
 def holds(inbox: Inbox) -> bool:
     """Whether the robot's last report shows that it holds exactly the commands and senses sent here."""
-    return inbox.told.agrees(inbox.reports.held, inbox.reports.memory)
+    return inbox.held_check.agrees(inbox.reports.held, inbox.reports.memory)
 
 
 def is_as_started(inbox: Inbox) -> bool:
     """Whether the robot's last heartbeat shows that it runs as it was started here."""
     session, said = inbox.session, inbox.reports.heartbeat
-    if session is None or inbox.told.given_up:
+    if session is None or inbox.held_check.given_up:
         return True
     ours = session.profile, int(inbox.lockstep), int(session.frozen)
     return (said["profile"], said["lockstep"], said["frozen"]) == ours

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from functools import partial
+from typing import NamedTuple
 
 from host_sim.base.errors import SessionLostError
 from host_sim.client.connection import Connection, RoundTrip, Waiting
@@ -9,11 +10,61 @@ from host_sim.client.deadlines import Deadlines
 from host_sim.client.dialogue import Dialogue
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.inbox import Inbox, check_report, holds, is_as_started
-from host_sim.client.incidents import Incident, RefusedFrames
 from host_sim.client.robot_reports import RobotReports
 from host_sim.client.session import FrameCounts
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import NOTHING_NEAR, Drive, MemoryKind, Ranges, Senses
+
+REFUSED_MAX = 10_000
+"""Maximum number of frames kept; later ones are only counted."""
+
+
+class Incident(NamedTuple):
+    """An event that should not happen in a run.
+
+    Attributes:
+        tick: Number of the tick, from the first of the run.
+        node: Node number of the robot.
+        text: What happened, as a sentence without a full stop.
+    """
+
+    tick: int
+    node: int
+    text: str
+
+    def __str__(self) -> str:
+        return f"at tick {self.tick} (node {self.node}) {self.text}"
+
+
+class RefusedFrames:
+    """The refused frames of one robot, as lines of a log, each followed by the reason.
+
+    Attributes:
+        unlisted: Number of frames after the first `REFUSED_MAX`.
+    """
+
+    def __init__(self, log: FrameLog) -> None:
+        """Starts without frames.
+
+        Args:
+            log: The run's log, which provides the time.
+        """
+        self.unlisted = 0
+        self._log, self._text, self._count = log, bytearray(), 0
+
+    @property
+    def lines(self) -> list[str]:
+        """Lines of the first `REFUSED_MAX` frames."""
+        return self._text.decode("ascii").splitlines()
+
+    def add(self, frame: Frame, why: str) -> None:
+        """Adds a refused frame."""
+        if self._count == REFUSED_MAX:
+            self.unlisted += 1
+            return
+        self._count += 1
+        self._text += f"{self._log.line(frame)}  ; {why}\n".encode("ascii")
+
 
 INCIDENTS_MAX = 1000
 """Maximum number of incidents listed; later ones are only counted."""
@@ -128,14 +179,14 @@ class RobotClient:
             self.distrust(
                 "the robot does not hold what it was told here: somebody else commands it, or a frame was altered"
             )
-            self.inbox.told.given_up = True
+            self.inbox.held_check.given_up = True
 
     def send_senses(self, senses: Senses) -> None:
         """Sends the senses of one tick, after the distances if the robot wants them, and logs them."""
         inbox = self.inbox
         counter = inbox.expect_drive(senses.tick)
         self._senses = frame = self.protocol.encode_senses(senses, counter)
-        inbox.told.asked = frame if inbox.lockstep and inbox.told.takes_senses else None
+        inbox.held_check.asked = frame if inbox.lockstep and inbox.held_check.takes_senses else None
         if self.wants_ranges:
             self._send_ranges(senses.tick, counter)
         # On some kernels, reading the clock takes longer than everything else here.
@@ -151,13 +202,13 @@ class RobotClient:
     def note_sent(self, senses: Senses) -> None:
         """Takes over the senses of one tick that were sent and logged elsewhere."""
         self._senses = self.protocol.encode_senses(senses, self.inbox.expect_drive(senses.tick))
-        self.inbox.told.ask(self._senses)
+        self.inbox.held_check.ask(self._senses)
         self._timed = False
         self.inbox.counts.sent += 1
 
     def repeat_senses(self) -> None:
         """In lockstep: sends the senses of the last tick again, and the distances sent before them."""
-        self.inbox.told.ask(self._senses)
+        self.inbox.held_check.ask(self._senses)
         if self.wants_ranges:
             self.waiting.repeat(self._ranges)
         self._expect_answers(self.connection.line.copies)

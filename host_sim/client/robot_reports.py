@@ -4,9 +4,8 @@ from collections import defaultdict
 from collections.abc import Collection
 from enum import Enum, auto
 
-from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, counter_of
+from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, MemoryReport, counter_of
 from host_sim.protocol.generated import CELL_COUNT
-from host_sim.protocol.memory_report import MemoryReport
 from host_sim.world.memory_kinds import kinds_of
 
 REPORTS = frozenset({"EMERGENCY", "MEMORY", "HEARTBEAT", "BOOT", "FAULTS", "CRASH", "HEALTH"})

@@ -111,7 +111,7 @@ def heard_more(heard: int, senses: bytes, drive: bytes) -> int:
     return crc32(both.to_bytes(len(senses) - 1, "big"), heard)
 
 
-class Told:
+class HeldCheck:
     """What a robot was told: the commands that it has carried out, and in lockstep the senses that it has obeyed.
 
     HEALTH's `held` and the answer to a stop are compared with it.

@@ -72,7 +72,7 @@ def _find_out(client: RobotClient, lost: SessionLostError) -> None:
     assert session is not None
     client.inbox.session = None
     _check_rival(client)
-    _ask_how_it_is(client, lost)
+    _request_report(client, lost)
     has_restarted = _has_restarted(client, before, lost)
     # A restart sets the robot's counters to 0.
     _check_twins(client, 0 if has_restarted else before.faults.get("twins", 0))
@@ -89,7 +89,7 @@ def _find_out(client: RobotClient, lost: SessionLostError) -> None:
     client.check_held()
 
 
-def _ask_how_it_is(client: RobotClient, lost: SessionLostError) -> None:
+def _request_report(client: RobotClient, lost: SessionLostError) -> None:
     client.reports.forget()
     client.dialogue.expect_reports("report")
     if client.dialogue.ask("report", {}, _LAST_S if lost.silent else client.connection.deadline_s) is None:

@@ -7,8 +7,7 @@ from functools import partial
 from host_sim.emulator.can import BxCan, CanController, CanFaults, CanFrame, FdCan
 from host_sim.emulator.clock import Clock
 from host_sim.emulator.converter import Converter, ConverterF1, ConverterG4, Dma
-from host_sim.emulator.flash import Flash
-from host_sim.emulator.flash_kinds import FlashF1, FlashF4, FlashG4
+from host_sim.emulator.flash import Flash, FlashF1, FlashF4, FlashG4
 from host_sim.emulator.ports import GpioF1, GpioF4, GpioG4, Port
 from host_sim.emulator.rcc import Oscillators, Rcc, RccFaults
 from host_sim.emulator.rcc_kinds import RccF1, RccF4, RccG4

@@ -1,18 +1,124 @@
 """The parts wired to a body's pins: motors, encoders, sensors, bumpers, a button and a battery."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
-from math import inf
-from typing import Any
+from collections.abc import Mapping, Sequence
+from math import exp, inf, log1p
+from typing import Any, NamedTuple
 
-from host_sim.emulator.bridge import Winding, voltage
+from host_sim.emulator.board_pins import ADC, Pins, place_of
 from host_sim.emulator.converter import Converter
 from host_sim.emulator.core import Core
+from host_sim.emulator.ports import Port
+from host_sim.emulator.registers import Register
 from host_sim.emulator.timers import MotorTimer, Timer
-from host_sim.emulator.wiring import Wiring
 from host_sim.protocol.generated import FEEL, Senses
 from host_sim.world.body import Body
 from host_sim.world.world_library import world_library
+
+_JTAG, _SWJ_SHIFT, _NO_JTAG = ("PA15", "PB3", "PB4"), 24, (2, 4)
+
+
+class Wiring:
+    """The wiring of a board."""
+
+    def __init__(self, pins: Pins, ports: Sequence[Port], mapr: Register | None) -> None:
+        """Takes the wiring, and tracks the ports' modes and AFIO_MAPR.
+
+        Args:
+            pins: The board's pins.
+            ports: The GPIO ports, from A.
+            mapr: AFIO_MAPR; None for chips whose pins select their functions.
+        """
+        self.pins, self._mapr, self._pins = pins, mapr, dict(pins.signals)
+        self._known: dict[str, bool] = {}
+        self._ports = ports
+        for port in ports:
+            port.changed = self._known.clear
+        if mapr is not None:
+            mapr.on_write = self._write_mapr
+
+    def port(self, signal: str) -> tuple[Port, int]:
+        """The port and pin number of a signal."""
+        port, number = place_of(self.pins.signals[signal])
+        return self._ports[port], number
+
+    def rewire(self, signal: str, pin: str = "") -> None:
+        """Moves a wire to another pin, such as PB4, or removes it."""
+        self._pins[signal] = pin
+        self._known.clear()
+
+    def meets(self, *signals: str) -> bool:
+        """Whether signals are wired to the pins that the drivers use for them."""
+        for signal in signals:
+            if signal not in self._known:
+                self._known[signal] = self._meets(signal)
+        return all(self._known[signal] for signal in signals)
+
+    def _meets(self, signal: str) -> bool:
+        pin, use, chip = self._pins[signal], self.pins.chip.signals[signal], self.pins.chip
+        if not pin:
+            return False
+        at, number = place_of(pin)
+        port = self._ports[at]
+        if use == ADC:
+            return port.measures(number) and pin == self.pins.signals[signal]
+        if self._mapr is None:
+            function = chip.function_of(use, pin)
+            return function is not None and port.serves(number, function, out=False)
+        if pin in _JTAG and self._mapr.value >> _SWJ_SHIFT & 7 not in _NO_JTAG:
+            return False
+        peripheral, role = use.split()
+        out = role == "tx" or (peripheral == "TIM1" and role != "bkin")
+        return port.serves(number, 0, out=out) and chip.pin_of(use, self._mapr.value) == pin
+
+    def _write_mapr(self, value: int) -> None:
+        assert self._mapr is not None  # without AFIO it is never written
+        self._mapr.value = value
+        self._known.clear()
+
+
+PWM_S = 1 / 20_000
+
+
+class Winding(NamedTuple):
+    """The winding of a motor.
+
+    Attributes:
+        ohm: Its resistance, with that of the switches.
+        henry: Its inductance.
+    """
+
+    ohm: float = 9.0
+    henry: float = 1e-3
+
+
+def voltage(in_1: float, in_2: float, emf: float, winding: Winding) -> float:
+    """Mean voltage at a motor in a period of the PWM, once the current repeats itself, as a fraction of the supply's.
+
+    By the truth table of the DRV8833, inputs 1/0 drive forward, 0/1 backward, 1/1 shorts the motor, which brakes it
+    (slow decay), and 0/0 opens all switches: then the current flows back into the supply through diodes until it ends
+    (fast decay).
+
+    Args:
+        in_1: Fraction of the period, from its beginning, for which the first input is high.
+        in_2: Likewise of the second one.
+        emf: Voltage that the motor generates by its speed, as a fraction of the supply's, forward positive.
+        winding: Its winding.
+    """
+    drives, coasts = abs(in_1 - in_2), 1.0 - max(in_1, in_2)
+    if coasts <= 0:
+        return in_1 - in_2  # driven or shorted, it is a linear circuit
+    if drives == 0:
+        return emf * coasts
+    ahead = 1 if in_1 > in_2 else -1
+    emf = min(max(ahead * emf, -0.99), 0.99)
+    periods = PWM_S * winding.ohm / winding.henry
+    most = (1 - emf) * (1 - exp(-drives * periods))
+    falls = log1p(most / (1 + emf)) / periods
+    if falls >= coasts:
+        return ahead * (drives - coasts)  # the current never ends
+    return ahead * (drives - falls + (coasts - falls) * emf)
+
 
 SIDES = ("LEFT", "RIGHT")
 SENSORS = [f"PROXIMITY_{name.upper().replace('-', '_')}" for name in FEEL]

@@ -131,6 +131,7 @@ def _run_until_broken(
 
 
 def _begin() -> None:
-    """Prepares a pool process: it ignores Ctrl-C, and ends with its parent."""
+    """Prepares a pool process: it ignores Ctrl-C, SIGTERM ends it silently, and it ends with its parent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)

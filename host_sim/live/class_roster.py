@@ -197,7 +197,7 @@ _PLAIN = re.compile(r"[- ]")
 
 
 def code_of(name: str, goals: Mapping[str, list[int]]) -> str:
-    """The code of the goals that a pupil has reached; web/lab/classroom.js computes the same.
+    """The code of the goals that a pupil has reached; web/lab/classroom.ts computes the same.
 
     A bit for each goal, then ten bits of a hash of these and of the name, as digits in groups of three.
     """

@@ -7,6 +7,7 @@ import logging
 import time
 from collections.abc import AsyncIterator
 from dataclasses import asdict
+from types import MappingProxyType
 from typing import Any
 
 from aiohttp import web
@@ -26,7 +27,7 @@ _PAGE, _BOARD = "page", "board"
 class ClassServer(PageServer):
     """Serves the page and the board, and keeps what pages report."""
 
-    files = ("/",)
+    policies = MappingProxyType({"/": "frame-ancestors 'none'"})
 
     def __init__(self, roster: Roster, listener: Listener, page: str) -> None:
         """Prepares the server; `serving` starts it.

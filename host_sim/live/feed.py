@@ -71,6 +71,7 @@ class PageFeed:
     _environments: int = 0
     _sent: tuple[int, int] = (-1, -1)
     _trail: int = 0
+    _marked: int = 0
     _lessons: dict[int, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -85,10 +86,10 @@ class PageFeed:
 
         Its fields: `states`, one per robot, and if they are new `environment` and `measures`, as in
         recording/state_types.py, with `news`, the last changes of the world and the bodies, as [tick, sentence];
-        `trails`, for each robot the ticks since the last message as [x, y, reason, ...], thinned out if many;
-        `lessons`, those of all robots since the last message; `play`, the state of the controls; `health`; `pins`,
-        for each robot that has some, what is on them; `notes`, if there are any; `answers`, as of `PageTalk`, to what
-        the page has asked since; `at`, wall-clock time in ms since 1970.
+        `events`, for each robot those since the last message, as in report/replay_page.py; `trails`, for each robot
+        the ticks since then as [x, y, reason, ...], thinned out if many; `lessons`, those of all robots; `play`, the
+        state of the controls; `health`; `pins`, for each robot that has some, what is on them; `notes`, if there are
+        any; `answers`, as of `PageTalk`, to what the page has asked since; `at`, wall-clock time in ms since 1970.
         """
         now = (self.live.simulation.tick, self.live.change)
         if now == self._sent and not self.notes:
@@ -98,6 +99,7 @@ class PageFeed:
         parts = self._news(first)
         shared = {
             "states": self._shared("states", lambda: states(self.live.simulation, self.live.recorder.histories)),
+            "events": self._new_events(),
             "trails": self._new_trails(),
             "play": self._shared("play", lambda: play_state(self.live)),
             "health": self._shared("health", self._health),
@@ -135,12 +137,20 @@ class PageFeed:
         if scene["start_tick"] != self._start:
             self._start = scene["start_tick"]
             self._lessons.clear()
-        news = [it for it in news_of(simulation.record) if it[0] >= scene["start_tick"]]
+        self.live.recorder.trajectory.news = told = news_of(simulation.record)
+        news = [it for it in told if it[0] >= scene["start_tick"]]
         return {"environment": scene, "news": news[-_NEWS_MAX:]}
 
     def _first_tick(self) -> int:
         """The first tick of the current environment."""
         return self.live.simulation.record.begun[-1].first_tick
+
+    def _new_events(self) -> str:
+        """The events of each robot since the last message as JSON."""
+        trajectory, first = self.live.recorder.trajectory, self._marked
+        self._marked = trajectory.ticks
+        robots = range(len(trajectory.tracks))
+        return self._shared(("events", first), lambda: [trajectory.events(robot, first) for robot in robots])
 
     def _new_trails(self) -> str:
         """The new part of each robot's trail as JSON; every tick of it if the environment has just begun.

@@ -12,9 +12,8 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.live.text_picture import View, draw_text
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import CELL_COUNT, MESSAGES, PARAMETERS, Senses
-from host_sim.recording.dead_reckoning import after
 from host_sim.recording.phrases import sentence
-from host_sim.recording.recording import TickReader
+from host_sim.recording.recording import TickReader, after
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.state_types import EnvironmentScene, State
 from host_sim.transport.buses import open_bus, receive

@@ -4,11 +4,11 @@ import asyncio
 import contextlib
 import logging
 import sys
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 
 from aiohttp import web
 
-from host_sim.base.paths import WEB
+from host_sim.base.paths import PAGE_SCRIPTS, WEB
 from host_sim.live.connections import Connections, one_line_logger, report_to
 from host_sim.live.join_code import TooManyGuessesError
 from host_sim.live.listener import Listener
@@ -30,10 +30,10 @@ class PageServer:
 
     Attributes:
         listener: The socket that it serves on.
-        files: The paths of pages that could be files: they have a policy of their own.
+        policies: The content security policies of pages that have another one, by their paths.
     """
 
-    files: tuple[str, ...] = ()
+    policies: Mapping[str, str] = {}
 
     def __init__(self, listener: Listener, body_max: int) -> None:
         """Prepares the server; a class that extends it adds its routes.
@@ -43,7 +43,8 @@ class PageServer:
             body_max: Maximum size of a request's body, bytes.
         """
         self.listener = listener
-        self._parts = {path.relative_to(WEB).as_posix() for path in WEB.rglob("*") if path.suffix in (".js", ".css")}
+        styles = {path.relative_to(WEB).as_posix(): path for path in WEB.rglob("*.css")}
+        self._parts = {**styles, **{path.name: path for path in PAGE_SCRIPTS.glob("*.js")}}
         self._app = web.Application(client_max_size=body_max, middlewares=[self._check])
         self._app.on_response_prepare.append(self._secure)
 
@@ -126,15 +127,15 @@ class PageServer:
         raise self.refusal("that is not the code: compare it with the one that octet printed")
 
     async def _part(self, request: web.Request) -> web.StreamResponse:
-        name = request.match_info["name"]
-        if name not in self._parts:
+        path = self._parts.get(request.match_info["name"])
+        if path is None:
             raise web.HTTPNotFound
-        return web.FileResponse(WEB / name)
+        return web.FileResponse(path)
 
     async def _secure(self, request: web.Request, response: web.StreamResponse) -> None:
         response.headers.update(HEADERS)
-        if request.path in self.files:
-            response.headers["Content-Security-Policy"] = "frame-ancestors 'none'"
+        if request.path in self.policies:
+            response.headers["Content-Security-Policy"] = self.policies[request.path]
 
 
 def page_text(name: str) -> str:

@@ -4,6 +4,7 @@ import asyncio
 import contextlib
 import time
 from collections.abc import AsyncIterator, Callable
+from types import MappingProxyType
 
 from aiohttp import WSCloseCode, web
 
@@ -11,10 +12,15 @@ from host_sim.live.feed import Memo, PageFeed
 from host_sim.live.listener import Listener
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX
-from host_sim.live.page_server import PageServer, page_text
+from host_sim.live.page_server import HEADERS, PageServer
 from host_sim.live.visitor import Visitor
 
-_PAGE, _RECORDED = "page", "/recorded"
+_PAGE = "page"
+
+_POLICY = HEADERS["Content-Security-Policy"].replace(
+    "script-src 'self'", "script-src 'self' 'wasm-unsafe-eval'; worker-src blob:"
+)
+"""The page simulates what might have been: in a worker that it makes, with the firmware as WebAssembly."""
 
 PAGES_MAX = 64
 """Maximum number of open pages, those that have just been reloaded among them."""
@@ -42,24 +48,33 @@ class LiveServer(PageServer):
         pages: Number of pages that watch.
     """
 
-    files = (_RECORDED,)
+    policies = MappingProxyType({"/": _POLICY})
 
-    def __init__(self, live: PacedRun, listener: Listener, recorded: Callable[[], str | None] = lambda: None) -> None:
+    def __init__(
+        self,
+        live: PacedRun,
+        listener: Listener,
+        page: str,
+        recorded: Callable[[], str | None] = lambda: None,
+    ) -> None:
         """Prepares the server; `serving` starts it.
 
         Args:
             live: The run.
             listener: The socket to serve on.
-            recorded: Returns the page of the run so far, as after its end; None before the first tick.
+            page: The HTML of its page.
+            recorded: Returns the run so far as the page fetches it; None before the first tick.
         """
         super().__init__(listener, TEXT_MAX)
         self.pages = 0
-        self._live, self._memo, self._recorded = live, Memo(), recorded
+        self._live, self._memo, self._page_text, self._recorded = live, Memo(), page, recorded
         self._kept: tuple[tuple[int, int], str | None] = ((-1, -1), None)
         self._read = 0
         self._visitors: dict[web.WebSocketResponse, Visitor] = {}
         self.add_routes(
-            web.get("/", self._page), web.get("/live", self._page_socket), web.get(_RECORDED, self._recording)
+            web.get("/", self._page),
+            web.get("/live", self._page_socket),
+            web.get("/recorded", self._recording),
         )
 
     @contextlib.asynccontextmanager
@@ -76,7 +91,7 @@ class LiveServer(PageServer):
         self._live.refused += 1
 
     async def _page(self, request: web.Request) -> web.StreamResponse:
-        return self.page(request, page_text("live.html"), self.listener.holds, _PAGE)
+        return self.page(request, self._page_text, self.listener.holds, _PAGE)
 
     async def _hand_over(self) -> None:
         """Tells all pages that the run has ended, and waits until each has fetched the recording that it becomes."""
@@ -92,11 +107,11 @@ class LiveServer(PageServer):
         text = self._so_far()
         if text is None:
             raise web.HTTPNotFound
-        self._read += request.method == "GET"
-        return self.page(request, text, self.listener.holds, _PAGE)
+        self._read += 1
+        return web.Response(text=text, content_type="application/json")
 
     def _so_far(self) -> str | None:
-        """The page of the run so far, made once for all pages that ask at the same time."""
+        """The run so far, made once for all pages that ask at the same time."""
         now = (self._live.simulation.tick, self._live.change)
         if self._kept[0] != now:
             self._kept = (now, self._recorded())

@@ -1,10 +1,12 @@
 """Encodes and decodes frames as `hal/protocol/octet.dbc` describes them."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from operator import itemgetter
 from typing import NamedTuple
 
 from host_sim.base.paths import ROOT
 from host_sim.protocol.generated import (
+    CELL_COUNT,
     LAYOUT_HASH,
     MESSAGES,
     NODE_MAX,
@@ -270,3 +272,31 @@ def node_of(frame_id: int) -> int:
 def counter_of(frame: Frame) -> int:
     """The alive counter in a frame with at least two bytes; a whole one has 0..14."""
     return frame.data[1] & _COUNTER_MASK
+
+
+_HALVES = 2
+_CELLS: Callable[[dict[str, int]], tuple[int, ...]] = itemgetter(*(f"cell_{cell}" for cell in range(CELL_COUNT)))
+
+
+class MemoryReport:
+    """Joins the two halves of a memory, in either order."""
+
+    def __init__(self) -> None:
+        """Starts without any half."""
+        self._halves: dict[int, DecodedFrame] = {}
+
+    def join(self, decoded: DecodedFrame) -> tuple[int, ...] | None:
+        """The eight cells when both halves have come; None after the first, or if one of them was lost.
+
+        Args:
+            decoded: A MEMORY.
+        """
+        half, counter = decoded.signals["half"], decoded.signals["counter"]
+        if half not in range(_HALVES):
+            return None
+        other = self._halves.get(1 - half)
+        self._halves = {half: decoded}
+        if other is None or other.signals["counter"] != counter:
+            return None
+        self._halves = {}
+        return _CELLS(other.signals | decoded.signals)

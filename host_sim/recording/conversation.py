@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from host_sim.client.session import Told
+from host_sim.client.session import HeldCheck
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol, counter_of, node_of
 from host_sim.protocol.generated import Reason, Result
 from host_sim.recording.log_reader import LogReader, check_protocol
@@ -41,7 +41,7 @@ def check_conversation(log: LogReader, protocol: Protocol) -> Conversation:
 class _Check:
     def __init__(self, protocol: Protocol) -> None:
         self.time_s, self.found = 0.0, Conversation()
-        self._protocol, self._told = protocol, Told()
+        self._protocol, self._held_check = protocol, HeldCheck()
         self._command: Frame | None = None
         self._senses: Frame | None = None
         self._lockstep = False
@@ -63,11 +63,11 @@ class _Check:
 
     def _is_held(self, held: int) -> bool:
         """Whether the robot holds the commands sent; true if unknown: without an owner, or during a command."""
-        if not self._told.owned or self._command is not None:
+        if not self._held_check.owned or self._command is not None:
             return True
-        if self._told.heard and held == self._told.commands & 0xFFFF:
-            self._told.takes_senses = False  # a robot that senses for itself
-        return self._told.agrees(held, ())
+        if self._held_check.heard and held == self._held_check.commands & 0xFFFF:
+            self._held_check.takes_senses = False  # a robot that senses for itself
+        return self._held_check.agrees(held, ())
 
     def _ask(self, frame: Frame, decoded: DecodedFrame) -> None:
         if self._command not in (None, frame):
@@ -82,14 +82,14 @@ class _Check:
         if asked.data[1] != frame.data[1] and decoded.signals["result"] == Result.DONE:
             self._complain("an answer has another counter or opcode than its command")
         if decoded.signals["result"] == Result.DONE:
-            self._told.carry_out(asked, decoded)
+            self._held_check.carry_out(asked, decoded)
         self._command, self.found.commands = None, self.found.commands + 1
 
     def _sense(self, frame: Frame) -> None:
         if self._lockstep and self._senses not in (None, frame):
             self._complain("senses were not answered in lockstep")
         self._senses = frame
-        self._told.ask(frame if self._lockstep else None)
+        self._held_check.ask(frame if self._lockstep else None)
 
     def _drive(self, frame: Frame, decoded: DecodedFrame) -> None:
         if self._senses is None or decoded.signals["reason"] in (Reason.STOP, Reason.SILENCE):
@@ -101,7 +101,7 @@ class _Check:
         if self._lockstep and not is_answer:
             self._complain("a drive has another tick or counter than its senses")
         if is_answer:
-            self._told.take_drive(frame)
+            self._held_check.take_drive(frame)
         if is_answer or self._lockstep:
             self._senses, self.found.drives = None, self.found.drives + is_answer
 

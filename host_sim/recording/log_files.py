@@ -12,7 +12,6 @@ import os
 import sqlite3
 import struct
 import sys
-import time
 import zlib
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, closing, contextmanager, suppress
@@ -24,15 +23,15 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TextIO, cast
 from host_sim.base.errors import UsageError
 from host_sim.base.extra_library import library
 from host_sim.base.files import open_bytes
-from host_sim.base.progress_line import ProgressLine
+from host_sim.base.terminal import SOON_S, ProgressLine
 from host_sim.protocol.codec import Frame
-from host_sim.recording.asc_text import AscReader
 from host_sim.recording.log_text import (
     ERROR,
     EXTENDED,
     FD,
     OTHER,
     REMOTE,
+    AscReader,
     LineReader,
     Recorded,
     counts_from_the_line_before,
@@ -43,8 +42,6 @@ if TYPE_CHECKING:
     from can import Message
 
 _SIZE_MAX = 64_000_000_000
-_SILENT_S = 1.0
-"""Time that a log may take to read before a line shows how far it is, s."""
 _LINE_MAX = 4096
 _BOM = codecs.BOM_UTF8.decode("cp1252")
 _COMPRESSED: dict[bytes, Callable[[BinaryIO], Any]] = {
@@ -97,14 +94,14 @@ def _open(path: Path) -> Iterator[BinaryIO]:
     with ExitStack() as stack:
         try:
             file = stack.enter_context(open_bytes(path, _SIZE_MAX))
-        except FileNotFoundError as error:
-            raise UsageError(f"cannot read {path}: {error.strerror}") from None
+        except FileNotFoundError:
+            raise UsageError(f"there is no file {path}: tools/run writes out/run.log") from None
         start = file.read(8)
         file.seek(0)
         if _DATABASE.startswith(start):  # which opens its file by itself
             yield file
             return
-        line = stack.enter_context(ProgressLine(os.fstat(file.fileno()).st_size))
+        line = stack.enter_context(ProgressLine(os.fstat(file.fileno()).st_size, after_s=SOON_S))
         read = io.BufferedReader(_Watched(file, _progress_shown(line, path)))
         opened = next((each for magic, each in _COMPRESSED.items() if start.startswith(magic)), None)
         if opened:
@@ -139,11 +136,10 @@ class _Watched(io.RawIOBase):
 
 
 def _progress_shown(line: ProgressLine, path: Path) -> Callable[[int], None]:
-    """Returns a function that shows how much of a log has been read, once that takes long."""
-    begins_s = time.monotonic() + _SILENT_S
+    """Returns a function that shows how much of a log has been read."""
 
     def show(count: int) -> None:
-        if line.is_due() and time.monotonic() >= begins_s:
+        if line.is_due():
             line.show(f"reading {path}", count)
 
     return show

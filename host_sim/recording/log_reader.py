@@ -5,10 +5,9 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from host_sim.base.errors import UsageError
-from host_sim.protocol.codec import NODE_MAX, Protocol, node_of
+from host_sim.protocol.codec import NODE_MAX, MemoryReport, Protocol, node_of
 from host_sim.protocol.every_node import IDS
 from host_sim.protocol.generated import CELL_COUNT
-from host_sim.protocol.memory_report import MemoryReport
 from host_sim.recording.log_files import frames_in
 from host_sim.recording.log_text import OTHER, Recorded
 

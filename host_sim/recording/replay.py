@@ -5,9 +5,8 @@ from itertools import product
 from typing import TYPE_CHECKING, TypeAlias
 
 from host_sim.base.errors import UsageError
-from host_sim.protocol.codec import MEMORY_IDS, DecodedFrame, Frame, Protocol, node_of
+from host_sim.protocol.codec import MEMORY_IDS, DecodedFrame, Frame, MemoryReport, Protocol, node_of
 from host_sim.protocol.generated import Fault, Opcode, Reason
-from host_sim.protocol.memory_report import MemoryReport
 from host_sim.recording.log_reader import LogReader, Recorded, check_protocol, first_memory
 from host_sim.sim.in_process_link import InProcessLink, Program
 

@@ -8,10 +8,9 @@ from pathlib import Path
 from host_sim.base.errors import OctetError
 from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.protocol.generated import Senses
-from host_sim.recording.dead_reckoning import reckon
 from host_sim.recording.log_reader import LogReader, nodes_in, read_log
 from host_sim.recording.phrases import news_of
-from host_sim.recording.recording import Recording, read_recording
+from host_sim.recording.recording import Recording, read_recording, reckon
 from host_sim.recording.run_recorder import RunRecorder, Tick
 from host_sim.recording.state import environment_scene
 from host_sim.recording.trajectory import Trajectory

@@ -1,12 +1,11 @@
 """The visible part of a run, tick by tick. Pages, pictures and animations are made from it."""
 
 from array import array
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
 from operator import itemgetter
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from host_sim.protocol.generated import CELL_COUNT, ROW, Reason
 from host_sim.recording.history import Cell
@@ -32,6 +31,8 @@ class Event(NamedTuple):
     tick: int
     kind: str
 
+
+_EVENT_OF = {Reason.TRIAL: "trial", Reason.BOREDOM: "boredom"}
 
 NEW_CELLS = [Cell(0, cell, uses=0, learned=-1, by_hand=0) for cell in range(CELL_COUNT)]
 """State of the cells of a robot that has just been started."""
@@ -171,29 +172,33 @@ class Trajectory:
         track = self.tracks[robot]
         return state(track.node, tick, track.pose(tick), track.row(tick), track.known(tick), at(self.meals, tick))
 
-    def events(self, robot: int = 0) -> list[Event]:
-        """A robot's events in the order of their ticks."""
-        track = self.tracks[robot]
-        lessons = (lesson for lesson in track.lessons if not lesson["by_hand"])
+    def events(self, robot: int = 0, first: int = 0) -> list[Event]:
+        """A robot's events from a tick on, in the order of their ticks."""
+        track, first = self.tracks[robot], max(first, self.first_tick)
+        turns, lessons = _from(track.begun, first), _from(track.lessons, first, "tick")
         return sorted(
             (
-                *(Event(tick, "environment") for tick in self.begun()),
-                *(Event(tick, "change") for tick in dict.fromkeys(tick for tick, _ in self.retained_news())),
-                *(Event(tick, "trial") for tick in track.ticks_of(Reason.TRIAL)),
-                *(Event(tick, "boredom") for tick in track.ticks_of(Reason.BOREDOM)),
-                *(Event(lesson["tick"], "lesson") for lesson in lessons if lesson["tick"] >= self.first_tick),
-                *(Event(tick, "eat") for tick in track.meals if tick >= self.first_tick),
+                *(Event(tick, "environment") for tick in self.begun(first)),
+                *(Event(tick, "change") for tick in dict.fromkeys(tick for tick, _ in self.retained_news(first))),
+                *(Event(tick, _EVENT_OF[reason]) for tick, reason in turns),
+                *(Event(lesson["tick"], "lesson") for lesson in lessons if not lesson["by_hand"]),
+                *(Event(tick, "eat") for tick in track.meals[bisect_left(track.meals, first) :]),
             )
         )
 
-    def retained_news(self) -> list[News]:
-        """The news of the ticks that are retained."""
-        return [news for news in self.news if self.first_tick <= news[0] < self.ticks]
+    def retained_news(self, first: int = 0) -> list[News]:
+        """The news from a tick on, of the ticks that are retained."""
+        return [news for news in _from(self.news, max(first, self.first_tick)) if news[0] < self.ticks]
 
-    def begun(self) -> list[int]:
-        """The first tick of each retained environment."""
-        numbers = [(0, 0), *((tick, scene["number"]) for tick, scene in self.scenes)]
-        return [tick for (_, old), (tick, new) in pairwise(numbers) if new != old]
+    def begun(self, first: int = 0) -> list[int]:
+        """The first tick of each retained environment that begins at a tick or later."""
+        begun = dict.fromkeys(scene["first_tick"] for _, scene in _from(self.scenes, first))
+        return [tick for tick in begun if tick >= first]
+
+
+def _from(entries: Sequence[Any], first: int, key: int | str = 0) -> Sequence[Any]:
+    """The entries of a tick or later, of some in the order of their ticks."""
+    return entries[bisect_left(entries, first, key=itemgetter(key)) :]
 
 
 def at(changes: Sequence[tuple[int, T]], tick: int) -> T:

@@ -11,9 +11,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from host_sim.base.compressed_file import COMPRESSED
 from host_sim.base.errors import UsageError
-from host_sim.base.files import read_bytes, write_bytes
+from host_sim.base.files import COMPRESSED, read_bytes, write_bytes
 from host_sim.protocol.codec import NODE_MAX
 from host_sim.sim.world_record import Begun, Edited, Refused, Source, WorldRecord
 from host_sim.world.body_kinds import IDEAL, KIT, BodyKind, body_kind, kind_from

@@ -6,6 +6,7 @@ from pathlib import Path
 from PIL import Image, ImageFont
 
 from host_sim.base.errors import UsageError
+from host_sim.base.terminal import SOON_S, counted
 from host_sim.protocol.generated import CELL_COUNT, SIDES, Reason
 from host_sim.recording.phrases import lesson_sentence, sentence
 from host_sim.recording.state_types import Lesson, State
@@ -26,7 +27,7 @@ from host_sim.report.drawing import (
 )
 from host_sim.report.palette import BEAM, IN_USE, LEARNED, in_palette
 from host_sim.world.geometry import Pose, SimParams, ahead_of
-from host_sim.world.plain_space import CONE_BEARINGS_DEG
+from host_sim.world.native_world import CONE_BEARINGS_DEG
 
 FRAMES_MAX = 600
 """Maximum number of frames of a clip."""
@@ -66,8 +67,9 @@ def write_gif(path: Path, trajectory: Trajectory, clip: Clip) -> None:
     ticks = _frame_ticks(trajectory, clip)
     holds = _holds(trajectory, clip)
     durations = [_FRAME_MS + holds.get(tick, 0) for tick in ticks]
-    first, *others = (in_palette(draw_frame(trajectory, tick, clip.width_px)) for tick in ticks)
-    write_image(path, first, "GIF", save_all=True, append_images=others, duration=durations, loop=0)
+    shown = counted(ticks, len(ticks), f"drawing {path}", after_s=SOON_S)
+    frames = (in_palette(draw_frame(trajectory, tick, clip.width_px)) for tick in shown)
+    write_image(path, next(frames), "GIF", save_all=True, append_images=frames, duration=durations, loop=0)
 
 
 def draw_frame(trajectory: Trajectory, tick: int, width_px: int) -> Image.Image:

@@ -14,7 +14,7 @@ from host_sim.protocol.generated import FEEL, Reason, Side
 from host_sim.recording.state_types import EnvironmentScene
 from host_sim.world.geometry import Point, Pose, SimParams, ahead_of
 from host_sim.world.layouts import Layout
-from host_sim.world.plain_space import CONE_BEARINGS_DEG, cone_outline
+from host_sim.world.native_world import CONE_BEARINGS_DEG, cone_outline
 
 PAPER, INK, FLOOR, OBSTACLE = "#ffffff", "#20262e", "#f6f5f1", "#4b535d"
 CONE_LIT, CONE_DARK = "#e69f00", "#e1e4e8"

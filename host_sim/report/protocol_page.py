@@ -1,7 +1,8 @@
 """docs/protocol.md, generated from `hal/protocol/octet.dbc`; this file, run as a module, prints it."""
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from itertools import groupby
 from zlib import crc32
 
 import cantools
@@ -175,7 +176,9 @@ def _message_row(message: Message) -> str:
 def _section(message: Message, listed: dict[str, str]) -> str:
     head = ["| signal | bits | range | meaning |", "|---|---|---|---|"]
     signals = sorted(message.signals, key=lambda signal: (signal.start, _multiplexers(signal)))
-    rows = [_signal_row(signal, message.name, listed) for signal in signals if not _is_plain(signal)]
+    shown = [signal for signal in signals if not _is_plain(signal)]
+    alike = (list(group) for _, group in groupby(shown, key=lambda it: (it.comment, it.length, _multiplexers(it))))
+    rows = [_signal_row(group, message.name, listed) for group in alike]
     return f"\n## {message.name}\n\n{message.comment}\n\n" + "\n".join([*head, *rows]) + "\n"
 
 
@@ -188,11 +191,14 @@ def _multiplexers(signal: Signal) -> Iterable[int]:
     return signal.multiplexer_ids or ()
 
 
-def _signal_row(signal: Signal, message: str, listed: dict[str, str]) -> str:
-    last = signal.start + signal.length - 1
-    bits = f"{signal.start}..{last}" if signal.length > 1 else f"{signal.start}"
+def _signal_row(alike: Sequence[Signal], message: str, listed: dict[str, str]) -> str:
+    """The row of a signal, or of several that differ only in their place."""
+    signal, end = alike[0], alike[-1]
+    last = end.start + end.length - 1
+    bits = f"{signal.start}..{last}" if last > signal.start else f"{signal.start}"
     meaning = " ".join(filter(None, (signal.comment, _choices(signal, message, listed))))
-    return f"| {signal.name} | {bits} | {_with_unit(_range(signal), signal.unit or '')} | {meaning} |"
+    name = signal.name if signal is end else f"{signal.name} to {end.name}"
+    return f"| {name} | {bits} | {_with_unit(_range(signal), signal.unit or '')} | {meaning} |"
 
 
 def _choices(signal: Signal, message: str, listed: dict[str, str]) -> str:

@@ -11,6 +11,7 @@ value in a pair holds from the pair's tick until that of the next pair; the firs
     first_tick   the first tick on the page; 0 except for very long runs, of which it shows the last part
     ticks        number of ticks
     shown        the tick at which the page opens; it may be left out
+    log          the words that name its log to `tools/octet debug`; they may be left out
     scenes       [[tick, EnvironmentScene], ...]: one for each environment and for each change of it by a person
     news         [[tick, sentence], ...]: changes of the world and the bodies
     eaten        [[tick, [0 or 1 for each piece of the scene's food]], ...]
@@ -70,19 +71,18 @@ def write_page(
     trajectory: Trajectory,
     title: str,
     laboratory: Mapping[str, Any] = NO_FIRMWARE,
-    shown: int | None = None,
+    **more: Any,
 ) -> None:
     """Writes the page of a run of at least one tick, with the data of laboratory.py.
 
-    It opens at the tick `shown`, by default the first.
+    `more` has the fields of the run that may be left out.
 
     Equal runs give equal bytes.
 
     Raises:
         OctetError: The file cannot be written, or the WebAssembly for a run that can be repeated is not built.
     """
-    run = {**run_data(trajectory, title), **({} if shown is None else {"shown": shown})}
-    write_bytes(path, page(run, laboratory).encode())
+    write_bytes(path, page({**run_data(trajectory, title), **more}, laboratory).encode())
 
 
 def run_data(trajectory: Trajectory, title: str) -> dict[str, Any]:

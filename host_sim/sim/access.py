@@ -141,10 +141,10 @@ def choose_bus(bus: str, robot: str) -> str:
     import subprocess  # noqa: PLC0415 - a run in this process begins sooner without
 
     try:
-        how = subprocess.run([_WITH_VCAN, "--how"], capture_output=True, text=True, check=False).stdout.strip()
+        way = subprocess.run([_WITH_VCAN, "--quick-way"], capture_output=True, text=True, check=False).stdout.strip()
     except OSError:  # the script is not here, or cannot run
         return "fd"
-    if how in ("present", "namespace"):
+    if way:
         command = [os.fspath(_WITH_VCAN), sys.executable, "-m", "host_sim", *sys.argv[1:]]
         os.execve(_WITH_VCAN, command, {**os.environ, _CHOSEN: "1"})
     return "fd"

@@ -35,7 +35,7 @@ def take_ticks(client: RobotClient, ticks: Ticks) -> None:
     drive = client.protocol.decode_drive(ticks.drive)
     assert drive is not None
     client.inbox.catch_up(ticks.count, drive, ticks.drive)
-    client.inbox.told.go_on(*ticks.heard, drive=ticks.drive)
+    client.inbox.held_check.go_on(*ticks.heard, drive=ticks.drive)
     client.frames.sent += ticks.count
 
 

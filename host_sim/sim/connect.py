@@ -15,8 +15,7 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.codec import Protocol
 from host_sim.sim.access import BOARDS, PICO, Access
 from host_sim.sim.in_process_link import InProcessLink, Relay, RelayedLink
-from host_sim.transport.clock import VirtualClock, WallClock
-from host_sim.transport.link import LineStats, Link
+from host_sim.transport.link import LineStats, Link, VirtualClock, WallClock
 
 if TYPE_CHECKING:
     from host_sim.emulator.board import EmulatedBoard

@@ -118,11 +118,11 @@ class _Run:
         if self._shared:
             params = self._shared[0][1]
         faults = _faults_of(config)
-        told, worlds = config.told, config.robots if self._own else 1
-        company = company if told.get("share") else 1
+        settings, worlds = config.robot_settings, config.robots if self._own else 1
+        company = company if settings.get("share") else 1
         self._fleet = NativeFleet(config.robots, worlds, params, config.chosen_body, company, own=config.own)
         for index in range(config.robots):
-            self._fleet.start(index, self._seed(index), config.profile_name, told)
+            self._fleet.start(index, self._seed(index), config.profile_name, settings)
             for fault in faults:
                 self._fleet.damage(index, fault, self._seed(index))
         for index, robot in enumerate(frozen):
@@ -175,7 +175,7 @@ class _Run:
                 seed=self._seed(index),
                 environment=self._entered[world],
                 eaten=eaten,
-                **fleet.told(index),
+                **fleet.results_of(index),
             )
 
 

@@ -256,7 +256,7 @@ class OwnLink(InProcessLink):
         """As in `Connection`."""
         failure: Any = self._ffi.string(self._library.own_failure(self._octet))
         if failure:
-            raise BrainError(self._own.named(failure.decode(errors="replace")), self._node)
+            raise BrainError.from_failure(self._own.named(failure.decode(errors="replace")), self._node)
         return super().status()
 
 
@@ -269,13 +269,13 @@ class ProgrammedLink(InProcessLink):
         """As in `InProcessLink`; raises UsageError if the program has an error, with its line."""
         self._text = program.text
         super().__init__(node, memory, PROGRAMMED_LIBRARY, relay)
-        if told := self.told():
+        if told := self.program_state():
             raise UsageError(f"{program.name}, {told}")
 
     def _open(self, node: int, memory: bytes) -> Any:
         return self._library.programmed_open(node, memory, self._text, len(self._text))
 
-    def told(self) -> str:
+    def program_state(self) -> str:
         """The state of the program for people: its error, its end, or its output; empty if there is none."""
         told = self._ffi.new("char[]", _TOLD_MAX)
         self._library.programmed_tell(self._library.programmed_state(self._octet), told)
@@ -289,7 +289,7 @@ class ProgrammedLink(InProcessLink):
 
     def status(self) -> str:
         """As in `Connection`."""
-        return f"runs in this process, the program: {self.told() or 'runs'}"
+        return f"runs in this process, the program: {self.program_state() or 'runs'}"
 
 
 @dataclass(frozen=True)

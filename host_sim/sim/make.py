@@ -105,7 +105,7 @@ def start_robots(clients: Sequence[RobotClient], config: RunConfig, memories: Se
         profile = client.protocol.choices("COMMAND", "profile")[config.profile_name]
         memory = memories[index] if index < len(memories) else None
         try:
-            start(client, Session((config.seed + index) % _SEED_SPAN, profile, config.told), memory)
+            start(client, Session((config.seed + index) % _SEED_SPAN, profile, config.robot_settings), memory)
         except RefusedError as refused:
             raise UsageError(f"{refused}; give values within the robot's range") from refused
 

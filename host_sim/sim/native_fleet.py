@@ -16,7 +16,7 @@ from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, OWN_PRO
 from host_sim.world.body_kinds import BodyKind, add_fault, draw_body
 from host_sim.world.geometry import Pose, SimParams
 from host_sim.world.layouts import Layout
-from host_sim.world.plain_space import cones_in_c, grid_in_c
+from host_sim.world.native_world import cones_in_c, grid_in_c
 from host_sim.world.world_library import WORLD_HEADERS, load_native, world_library
 
 if TYPE_CHECKING:
@@ -176,7 +176,7 @@ class NativeFleet:
         """
         left = self._run(ticks, worlds)
         if self._own and (failure := self._ffi.string(self._library.own_failure(self._ffi.NULL))):
-            raise BrainError(self._own.named(bytes(failure).decode(errors="replace")))
+            raise BrainError.from_failure(self._own.named(bytes(failure).decode(errors="replace")))
         return left
 
     def _run(self, ticks: int, worlds: Sequence[int] | None) -> int:
@@ -206,7 +206,7 @@ class NativeFleet:
         """Number of ticks of a robot in its environment so far."""
         return int(self._robots[index].ticks)
 
-    def told(self, index: int) -> dict[str, Any]:
+    def results_of(self, index: int) -> dict[str, Any]:
         """A robot's results in its environment so far, by the fields of a `FleetResult`."""
         robot, body = self._robots[index], self._bodies[index]
         return {

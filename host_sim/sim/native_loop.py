@@ -205,7 +205,7 @@ class NativeLoop:
         """Takes over changes made by commands and people."""
         robot = self._robots[index]
         robot.senses_counter, self._memories[index] = client.inbox.sent_counter, client.memory
-        told = client.inbox.told
+        told = client.inbox.held_check
         robot.commands, robot.heard[0], robot.heard_count, robot.driven = told.commands, told.heard, 1, told.drive
 
 

@@ -60,7 +60,7 @@ _ALLOWED = re.compile(
     r"|__ubsan_handle_\w+|__sanitizer_cov_trace_pc|__stack_chk_fail|_GLOBAL_OFFSET_TABLE_|own_(begin|next)"
 )
 _VARIABLE = re.compile(r"\.(bss|data|tbss|tdata)(?!\.rel\.ro)\b.*")
-_OWN = re.compile(r"^own: (.*)$", re.MULTILINE)
+_OWN = re.compile(r"^own: (-?\d+ )(.*)$", re.MULTILINE)
 _SANITIZER = re.compile(r"^==\d+==ERROR: AddressSanitizer:? ([\w-]+)", re.MULTILINE)
 _KINDS = {
     "SEGV": "a pointer that points nowhere",
@@ -144,16 +144,16 @@ class OwnBrain:
         return kept
 
     def mistake(self, printed: str) -> str:
-        """The mistake that its process has printed, with its place in the source; empty if there is none."""
+        """The mistake that its process has printed in the form of `guard.h`; empty if there is none."""
         found = _OWN.search(printed)
         if found is None:
             return ""
         kind = _SANITIZER.search(printed)
         if not kind:
-            return self.named(found[1])
+            return self.named(found[0].removeprefix("own: "))
         place = re.search(rf"^ +#\d+ .*{re.escape(self.path)}:(\d+)", printed, re.MULTILINE)
         what = _KINDS.get(kind[1], f"the address sanitizer says {kind[1]}")
-        return f"{self.name}{f':{place[1]}' if place else ''}: {what}{found[1]}"
+        return f"{found[1]}{self.name}{f':{place[1]}' if place else ''}: {what}{found[2]}"
 
     def named(self, told: str) -> str:
         """A text with the name of the file as its user wrote it."""
@@ -234,18 +234,14 @@ def compiled(text: bytes, name: str) -> OwnBrain:
 def _wait_for(lock: int, board: str) -> None:
     """Locks the folder of a board's images; another process may build one there."""
     end = time.monotonic() + _OTHER_S
-    while not _is_ours(lock):
-        if time.monotonic() > end:
-            raise OctetError(f"another octet still builds an image of {board}: try again when it has ended")
+    while True:
+        try:
+            return lock_at_once(lock)
+        except BlockingIOError:
+            if time.monotonic() > end:
+                told = f"another octet still builds an image of {board}: try again when it has ended"
+                raise OctetError(told) from None
         time.sleep(_LOOK_S)
-
-
-def _is_ours(lock: int) -> bool:
-    try:
-        lock_at_once(lock)
-    except BlockingIOError:
-        return False
-    return True
 
 
 def _key(text: bytes, name: str) -> str:

@@ -48,6 +48,7 @@ class SteppedPico:
 
     Attributes:
         said: The frames that it sent on its serial line.
+        text: The other lines.
     """
 
     def __init__(self, image: Path, *options: str) -> None:
@@ -61,6 +62,7 @@ class SteppedPico:
         )
         self._rest = self._begun = b""
         self.said: list[Frame] = []
+        self.text: list[bytes] = []
 
     def order(self, *orders: str) -> list[str]:
         """Gives orders; returns the answers.
@@ -68,12 +70,12 @@ class SteppedPico:
         Raises:
             RobotError: It has ended; the message has what it printed.
         """
-        self._write("".join(f"!{order}\r" for order in orders).encode())
+        self.write("".join(f"!{order}\r" for order in orders).encode())
         return [self._answer() for _ in orders]
 
     def send(self, frame: Frame) -> None:
         """Puts a frame on its serial line; raises as `order` does."""
-        self._write(encode(frame))
+        self.write(encode(frame))
 
     def close(self) -> None:
         """Ends it."""
@@ -84,7 +86,8 @@ class SteppedPico:
             with suppress(BrokenPipeError):
                 stream.close()
 
-    def _write(self, text: bytes) -> None:
+    def write(self, text: bytes) -> None:
+        """Puts any text on it."""
         assert self._process.stdin is not None
         with suppress(BrokenPipeError):  # then no answer comes, which says more
             self._process.stdin.write(text)
@@ -97,7 +100,9 @@ class SteppedPico:
                 return answer.decode()
             line, self._begun = self._begun, b""
             frame = decode(line)
-            if frame is not None:
+            if frame is None:
+                self.text.append(line)
+            else:
                 self.said.append(frame)
 
     def _line(self) -> bytes:

@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import re
 import select
 import signal
 import subprocess
@@ -21,7 +22,7 @@ PROGRAM = BUILD / "host" / "hal" / "port" / "posix" / "octet-robot"
 _READY_S = 10.0
 _END_S = 2.0
 _PRINTED_CHARS = 400
-_REPORT_FOLLOWS = "\nown: ,"  # until the robot has ended, the sanitizer's report may not be whole
+_REPORT_FOLLOWS = re.compile(r"^own: -?\d+ ,", re.MULTILINE)  # and is whole only when the robot has ended
 _OF_PROGRAM = "> "  # before a line that the robot's program prints
 
 
@@ -82,8 +83,8 @@ class RobotProcess:
         code = self._process.poll()
         self._read()
         printed = self._printed.decode(errors="replace")
-        if (code is not None or _REPORT_FOLLOWS not in printed) and (mistake := self.mistake(printed)):
-            raise BrainError(mistake, self._node)
+        if (code is not None or not _REPORT_FOLLOWS.search(printed)) and (mistake := self.mistake(printed)):
+            raise BrainError.from_failure(mistake, self._node)
         if code is None:
             return f"is running and {self._quoted()}"
         how = f"was killed by signal {_signal_name(-code)}" if code < 0 else f"ended with exit code {code}"

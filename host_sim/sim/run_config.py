@@ -107,7 +107,7 @@ class RunConfig:
     robot: str = option(
         ROBOTS[0],
         "spawn: start the firmware here; external: wait for a robot on the bus; qemu, emulated: run the flash image "
-        "in QEMU or on an emulated board; observe (watch only): look on while a robot on the bus runs by itself",
+        "in QEMU or on an emulated board; observe (watch only): watch a robot on the bus that runs by itself",
         choices=ROBOTS,
         fleet=False,
     )
@@ -332,8 +332,8 @@ class RunConfig:
         return self.physics or (PYMUNK if ":" in self.bus or self.world == CRATES else FAST)
 
     @property
-    def told(self) -> dict[str, int]:
-        """The parameters to set: those that suit the bodies, overridden by `settings`."""
+    def robot_settings(self) -> dict[str, int]:
+        """The parameters that robots are started with: those of the bodies' kind, overridden by `settings`."""
         return {**(self.chosen_body.settings if self.chosen_body else {}), **self.settings}
 
     @property

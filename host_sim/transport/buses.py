@@ -15,7 +15,7 @@ from can.typechecking import CanFilter
 from host_sim.base.errors import LinkDownError, OctetError, UsageError
 from host_sim.transport.bus_link import BusLink
 from host_sim.transport.link import BIT_RATE, LineStats, Link
-from host_sim.transport.serial_line import open_serial_line
+from host_sim.transport.slcan_link import open_serial_line
 
 _ID_MASK = 0x7FF
 _EXTRAS = {"udp_multicast": "multicast"}

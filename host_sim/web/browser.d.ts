@@ -6,6 +6,6 @@ declare class DecompressionStream implements GenericTransformStream {
   readonly writable: WritableStream;
 }
 
-interface CanvasPath {
-  roundRect(x: number, y: number, width: number, height: number, radius: number): void;
+declare module "rp2040js" {
+  export const RP2040: new () => object;
 }

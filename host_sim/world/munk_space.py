@@ -9,7 +9,7 @@ from typing import Any
 import pymunk
 
 from host_sim.world.geometry import Capsule, SimParams
-from host_sim.world.plain_space import CONE_BEARINGS_DEG, cone_outline, cone_reach_mm
+from host_sim.world.native_world import CONE_BEARINGS_DEG, cone_outline, cone_reach_mm
 
 _OBSTACLE, _DISC, _CONES = 1, 2, 100  # collision types; each cone has its own
 _OBSTACLES, _DISCS, _SENSORS = 1, 2, 4  # categories

@@ -14,9 +14,8 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.base.compressed_file import CompressedFile
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.base.files import read_bytes, read_words, replacing, write_bytes
+from host_sim.base.files import CompressedFile, read_bytes, read_words, replacing, write_bytes
 from host_sim.base.result_files import Case, write_results
 from host_sim.base.toml_file import parse_toml
 
@@ -75,7 +74,7 @@ def test_a_pipe_in_the_place_of_an_old_temporary_name_does_not_matter(tmp_path):
 
 
 @pytest.mark.parametrize("call", ["fsync", "fchmod"])
-def test_what_fails_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch, call):
+def test_failed_write_leaves_only_the_old_file(tmp_path, monkeypatch, call):
     (tmp_path / "a").write_bytes(b"old")
 
     def fail(*_: object) -> None:
@@ -212,7 +211,7 @@ def test_the_bytes_do_not_depend_on_how_the_content_was_handed_over(tmp_path):
     assert write(tmp_path / "a", []) == write(tmp_path / "b", [draws.randrange(5000) for _ in range(50)])
 
 
-def test_all_but_the_last_that_was_written_is_in_the_file_at_once(tmp_path):
+def test_buffered_file_holds_all_but_the_last_write(tmp_path):
     path = tmp_path / "a"
     file = CompressedFile(path.open("wb"))
     for at in range(0, len(CONTENT), 1000):

@@ -1,4 +1,7 @@
-"""The one module about operating systems."""
+"""The one module about operating systems.
+
+Interfaces to C code: read once, kept, and had all the same where nothing can be kept.
+"""
 
 import json
 import re
@@ -6,8 +9,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import cffi
 import pytest
 
+from host_sim.base import c_interface as module
+from host_sim.base.c_interface import c_interface
 from host_sim.cli import run_watch_command
 from host_sim.cli.run_options import RunOptions
 from tests.runs.support import octet_process
@@ -80,7 +86,7 @@ def test_without_what_windows_lacks_a_run_is_the_same(tmp_path):
     assert one["log_sha256"] == other["log_sha256"]
 
 
-def test_where_robots_are_no_processes_a_bus_is_refused_in_a_line():
+def test_bus_is_refused_without_robot_processes():
     done = subprocess.run(
         [sys.executable, "-c", WITHOUT, "run", "--bus", "fd"], cwd=ROOT, capture_output=True, text=True, check=False
     )
@@ -94,3 +100,48 @@ def test_a_watched_robot_is_where_this_system_can_have_it(monkeypatch, has_proce
     monkeypatch.setattr(run_watch_command, "HAS_ROBOT_PROCESSES", has_processes)
 
     assert run_watch_command._watched(RunOptions()).bus == bus
+
+
+DECLARATIONS = "struct pair { int left, right; };"
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "FOLDER", tmp_path / "cffi")
+    c_interface.cache_clear()
+    yield tmp_path / "cffi"
+    c_interface.cache_clear()
+
+
+@pytest.mark.usefixtures("folder")
+def test_what_was_read_is_not_read_again(monkeypatch):
+    c_interface(DECLARATIONS)
+    c_interface.cache_clear()
+    monkeypatch.setattr(cffi, "FFI", None)
+
+    assert c_interface(DECLARATIONS).sizeof("struct pair") == 8
+
+
+def test_other_declarations_are_others(folder):
+    c_interface(DECLARATIONS)
+
+    assert c_interface("struct pair { char left, right; };").sizeof("struct pair") == 2
+    assert len(list(folder.glob("*.py"))) == 2
+
+
+@pytest.mark.parametrize("left", [b"", b"\0" * 100, b"ffi = 1 +", b"raise KeyError"])
+def test_a_damaged_copy_is_made_anew(folder, left):
+    c_interface(DECLARATIONS)
+    (kept,) = folder.glob("*.py")
+    whole = kept.read_bytes()
+    kept.write_bytes(left)  # as a loss of power leaves it
+    c_interface.cache_clear()
+
+    assert c_interface(DECLARATIONS).sizeof("struct pair") == 8
+    assert kept.read_bytes() == whole
+
+
+def test_unwritable_cache_of_a_c_interface_is_ignored(folder):
+    folder.touch()  # no folder can be made here
+
+    assert c_interface(DECLARATIONS).sizeof("struct pair") == 8

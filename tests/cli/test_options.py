@@ -48,7 +48,7 @@ def handed(target: str, *words: str) -> mock._Call:
 
 
 def test_check_asks_the_robot_with_the_number_on_the_bus():
-    assert handed("host_sim.lab.check.robots.external", "check", "--bus", "virtual:1", "--node", "3").args == (
+    assert handed("host_sim.lab.check.checking.external", "check", "--bus", "virtual:1", "--node", "3").args == (
         "virtual:1",
         3,
     )

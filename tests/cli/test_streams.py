@@ -2,15 +2,21 @@
 
 import io
 import os
+import pty
 import re
 import subprocess
 import sys
+import time
+from contextlib import suppress
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from host_sim.base.progress_line import ProgressLine
-from host_sim.cli.outputs import _linked
+from host_sim.api import RunConfig, run
+from host_sim.base.terminal import ProgressLine, counted, linked
+from host_sim.lab.calibrate import calibration
+from host_sim.report import animation
 from tests.runs.support import octet, octet_process
 
 RUN = ("run", "--environments", "1", "--limit-s", "2", "--bus", "fd", "--out")
@@ -97,13 +103,60 @@ def test_the_line_never_wraps(monkeypatch, columns, total):
     assert terminal.getvalue().endswith("\x1b[2K")
 
 
-def test_it_is_due_now_and_then(monkeypatch):
+def test_progress_line_is_due_at_intervals(monkeypatch):
     _, line = begun(monkeypatch)
     assert line.is_due()
 
     line.show("now")
 
     assert not line.is_due()
+
+
+def test_a_line_for_a_short_task_is_due_after_its_delay(monkeypatch):
+    now_s = 5.0
+    monkeypatch.setattr(time, "monotonic", lambda: now_s)
+    begun(monkeypatch)
+    line = ProgressLine(after_s=1.0)
+    assert not line.is_due()
+
+    now_s = 6.0
+
+    assert line.is_due()
+
+
+def test_drawing_an_animation_shows_how_far_it_is(monkeypatch, tmp_path):
+    trajectory = run(RunConfig(seed=1, environments=1, limit_s=2)).trajectory
+    terminal, _ = begun(monkeypatch)
+    monkeypatch.setattr(animation, "SOON_S", 0.0)
+
+    monkeypatch.setenv("COLUMNS", "500")
+    animation.write_gif(tmp_path / "a.gif", trajectory, animation.Clip(to_s=1.0))
+
+    assert f" drawing {tmp_path / 'a.gif'}" in CONTROL.sub("", terminal.getvalue())
+
+
+def test_a_measurement_of_a_calibration_shows_which_one_it_is(monkeypatch):
+    values = iter([1, 0, 0])  # it measures, has ended, and refused nothing
+
+    def command(name, **_):
+        return SimpleNamespace(signals={"value": next(values)}) if name == "get" else None
+
+    dialogue = SimpleNamespace(command=command)
+    terminal, _ = begun(monkeypatch)
+    monkeypatch.setattr(calibration, "SOON_S", 0.0)
+
+    why = calibration.Calibration(SimpleNamespace(node=1, dialogue=dialogue), lambda _: None).measure("light")
+
+    assert why == ""
+    assert "light: measuring" in terminal.getvalue()
+
+
+def test_items_are_counted_as_they_come(monkeypatch):
+    terminal, _ = begun(monkeypatch)
+
+    assert list(counted(iter("abc"), 3, "letters")) == ["a", "b", "c"]
+
+    assert "1/3 letters" in CONTROL.sub("", terminal.getvalue())
 
 
 def test_without_a_terminal_there_is_none(tmp_path):
@@ -128,4 +181,39 @@ def test_a_file_is_a_link_where_the_terminal_may_know_links(monkeypatch, term, l
     monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
     monkeypatch.setenv("TERM", term)
 
-    assert _linked(Path("/a/b")) == (link or "/a/b")
+    assert linked(Path("/a/b")) == (link or "/a/b")
+
+
+def on_a_terminal(*arguments: str, **variables: str) -> tuple[int, str]:
+    """The exit code of a command on a pseudo-terminal, and what it prints there."""
+    primary, secondary = pty.openpty()
+    command = [sys.executable, "-m", "host_sim", *arguments]
+    environment = {name: value for name, value in os.environ.items() if name != "NO_COLOR"}
+    environment |= {"TERM": "xterm", "COLUMNS": "200", **variables}
+    process = subprocess.Popen(command, stdin=secondary, stdout=secondary, stderr=secondary, env=environment)
+    os.close(secondary)
+    shown = b""
+    with suppress(OSError):  # Linux says EIO once the command has closed its end
+        while part := os.read(primary, 65536):
+            shown += part
+    os.close(primary)
+    return process.wait(), shown.decode().replace("\r\n", "\n")
+
+
+WRONG = ("run", "--robots", "0")
+
+
+def test_an_error_is_red_on_a_terminal_and_plain_in_a_pipe():
+    plain = octet_with("", *WRONG, TERM="xterm")
+
+    assert on_a_terminal(*WRONG) == (plain.returncode, plain.stderr.replace("octet:", "\x1b[31moctet:\x1b[39m", 1))
+    assert "\x1b" not in plain.stderr
+
+
+@pytest.mark.parametrize("variables", [{"NO_COLOR": "1"}, {"TERM": "dumb"}])
+def test_no_color_disables_colours(variables):
+    assert on_a_terminal(*WRONG, **variables)[1] == octet_with("", *WRONG).stderr
+
+
+def test_an_empty_no_color_asks_for_nothing():
+    assert "\x1b[31m" in on_a_terminal(*WRONG, NO_COLOR="")[1]

@@ -10,8 +10,7 @@ from host_sim.client.commands import stop
 from host_sim.client.supervision import settle
 from host_sim.protocol.codec import Frame, crc8
 from host_sim.protocol.generated import Opcode
-from tests.client.meddled_link import Listener, begun, run_for
-from tests.client.support import PROTOCOL
+from tests.client.support import PROTOCOL, Listener, begun, run_for
 
 AT, SECOND = 120, 50
 PACES = pytest.mark.parametrize("lockstep", [True, False], ids=["lockstep", "real time"])
@@ -53,7 +52,7 @@ def told_by(link: Listener) -> int:
 
 
 @PACES
-def test_a_start_that_was_computed_to_fit_is_noticed_at_the_end(lockstep):
+def test_start_with_computed_crc_is_detected_at_the_end(lockstep):
     link = Listener()
     client = begun(link, lockstep=lockstep)
     run_for(client, link, range(AT))
@@ -69,7 +68,7 @@ def test_a_start_that_was_computed_to_fit_is_noticed_at_the_end(lockstep):
     assert "does not hold what it was told here" in str(client.incidents)
 
 
-def test_a_start_in_place_of_ours_is_noticed_at_the_end():
+def test_replaced_start_is_detected_at_the_end():
     link = Listener()
 
     def swap(frame: Frame) -> Frame:
@@ -87,7 +86,7 @@ def test_a_start_in_place_of_ours_is_noticed_at_the_end():
 
 
 @pytest.mark.parametrize(("how", "lockstep"), [({"profile": 1}, True), ({"lockstep": 1}, False)])
-def test_another_start_that_fits_is_noticed_by_the_heartbeat(how, lockstep):
+def test_start_with_other_settings_is_detected_by_the_heartbeat(how, lockstep):
     link = Listener()
 
     def swap(frame: Frame) -> Frame:
@@ -104,7 +103,7 @@ def test_another_start_that_fits_is_noticed_by_the_heartbeat(how, lockstep):
 
 
 @PACES
-def test_a_memory_that_comes_after_the_end_of_its_environment_is_noticed(lockstep):
+def test_delayed_memory_of_an_environment_is_detected_at_the_end(lockstep):
     link = Listener()
     client = begun(link, lockstep=lockstep)
     held_up: list[Frame] = []

@@ -8,8 +8,7 @@ from host_sim.base.errors import RivalError
 from host_sim.client.commands import freeze, stop, write_cells
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.codec import Frame
-from tests.client.meddled_link import OBEYED, Listener, begun, run_for
-from tests.client.support import PROTOCOL, senses
+from tests.client.support import OBEYED, PROTOCOL, Listener, begun, run_for, senses
 
 AT, SECOND = 120, 50
 REPORT = 6
@@ -31,7 +30,7 @@ WAYS: dict[str, Callable[[Listener, Frame], None]] = {
 @pytest.mark.parametrize("name", OBEYED)
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("lockstep", [True, False], ids=["lockstep", "real time"])
-def test_each_is_noticed_within_a_second(name, way, lockstep):
+def test_forged_command_is_detected_within_a_second(name, way, lockstep):
     link = Listener()
     client = begun(link, lockstep=lockstep)
     run_for(client, link, range(AT))
@@ -44,7 +43,7 @@ def test_each_is_noticed_within_a_second(name, way, lockstep):
 
 
 @pytest.mark.parametrize("lockstep", [True, False], ids=["lockstep", "real time"])
-def test_a_forged_stop_ends_the_run(lockstep):
+def test_forged_stop_ends_the_run(lockstep):
     link = Listener()
     client = begun(link, lockstep=lockstep)
     run_for(client, link, range(AT))
@@ -56,7 +55,7 @@ def test_a_forged_stop_ends_the_run(lockstep):
 
 
 @pytest.mark.parametrize("name", OBEYED)
-def test_just_before_the_end_it_is_noticed_at_the_end(name):
+def test_forged_command_before_the_end_is_detected_at_the_end(name):
     link = Listener()
     client = begun(link, lockstep=True)
     run_for(client, link, range(AT))
@@ -67,7 +66,7 @@ def test_just_before_the_end_it_is_noticed_at_the_end(name):
     assert "does not hold what it was told here" in str(client.incidents)
 
 
-def test_a_memory_that_was_altered_on_the_way_is_not_believed_at_the_end():
+def test_altered_memory_is_detected_at_the_end():
     link = Listener()
     client = begun(link, lockstep=True)
     run_for(client, link, range(AT))
@@ -89,7 +88,7 @@ def of_tick(tick: int) -> Callable[[Frame], bool]:
 
 
 @pytest.mark.parametrize("at", [0, AT])
-def test_senses_that_were_altered_on_the_way_are_noticed_within_a_second(at):
+def test_altered_senses_are_detected_within_a_second(at):
     link, is_theirs = Listener(), of_tick(at)
     link.swap = lambda frame: forged(link, at, at + 1) if is_theirs(frame) else frame
     client = begun(link, lockstep=True)
@@ -100,7 +99,7 @@ def test_senses_that_were_altered_on_the_way_are_noticed_within_a_second(at):
 
 
 @pytest.mark.parametrize("at", [0, AT])
-def test_a_drive_that_was_altered_on_the_way_is_noticed_within_a_second(at):
+def test_altered_drive_is_detected_within_a_second(at):
     link = Listener()
     client = begun(link, lockstep=True)
 
@@ -117,7 +116,7 @@ def test_a_drive_that_was_altered_on_the_way_is_noticed_within_a_second(at):
     assert "does not hold what it was told here" in str(client.incidents)
 
 
-def test_senses_that_were_altered_just_before_the_end_are_noticed_at_the_end():
+def test_altered_last_senses_are_detected_at_the_end():
     link, is_theirs = Listener(), of_tick(AT - 1)
     link.swap = lambda frame: forged(link, AT - 1, AT) if is_theirs(frame) else frame
     client = begun(link, lockstep=True)
@@ -133,7 +132,7 @@ def test_senses_that_were_altered_just_before_the_end_are_noticed_at_the_end():
 @pytest.mark.parametrize(
     ("lost", "altered"), [("HEALTH", True), ("DRIVE", True), ("HEALTH", False), ("DRIVE", False)]
 )
-def test_what_was_obeyed_before_the_end_is_compared_though_the_first_report_is_lost(lost, altered):
+def test_altered_senses_are_detected_if_the_final_report_is_lost(lost, altered):
     link, is_theirs, ending = Listener(), of_tick(AT - 1), list[Frame]()
     link.swap = lambda frame: forged(link, AT - 1, AT) if altered and is_theirs(frame) else frame
     client = begun(link, lockstep=True)
@@ -151,7 +150,7 @@ def test_what_was_obeyed_before_the_end_is_compared_though_the_first_report_is_l
     assert ("does not hold what it was told here" in str(client.incidents)) == altered
 
 
-def test_a_health_that_comes_late_is_no_reason_to_doubt():
+def test_late_health_causes_no_incident():
     link = Listener()
     client = begun(link, lockstep=True)
     held_up: list[Frame] = []
@@ -172,7 +171,7 @@ def test_a_health_that_comes_late_is_no_reason_to_doubt():
     assert client.incidents == []
 
 
-def test_senses_that_the_robot_got_without_our_hearing_its_answer_are_no_reason_to_doubt():
+def test_last_senses_without_a_received_answer_cause_no_incident():
     link = Listener()
     client = begun(link, lockstep=True)
     run_for(client, link, range(AT))
@@ -184,7 +183,7 @@ def test_senses_that_the_robot_got_without_our_hearing_its_answer_are_no_reason_
 
 
 @pytest.mark.parametrize("lockstep", [True, False], ids=["lockstep", "real time"])
-def test_what_was_ordered_here_is_no_reason_to_doubt(lockstep):
+def test_own_commands_cause_no_incident(lockstep):
     link = Listener()
     client = begun(link, lockstep=lockstep)
 
@@ -198,7 +197,7 @@ def test_what_was_ordered_here_is_no_reason_to_doubt(lockstep):
     assert client.incidents == []
 
 
-def test_a_robot_that_had_an_owner_is_stopped_until_it_holds_nothing_else():
+def test_stop_clears_the_check_value_of_an_earlier_owner():
     link = Listener()
     begun(link, lockstep=True)
     client = begun(link, lockstep=True)
@@ -230,7 +229,7 @@ def assert_doubtful(client: RobotClient, link: Listener) -> None:
 
 @PACES
 @pytest.mark.parametrize("ahead", [1, 2, 14])
-def test_a_single_one_that_is_heard_is_noticed(lockstep, ahead):
+def test_single_forged_senses_on_the_bus_are_detected(lockstep, ahead):
     link = Listener()
     client = running(link, lockstep=lockstep)
 
@@ -240,7 +239,7 @@ def test_a_single_one_that_is_heard_is_noticed(lockstep, ahead):
     assert client.incidents[0].tick < AT + 2
 
 
-def test_distances_as_well():
+def test_forged_ranges_on_the_bus_are_detected():
     link = Listener()
     client = running(link, lockstep=True)
 
@@ -250,7 +249,7 @@ def test_distances_as_well():
 
 
 @PACES
-def test_one_that_only_the_robot_hears_is_noticed_by_what_it_holds(lockstep):
+def test_senses_seen_only_by_the_robot_are_detected_by_check_value(lockstep):
     link = Listener()
     client = running(link, lockstep=lockstep)
 
@@ -261,7 +260,7 @@ def test_one_that_only_the_robot_hears_is_noticed_by_what_it_holds(lockstep):
 
 @PACES
 @pytest.mark.parametrize(("tick", "counter"), [(AT, AT), (AT - 2, AT - 1), (AT + 100, AT + 101)])
-def test_one_that_the_robot_refuses_may_be_noise(lockstep, tick, counter):
+def test_forged_senses_that_the_robot_refuses_cause_no_incident(lockstep, tick, counter):
     link = Listener()
     client = running(link, lockstep=lockstep)
 

@@ -1,16 +1,22 @@
 """Lockstep and real time over a bus that loses, doubles, reorders, delays and damages frames."""
 
+from collections import deque
 from collections.abc import Iterator
+from random import Random
 
 import pytest
 
 from host_sim.client.commands import handshake, start
+from host_sim.client.connection import Connection
+from host_sim.client.frame_log import FrameLog
 from host_sim.client.pacing import RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
+from host_sim.client.supervision import settle
 from host_sim.protocol.codec import Frame
-from tests.client.meddled_link import ObeyedLink
-from tests.client.support import PROTOCOL, connected, drives_in, run, senses
+from host_sim.sim.in_process_link import InProcessLink
+from host_sim.transport.link import LineStats
+from tests.client.support import PROTOCOL, Diary, ObeyedLink, connected, drive_for, drives_in, run, senses
 
 TICKS = 250
 BAD_BUS = ("drop:30%", "duplicate:10%", "reorder:10%", "delay:0-300ms")
@@ -41,7 +47,7 @@ def clean() -> RobotClient:
     return run_over((), TICKS)
 
 
-def test_a_clean_run_repeats_nothing(clean):
+def test_clean_run_repeats_no_frame(clean):
     assert (clean.frames.repeated, clean.frames.duplicate, clean.frames.lost, clean.frames.refused) == (0, 0, 0, 0)
     assert clean.memory != (0,) * 8
     assert len(drives_in(clean.log.frames)) == TICKS
@@ -49,14 +55,14 @@ def test_a_clean_run_repeats_nothing(clean):
 
 @pytest.mark.parametrize("faults", FAULTS.values(), ids=FAULTS)
 @pytest.mark.parametrize("seed", [1, 2])
-def test_the_drives_are_those_of_a_clean_run(clean, faults, seed):
+def test_drives_over_a_faulty_bus_equal_those_of_a_clean_run(clean, faults, seed):
     client = run_over(faults, TICKS, seed)
 
     assert drives_in(client.log.frames) == drives_in(clean.log.frames)
     assert (client.memory, client.incidents) == (clean.memory, [])
 
 
-def test_what_was_repeated_is_counted(clean):
+def test_repeated_frames_are_counted(clean):
     client = run_over(("drop:30%",), TICKS)
 
     assert client.frames.repeated > TICKS / 3
@@ -64,7 +70,7 @@ def test_what_was_repeated_is_counted(clean):
     assert client.frames.lost == 0
 
 
-def test_what_came_twice_is_counted_and_not_recorded(clean):
+def test_duplicate_frames_are_counted_and_not_recorded(clean):
     client = run_over(("duplicate",), TICKS)
 
     assert client.frames.duplicate > TICKS
@@ -78,7 +84,7 @@ FRAMES = 58
 
 @pytest.mark.parametrize("way", ["to", "from"])
 @pytest.mark.parametrize("fault", ["drop", "delay:300ms"])
-def test_whichever_frame_is_hit_the_result_is_right_or_said_to_be_doubtful(way, fault):
+def test_fault_at_any_single_frame_changes_no_result(way, fault):
     clean = run_over((), SHORT)
 
     for number in range(1, FRAMES):
@@ -89,7 +95,7 @@ def test_whichever_frame_is_hit_the_result_is_right_or_said_to_be_doubtful(way, 
     assert len(clean.log.frames) < FRAMES * 2
 
 
-def test_a_robot_that_is_gone_ends_the_run_with_its_tick():
+def test_unresponsive_robot_ends_the_run_and_names_the_tick():
     with (
         connected(faults=("drop@100-/from",)) as client,
         pytest.raises(Exception, match="did not answer tick") as ended,
@@ -99,7 +105,7 @@ def test_a_robot_that_is_gone_ends_the_run_with_its_tick():
     assert "within 5 s" in str(ended.value)
 
 
-def test_a_slow_bus_is_waited_for_and_not_flooded():
+def test_slow_bus_is_waited_for_and_not_flooded():
     client = run_over(("delay:150ms",), 100)
 
     assert client.round_trip.mean_s == pytest.approx(0.3, rel=0.1)
@@ -129,7 +135,7 @@ def run_for(client: RobotClient, link: ObeyedLink, ticks: int) -> None:
         pace.exchange([senses(tick, link.odometer)])
 
 
-def test_reports_that_jump_after_a_gap_are_no_alarm(started, link):
+def test_report_counters_that_jump_after_a_gap_cause_no_incident(started, link):
     sent = started.frames.sent
 
     run_for(started, link, 3000)
@@ -138,7 +144,7 @@ def test_reports_that_jump_after_a_gap_are_no_alarm(started, link):
     assert "counts" not in str(started.incidents)
 
 
-def test_robot_time_goes_as_the_clock_does(started, link):
+def test_real_time_run_follows_the_clock(started, link):
     began = started.connection.now()
 
     run_for(started, link, 3000)
@@ -152,7 +158,7 @@ def silent_drive() -> Frame:
     return PROTOCOL.encode("DRIVE", {**nothing, "reason": PROTOCOL.choices("DRIVE", "reason")["silence"]})
 
 
-def test_what_a_waiting_robot_has_not_reported_is_known_to_be_lost(link):
+def test_lost_reports_of_a_silent_robot_are_requested_again_at_once(link):
     lost = ["HEALTH", "FAULTS", "HEALTH", "BOOT"]
 
     def lose_one(frame: Frame) -> list[Frame]:
@@ -177,7 +183,7 @@ def test_what_a_waiting_robot_has_not_reported_is_known_to_be_lost(link):
     assert client.connection.now() - began < 0.1
 
 
-def test_a_robot_whose_drives_get_lost_is_started_again_when_it_stops(link):
+def test_robot_with_lost_drives_is_restarted_when_it_stops(link):
     with connected(link, lockstep=False) as client:
         handshake(client, client.connection.deadline_s)
         start(client, Session(1))
@@ -193,3 +199,94 @@ def is_lost(frame: Frame) -> bool:
     """Whether a frame is a drive of a robot that moves; now and then, one of them comes through."""
     drive = PROTOCOL.decode_drive(frame)
     return drive is not None and (drive.left_mm_s, drive.right_mm_s) != (0, 0) and drive.tick % 64 != 0
+
+
+CHANCE = 0.95**22
+"""That all 22 characters of a frame come through where 5 % are damaged."""
+
+FRAME_S, NOISY_TICK_S, NOISY_TICKS = 0.00001, 0.02, 3000
+NO_FRAME = Frame(-1, b"")
+
+
+class NoisyLine:
+    """A link in a virtual time, in which a frame takes 10 us, to a robot that answers at once."""
+
+    def __init__(self, chance: float) -> None:
+        self.line, self.chance, self.now_s = LineStats(), chance, 0.0
+        self.robot, self.dice, self.heard = InProcessLink(), Random(1), deque[Frame]()
+
+    def now(self) -> float:
+        return self.now_s
+
+    def is_whole(self) -> bool:
+        return self.dice.random() < self.chance
+
+    def send(self, frame: Frame) -> None:
+        for _ in range(self.line.copies):
+            self.now_s += FRAME_S
+            if self.is_whole():
+                self.robot.send(frame)
+                while (answer := self.robot.receive(0.0)) is not None:
+                    self.heard.append(answer)
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        if not self.heard:
+            self.now_s += timeout_s
+            return None
+        self.now_s += FRAME_S
+        frame = self.heard.popleft()
+        if self.is_whole():
+            return frame
+        self.line.garbled += 1
+        return NO_FRAME
+
+    def close(self) -> None:
+        self.robot.close()
+
+
+def started_on_noise(link: NoisyLine) -> RobotClient:
+    client = RobotClient(Connection(link, line=link.line, now=link.now), PROTOCOL, FrameLog())
+    client.log.close()
+    client.log = Diary()
+    client.inbox.record = client.log.add
+    handshake(client, client.connection.deadline_s)
+    start(client, Session(1))
+    return client
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_environment_on_a_noisy_line_runs_20_times_real_time(seed):
+    link = NoisyLine(CHANCE)
+    link.dice.seed(seed)
+
+    client = started_on_noise(link)
+    start_s = link.now_s
+    drive_for(client, NOISY_TICKS)
+    settle(client)
+
+    assert client.incidents == []
+    assert link.now_s - start_s < NOISY_TICKS * NOISY_TICK_S / 20
+    assert start_s < 10
+    assert client.frames.repeated > 0
+
+
+def test_frames_are_sent_once_when_the_noise_ends():
+    link = NoisyLine(CHANCE)
+    client = started_on_noise(link)
+    drive_for(client, 100)
+
+    link.chance = 1.0
+    drive_for(client, 20, first=100)
+    repeated = client.frames.repeated
+    drive_for(client, 20, first=120)
+
+    assert not link.line.noisy
+    assert client.frames.repeated == repeated
+
+
+def test_clean_line_is_not_taken_for_noisy():
+    link = NoisyLine(1.0)
+
+    drive_for(started_on_noise(link), 100)
+
+    assert link.line == LineStats()

@@ -80,7 +80,7 @@ def run(clients: list[RobotClient], host: Host, busy_s: float = 0.0) -> float:
 
 
 @pytest.mark.parametrize("deaf", [0, 1, ROBOTS])
-def test_as_many_robots_as_a_bus_has_take_no_longer_than_one(clients, host, deaf):
+def test_full_bus_of_robots_takes_no_longer_than_a_single_robot(clients, host, deaf):
     for client in clients[:deaf]:
         client.connection.link.deaf = True
 
@@ -89,7 +89,7 @@ def test_as_many_robots_as_a_bus_has_take_no_longer_than_one(clients, host, deaf
     assert [client.deadlines.unanswered for client in clients] == [TICKS] * deaf + [0] * (ROBOTS - deaf)
 
 
-def test_a_host_that_is_late_now_and_then_catches_up(clients, host):
+def test_occasionally_late_host_catches_up(clients, host):
     pace, began_s = RealTime(clients[:1], TICK_S), host.now_s
     for tick in range(TICKS):
         host.now_s += 0.9 * TICK_S if tick % 10 else 1.9 * TICK_S
@@ -100,7 +100,7 @@ def test_a_host_that_is_late_now_and_then_catches_up(clients, host):
 
 
 @pytest.mark.parametrize(("of_a_tick", "speed"), [(1.04, 0.96), (1.1, 0.91), (1.66, 0.6), (3.0, 0.33)])
-def test_a_host_that_needs_longer_than_a_tick_says_how_slow_its_clock_was(clients, host, of_a_tick, speed):
+def test_slow_host_reports_its_clock_speed(clients, host, of_a_tick, speed):
     client = clients[0]
     took_s = run([client], host, of_a_tick * TICK_S)
     stop(client)
@@ -112,7 +112,7 @@ def test_a_host_that_needs_longer_than_a_tick_says_how_slow_its_clock_was(client
     assert any(said in str(incident) for incident in client.incidents) == (speed < 0.95)
 
 
-def test_time_in_which_the_world_stands_still_on_purpose_is_not_late(clients, host):
+def test_pace_rest_does_not_count_as_late(clients, host):
     pace = RealTime(clients, TICK_S)
     for tick in range(TICKS):
         if tick % 10 == 0:

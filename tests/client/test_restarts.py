@@ -8,11 +8,10 @@ from host_sim.client.pacing import Lockstep, RealTime
 from host_sim.client.session import Session
 from host_sim.client.supervision import settle
 from host_sim.protocol.codec import Frame, crc8
-from tests.client.meddled_link import LEARNED, MeddledLink, learned
-from tests.client.support import PROTOCOL, connected, drive_for, senses
+from tests.client.support import LEARNED, PROTOCOL, MeddledLink, connected, drive_for, learned, senses
 
 
-def test_a_robot_that_restarts_gets_its_memory_back_and_goes_on():
+def test_restarted_robot_gets_its_memory_back_and_continues():
     link = MeddledLink()
     client = learned(link)
     before = client.memory
@@ -30,7 +29,7 @@ def test_a_robot_that_restarts_gets_its_memory_back_and_goes_on():
     )
 
 
-def test_a_robot_that_restarts_with_its_memory_keeps_it():
+def test_restarted_robot_with_its_memory_keeps_it():
     link = MeddledLink()
     client = learned(link)
 
@@ -40,7 +39,7 @@ def test_a_robot_that_restarts_with_its_memory_keeps_it():
     assert "memory kept" in str(client.incidents)
 
 
-def test_a_frozen_robot_that_restarts_is_frozen_again():
+def test_restarted_frozen_robot_is_frozen_again():
     link = MeddledLink()
     client = learned(link)
     freeze(client, True)
@@ -52,7 +51,7 @@ def test_a_frozen_robot_that_restarts_is_frozen_again():
 
 
 @pytest.mark.parametrize("tick", [0, 1, 2, 49, 50, 51])
-def test_a_robot_that_restarts_early_is_noticed_within_a_tick(tick):
+def test_early_restart_is_detected_within_a_tick(tick):
     link = MeddledLink()
     client = learned(link, tick)
 
@@ -62,7 +61,7 @@ def test_a_robot_that_restarts_early_is_noticed_within_a_tick(tick):
     assert [incident.tick for incident in client.incidents] == [tick]
 
 
-def test_a_robot_whose_wheels_do_not_obey_is_left_where_it_stopped():
+def test_robot_halted_by_its_wheels_is_left_stopped():
     client = learned(MeddledLink(), 10)
     pace = Lockstep([client])
 
@@ -74,7 +73,7 @@ def test_a_robot_whose_wheels_do_not_obey_is_left_where_it_stopped():
     assert "the wheels did not do what they were told, and the robot has stopped" in str(client.incidents)
 
 
-def test_a_memory_that_was_lost_at_the_end_of_an_environment_makes_the_result_doubtful():
+def test_memory_lost_at_the_end_makes_the_result_doubtful():
     client = learned(MeddledLink())
     client.settle()
     client.reports.gap = 1
@@ -85,7 +84,7 @@ def test_a_memory_that_was_lost_at_the_end_of_an_environment_makes_the_result_do
     assert "its last memory may have been lost on the way" in str(incident)
 
 
-def test_a_robot_that_is_lost_again_and_again_is_given_up(monkeypatch):
+def test_robot_that_restarts_five_times_is_given_up(monkeypatch):
     link = MeddledLink()
     client = learned(link)
 
@@ -100,7 +99,7 @@ def test_a_robot_that_is_lost_again_and_again_is_given_up(monkeypatch):
     assert str(client.incidents).count("restarted") == 5
 
 
-def test_a_robot_that_restarts_on_a_bad_bus_is_noticed_too():
+def test_restart_on_a_faulty_bus_is_detected():
     link = MeddledLink()
     client = learned(link, faults=("drop:30%", "delay:0-100ms"))
     before = client.memory
@@ -112,7 +111,7 @@ def test_a_robot_that_restarts_on_a_bad_bus_is_noticed_too():
     assert "restarted" in str(client.incidents)
 
 
-def test_a_robot_that_restarts_at_the_end_of_an_environment_is_noticed():
+def test_restart_at_the_end_of_an_environment_is_detected():
     link = MeddledLink()
     client = learned(link, faults=("drop@40-42",))
 
@@ -123,7 +122,7 @@ def test_a_robot_that_restarts_at_the_end_of_an_environment_is_noticed():
     assert "restarted" in str(client.incidents)
 
 
-def test_a_robot_that_comes_back_with_another_firmware_ends_the_run():
+def test_restart_with_another_firmware_ends_the_run():
     link = MeddledLink()
     client = learned(link)
 
@@ -150,7 +149,7 @@ def altered_memory(frame: Frame) -> list[Frame]:
     return [PROTOCOL.encode("MEMORY", {**decoded.signals, "cell_3": 2 - decoded.signals["cell_3"] // 2})]
 
 
-def test_a_robot_that_cannot_be_started_again_makes_the_result_doubtful():
+def test_failed_restart_makes_the_result_doubtful():
     link = MeddledLink()
     client = learned(link)
     link.change = altered_memory
@@ -162,7 +161,7 @@ def test_a_robot_that_cannot_be_started_again_makes_the_result_doubtful():
     assert "does not hold the memory that was just written" in str(client.incidents)
 
 
-def test_a_robot_that_stopped_and_cannot_be_started_again_makes_the_result_doubtful(monkeypatch):
+def test_failed_restart_after_a_halt_makes_the_result_doubtful(monkeypatch):
     client = learned(MeddledLink(), 10)
     client.frames.lost += 1000  # which explains why its wheels do not follow
     pace = Lockstep([client])
@@ -177,7 +176,7 @@ def test_a_robot_that_stopped_and_cannot_be_started_again_makes_the_result_doubt
     assert "it refuses" in str(client.incidents)
 
 
-def test_in_real_time_a_robot_that_restarts_is_noticed_and_goes_on():
+def test_real_time_restart_is_detected_and_the_robot_continues():
     link = MeddledLink()
     with connected(link, lockstep=False) as client:
         handshake(client, client.connection.deadline_s)
@@ -194,7 +193,7 @@ def test_in_real_time_a_robot_that_restarts_is_noticed_and_goes_on():
     assert drives[-1].left_mm_s or drives[-1].right_mm_s
 
 
-def test_in_real_time_a_robot_that_is_missing_for_a_second_makes_the_result_doubtful():
+def test_real_time_gap_of_a_second_makes_the_result_doubtful():
     link = MeddledLink()
     with connected(link, lockstep=False) as client:
         handshake(client, client.connection.deadline_s)
@@ -210,7 +209,7 @@ def test_in_real_time_a_robot_that_is_missing_for_a_second_makes_the_result_doub
     assert incident.tick == 500
 
 
-def test_a_robot_in_real_time_that_is_gone_ends_the_run():
+def test_real_time_robot_without_answers_ends_the_run():
     link = MeddledLink()
     client = learned(link, 0, lockstep=False, deadline_s=0.2)
     pace = RealTime([client], 0.02)

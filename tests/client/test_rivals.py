@@ -7,11 +7,22 @@ from host_sim.client.commands import handshake, stop
 from host_sim.client.supervision import settle
 from host_sim.protocol.codec import Frame, counter_of, crc8
 from host_sim.protocol.generated import Opcode, Reason, Result
-from tests.client.meddled_link import LEARNED, MeddledLink, command, is_stopped, learned
-from tests.client.support import PROTOCOL, connected, drive_for, drives_in, run, senses
+from tests.client.support import (
+    LEARNED,
+    PROTOCOL,
+    MeddledLink,
+    command,
+    connected,
+    drive_for,
+    drives_in,
+    is_stopped,
+    learned,
+    run,
+    senses,
+)
 
 
-def test_a_robot_that_somebody_else_stops_ends_the_run():
+def test_stop_by_another_owner_ends_the_run():
     link = MeddledLink()
     client = learned(link)
 
@@ -22,7 +33,7 @@ def test_a_robot_that_somebody_else_stops_ends_the_run():
     assert "somebody else stopped node 1" in str(client.incidents)
 
 
-def test_a_robot_that_somebody_else_starts_ends_the_run():
+def test_start_by_another_owner_ends_the_run():
     link = MeddledLink()
     client = learned(link)
 
@@ -34,7 +45,7 @@ def test_a_robot_that_somebody_else_starts_ends_the_run():
 
 
 @pytest.mark.parametrize("rival", [PROTOCOL.encode_senses(senses(7), 3), command(Opcode.FREEZE, owner=3, freeze=1)])
-def test_another_simulator_that_is_heard_ends_the_run_and_the_wheels_rest(rival):
+def test_frames_of_another_simulator_end_the_run_and_stop_the_robot(rival):
     link = MeddledLink()
     client = learned(link)
 
@@ -45,7 +56,7 @@ def test_another_simulator_that_is_heard_ends_the_run_and_the_wheels_rest(rival)
     assert is_stopped(link)
 
 
-def test_a_single_frame_of_another_simulator_may_be_noise():
+def test_single_frame_of_another_simulator_causes_no_incident():
     link = MeddledLink()
     client = learned(link)
 
@@ -56,7 +67,7 @@ def test_a_single_frame_of_another_simulator_may_be_noise():
     assert client.incidents == []
 
 
-def test_a_single_command_in_our_name_is_none():
+def test_single_forged_command_is_an_incident():
     link = MeddledLink()
     client = learned(link)
 
@@ -66,7 +77,7 @@ def test_a_single_command_in_our_name_is_none():
     assert "somebody else commands the robot: it was told COMMAND" in str(client.incidents)
 
 
-def test_an_echo_of_what_was_sent_here_is_no_reason_to_doubt():
+def test_echo_of_an_own_command_causes_no_incident():
     link = MeddledLink()
     client = learned(link)
 
@@ -76,7 +87,7 @@ def test_an_echo_of_what_was_sent_here_is_no_reason_to_doubt():
     assert client.incidents == []
 
 
-def test_a_robot_that_another_simulator_drives_is_left_alone():
+def test_robot_driven_by_another_simulator_is_left_alone():
     link = MeddledLink()
     link.waiting.extend([PROTOCOL.encode_senses(senses(tick), tick) for tick in (1, 2)])
 
@@ -87,7 +98,7 @@ def test_a_robot_that_another_simulator_drives_is_left_alone():
 
 
 @pytest.mark.parametrize("heard_first", ["the first", "the second"])
-def test_a_twin_ends_the_run(heard_first):
+def test_twin_ends_the_run(heard_first):
     link = MeddledLink()
     client = learned(link)
     said_by_twin = drives_in(client.log.frames)[-1]
@@ -110,7 +121,7 @@ def heartbeat(**signals: int) -> Frame:
     ("said", "lost"), [({"state": 0}, "reports that it is stopped"), ({"owner": 9}, "obeys simulator 9")]
 )
 @pytest.mark.parametrize("silent", [0, 1])
-def test_what_a_robot_says_of_itself_is_believed_whether_or_not_it_hears_senses(said, lost, silent):
+def test_heartbeat_of_a_lost_session_is_believed_even_in_silence(said, lost, silent):
     client = learned(MeddledLink(), 10)
     last = [frame for frame in client.log.frames if frame.id == PROTOCOL.id_of("HEARTBEAT")][-1]
 
@@ -119,7 +130,7 @@ def test_what_a_robot_says_of_itself_is_believed_whether_or_not_it_hears_senses(
 
 
 @pytest.mark.parametrize("lockstep", [True, False])
-def test_a_robot_that_says_that_it_hears_nothing_rests_where_it_has_a_clock_of_its_own(lockstep):
+def test_silence_drive_is_accepted_only_in_real_time(lockstep):
     client = learned(MeddledLink(), 10 * lockstep, lockstep=lockstep)
     signals = {"counter": 0, "tick": 9, "left": 0, "right": 0, "repeat_count": 0, "eat": 0, "action": 0}
 
@@ -130,7 +141,7 @@ def test_a_robot_that_says_that_it_hears_nothing_rests_where_it_has_a_clock_of_i
     assert client.inbox.silent
 
 
-def test_a_robot_that_another_simulator_has_taken_over_is_stopped_and_left():
+def test_robot_taken_over_by_another_simulator_is_stopped():
     link = MeddledLink()
     client = learned(link)
 
@@ -147,7 +158,7 @@ def test_a_robot_that_another_simulator_has_taken_over_is_stopped_and_left():
     assert is_stopped(link)
 
 
-def test_two_different_drives_for_one_tick_make_the_result_doubtful():
+def test_different_drives_for_one_tick_make_the_result_doubtful():
     link = MeddledLink()
     client = learned(link)
     (said,) = drives_in(client.log.frames)[-1:]
@@ -160,7 +171,7 @@ def test_two_different_drives_for_one_tick_make_the_result_doubtful():
 
 
 @pytest.mark.parametrize("ahead", range(1, 8))
-def test_a_forged_memory_does_not_last(ahead):
+def test_forged_memory_does_not_change_the_result(ahead):
     clean, link = learned(MeddledLink()), MeddledLink()
     client = learned(link)
     last = [frame for frame in client.log.frames if frame.id == PROTOCOL.id_of("MEMORY")][-1]
@@ -183,7 +194,7 @@ def stray_answer(result: Result) -> Frame:
     return PROTOCOL.encode("ANSWER", {**signals, "result": result})
 
 
-def test_what_was_done_without_being_asked_for_makes_the_result_doubtful():
+def test_unsolicited_answer_makes_the_result_doubtful():
     link = MeddledLink()
     client = learned(link)
 
@@ -193,7 +204,7 @@ def test_what_was_done_without_being_asked_for_makes_the_result_doubtful():
     assert "somebody else commands the robot: it answered what was not asked here" in str(client.incidents)
 
 
-def test_a_command_that_the_robot_refused_somebody_changes_nothing():
+def test_refused_command_of_another_sender_changes_no_result():
     quiet, alarmed = MeddledLink(), MeddledLink()
     clients = [learned(quiet), learned(alarmed)]
     stray = stray_answer(Result.OWNED)
@@ -205,14 +216,14 @@ def test_a_command_that_the_robot_refused_somebody_changes_nothing():
     assert clients[1].incidents == []
 
 
-def test_a_run_that_nobody_meddles_with_has_no_incidents():
+def test_undisturbed_run_has_no_incidents():
     with connected(MeddledLink()) as client:
         run(client, 50)
 
     assert client.incidents == []
 
 
-def test_a_report_that_was_on_its_way_is_not_taken_for_the_one_that_was_asked_for():
+def test_late_report_is_not_taken_for_the_requested_one():
     link = MeddledLink()
     client = learned(link)
 

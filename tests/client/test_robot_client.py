@@ -74,7 +74,7 @@ def is_a(name: str) -> Callable[[Frame], bool]:
     return lambda frame: frame.id == PROTOCOL.id_of(name)
 
 
-def test_a_robot_answers_each_tick(client_with):
+def test_robot_answers_every_tick(client_with):
     pace = Lockstep([started(client_with())])
 
     drives = [exchange(pace, senses(tick)) for tick in range(5)]
@@ -82,7 +82,7 @@ def test_a_robot_answers_each_tick(client_with):
     assert [drive.tick for drive in drives] == list(range(5))
 
 
-def test_a_robot_of_another_dbc_is_refused(client_with):
+def test_robot_with_another_dbc_is_refused(client_with):
     def older(frame: Frame) -> list[Frame]:
         return [resealed(frame, frame.data[:6] + b"\x00\x00")] if is_a("HEARTBEAT")(frame) else [frame]
 
@@ -90,12 +90,12 @@ def test_a_robot_of_another_dbc_is_refused(client_with):
         handshake(client_with(older), 1.0)
 
 
-def test_no_robot_at_all_is_named(client_with):
+def test_missing_robot_is_named(client_with):
     with pytest.raises(RobotError, match="no robot answered as node 1"):
         handshake(client_with(lambda _: []), 0.5)
 
 
-def test_a_robot_that_is_not_there_yet_is_waited_for(client_with):
+def test_handshake_waits_for_a_late_robot(client_with):
     deaf_until = time.monotonic() + 0.7
     client = client_with(lambda frame: [frame] if time.monotonic() > deaf_until else [])
 
@@ -104,7 +104,7 @@ def test_a_robot_that_is_not_there_yet_is_waited_for(client_with):
     assert client.frames.received >= 4
 
 
-def test_a_drive_that_never_comes_is_named_with_tick_and_last_frame(client_with):
+def test_missing_drive_is_reported_with_tick_and_last_frame(client_with):
     client = started(client_with())
     pace = Lockstep([client])
     exchange(pace, senses(0))
@@ -114,7 +114,7 @@ def test_a_drive_that_never_comes_is_named_with_tick_and_last_frame(client_with)
         exchange(pace, senses(1))
 
 
-def test_a_damaged_drive_is_refused_and_counted(client_with):
+def test_damaged_drive_is_refused_and_counted(client_with):
     client = started(client_with())
     client.connection.link.tamper = lambda frame: [
         frame._replace(data=frame.data[:-1] + bytes([frame.data[-1] ^ 1])),
@@ -127,7 +127,7 @@ def test_a_damaged_drive_is_refused_and_counted(client_with):
     assert client.frames.refused == 1
 
 
-def test_a_drive_for_a_reason_that_there_is_not_is_refused_and_counted(client_with):
+def test_drive_with_an_unknown_reason_is_refused_and_counted(client_with):
     client = started(client_with())
 
     def altered(frame: Frame) -> Frame:
@@ -141,7 +141,7 @@ def test_a_drive_for_a_reason_that_there_is_not_is_refused_and_counted(client_wi
     assert (client.frames.refused, client.incidents) == (1, [])
 
 
-def test_a_drive_that_comes_twice_counts_once(client_with):
+def test_duplicate_drive_is_used_once(client_with):
     client = started(client_with())
     client.connection.link.tamper = lambda frame: [frame, frame] if is_a("DRIVE")(frame) else [frame]
     pace = Lockstep([client])
@@ -152,7 +152,7 @@ def test_a_drive_that_comes_twice_counts_once(client_with):
     assert (client.frames.duplicate, client.frames.refused) == (9, 0)
 
 
-def test_frames_of_nobody_are_refused_and_not_recorded(client_with):
+def test_foreign_and_invalid_frames_are_refused(client_with):
     strange = [Frame(-1, b""), Frame(0x7FF, bytes(8)), Frame(PROTOCOL.id_of("SENSES"), bytes(8)), Frame(0x41, b"")]
     client = started(client_with())
     client.connection.link.tamper = lambda frame: [*strange, frame]
@@ -162,7 +162,7 @@ def test_frames_of_nobody_are_refused_and_not_recorded(client_with):
     assert client.frames.refused == 4
 
 
-def test_a_memory_frame_that_is_no_memory_is_refused(client_with):
+def test_invalid_memory_frame_is_refused(client_with):
     halves = [{"counter": 0, "half": half, **{f"cell_{4 * half + i}": 3 for i in range(4)}} for half in range(2)]
     forged = [PROTOCOL.encode("MEMORY", signals) for signals in halves]
     client = started(client_with())
@@ -174,12 +174,12 @@ def test_a_memory_frame_that_is_no_memory_is_refused(client_with):
     assert client.frames.refused > 0
 
 
-def test_a_refused_command_says_which_and_why(client_with):
+def test_refused_command_names_opcode_and_result(client_with):
     with pytest.raises(RefusedError, match=r"opcode=set result=out_of_range"):
         started(client_with()).dialogue.command("set", parameter=0, value=0)
 
 
-def test_a_memory_that_is_written_comes_back(client_with):
+def test_written_memory_is_reported_back(client_with):
     client = client_with()
     handshake(client, 1.0)
 
@@ -188,7 +188,7 @@ def test_a_memory_that_is_written_comes_back(client_with):
     assert client.memory == (0, 1, 2, 1, 2, 0, 2, 1)
 
 
-def test_in_real_time_the_last_drive_holds_for_100_ms_and_then_the_wheels_stop(client_with):
+def test_real_time_drive_holds_for_100_ms_and_then_stops(client_with):
     client = started(client_with(lockstep=False, deadline_s=5.0))
     pace = RealTime([client], 0.02)
     moving = exchange(pace, senses(0))
@@ -201,7 +201,7 @@ def test_in_real_time_the_last_drive_holds_for_100_ms_and_then_the_wheels_stop(c
     assert client.frames.lost == HOLD_TICKS + 2
 
 
-def test_in_real_time_a_robot_that_is_back_is_obeyed_again(client_with):
+def test_real_time_drive_after_a_gap_is_applied(client_with):
     client = started(client_with(lockstep=False, deadline_s=5.0))
     pace = RealTime([client], 0.02)
     client.connection.link.tamper = lambda frame: [] if is_a("DRIVE")(frame) else [frame]
@@ -215,7 +215,7 @@ def test_in_real_time_a_robot_that_is_back_is_obeyed_again(client_with):
     assert back.left_mm_s > 0
 
 
-def test_in_real_time_a_drive_that_was_held_up_for_long_is_not_applied(client_with):
+def test_real_time_drive_that_is_too_late_is_not_applied(client_with):
     client = started(client_with(lockstep=False, deadline_s=5.0))
     pace, late = RealTime([client], 0.02), []
 

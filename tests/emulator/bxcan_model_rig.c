@@ -43,7 +43,7 @@ void join(struct bxcan *node, uint32_t mcr)
     pass_us(30);
 }
 
-void rejoin(uint32_t mcr)
+void join_alone(uint32_t mcr)
 {
     wire_open(&wire);
     bxcan_open(&can, &wire, 14);
@@ -63,13 +63,13 @@ void request(uint32_t mailbox, uint32_t id)
     request_from(&can, mailbox, id);
 }
 
-void bring(uint32_t id)
+void deliver(uint32_t id)
 {
     TEST_ASSERT_TRUE(wire_put(&wire, &(struct frame){.id = id}));
     pass_us(300);
 }
 
-uint32_t take(void)
+uint32_t take_frame(void)
 {
     uint32_t id = read_register(OUTPUT_0) >> 21;
 

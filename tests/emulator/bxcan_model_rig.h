@@ -1,4 +1,4 @@
-/* bxcan_model_rig.h: a controller on a bus, as the tests of its model have it. */
+/* bxcan_model_rig.h: a model of bxCAN on a wire, for its tests. */
 #ifndef OCTET_BXCAN_MODEL_RIG_H
 #define OCTET_BXCAN_MODEL_RIG_H
 
@@ -32,25 +32,25 @@ void enter_init(struct bxcan *node);
         /* Asks for init and waits for it. */
 
 void join(struct bxcan *node, uint32_t mcr);
-        /* From init with open filters to the bus. */
+        /* Enters init, opens all filters, and leaves init for the bus. */
 
-void rejoin(uint32_t mcr);
+void join_alone(uint32_t mcr);
         /* A new wire, with `can` alone on it. */
 
 void request_from(struct bxcan *node, uint32_t mailbox, uint32_t id);
         /* Fills a mailbox and asks for it to be sent. */
 
 void request(uint32_t mailbox, uint32_t id);
-        /* The same, from `can`. */
+        /* request_from(&can, ...). */
 
-void bring(uint32_t id);
-        /* The world sends a frame, and it has the time to arrive. */
+void deliver(uint32_t id);
+        /* Sends a frame from the world, and lets 300 us pass for it to arrive. */
 
-uint32_t take(void);
+uint32_t take_frame(void);
         /* Takes the next frame out of FIFO 0, and returns its identifier. */
 
 void assert_heard(unsigned count, const uint32_t ids[]);
-        /* The world has heard these, in this order. */
+        /* Checks that the world received exactly these, in this order. */
 
 void join_other(void);
         /* `other` joins the same bus. */

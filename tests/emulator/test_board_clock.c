@@ -1,4 +1,4 @@
-/* Time is made of cycles, and what is due happens when time passes it, in its order. */
+/* The clock of an emulated board: it counts cycles, and its alarms ring in the order of their times. */
 #include "host_sim/emulator/models/board_clock.h"
 
 #include "bxcan_model_rig.h"
@@ -15,7 +15,7 @@ static struct {
     struct moment at;
 } rings[RINGS_MAX];
 static unsigned ring_count, takes;
-static struct moment every;   /* an alarm that has rung is set to so much later; NEVER: not at all */
+static struct moment period;   /* of an alarm; NEVER: it rings once */
 
 static struct moment at_ns(uint64_t ns)
 {
@@ -26,7 +26,7 @@ static void ring(struct board_clock *clock, unsigned alarm)
 {
     rings[ring_count].alarm = alarm;
     rings[ring_count++].at = clock->now;
-    alarms[alarm] = every.ns == NEVER.ns ? NEVER : at_ns(alarms[alarm].ns + every.ns);
+    alarms[alarm] = period.ns == NEVER.ns ? NEVER : at_ns(alarms[alarm].ns + period.ns);
 }
 
 static void take_heard(struct board_clock *clock)
@@ -37,7 +37,7 @@ static void take_heard(struct board_clock *clock)
 
 void setUp(void)
 {
-    alarms[0] = alarms[1] = every = NEVER;
+    alarms[0] = alarms[1] = period = NEVER;
     ring_count = takes = 0;
     board = (struct board_clock){.horizon = NEVER, .period_fs = PERIOD_168_MHZ_FS, .alarms = alarms,
         .alarm_count = ALARMS, .ring = ring, .take = take_heard};
@@ -49,7 +49,7 @@ static void assert_moment(uint64_t ns, uint64_t fs, struct moment moment)
     TEST_ASSERT_EQUAL_UINT64(fs, moment.fs);
 }
 
-static void assert_rung(unsigned n, unsigned alarm, uint64_t ns)
+static void assert_ring(unsigned n, unsigned alarm, uint64_t ns)
 {
     TEST_ASSERT_LESS_THAN_UINT(ring_count, n);
     TEST_ASSERT_EQUAL_UINT(alarm, rings[n].alarm);
@@ -62,7 +62,7 @@ static void set_alarm(unsigned alarm, uint64_t ns)
     clock_expect(&board, alarms[alarm]);
 }
 
-TEST(a_moment_is_before_another_by_its_parts)
+TEST(moments_compare_by_nanoseconds_then_femtoseconds)
 {
     TEST_ASSERT_TRUE(moment_before((struct moment){1, 9}, (struct moment){2, 0}));
     TEST_ASSERT_TRUE(moment_before((struct moment){1, 2}, (struct moment){1, 3}));
@@ -70,36 +70,36 @@ TEST(a_moment_is_before_another_by_its_parts)
     TEST_ASSERT_FALSE(moment_before((struct moment){2, 0}, (struct moment){1, 9}));
 }
 
-TEST(time_is_cycles_by_their_length)
+TEST(clock_time_is_cycles_times_period)
 {
     clock_execute(&board, 1000);
     assert_moment(5952, 380000, board.now);
     TEST_ASSERT_EQUAL_UINT64(1000, board.cycles);
 }
 
-TEST(no_fraction_is_lost_from_cycle_to_cycle)
+TEST(clock_accumulates_fractions_of_a_nanosecond)
 {
     for (unsigned n = 0; n < 1000; n++)
         clock_execute(&board, 1);
     assert_moment(5952, 380000, board.now);
 }
 
-TEST(an_alarm_rings_when_time_reaches_it)
+TEST(alarm_fires_when_its_time_is_reached)
 {
     board.period_fs = NS;
     set_alarm(1, 100);
     clock_execute(&board, 99);
     TEST_ASSERT_EQUAL_UINT(0, ring_count);
     clock_execute(&board, 1);
-    assert_rung(0, 1, 100);
+    assert_ring(0, 1, 100);
     clock_execute(&board, 100);
     TEST_ASSERT_EQUAL_UINT(1, ring_count);
 }
 
-TEST(an_alarm_that_is_set_anew_rings_again)
+TEST(alarm_set_again_fires_again)
 {
     board.period_fs = NS;
-    every = at_ns(50);
+    period = at_ns(50);
     set_alarm(0, 100);
     clock_execute(&board, 100);
     clock_execute(&board, 49);
@@ -108,22 +108,22 @@ TEST(an_alarm_that_is_set_anew_rings_again)
     TEST_ASSERT_EQUAL_UINT(2, ring_count);
 }
 
-TEST(a_skip_stops_at_each_event_on_the_way)
+TEST(skip_fires_alarms_in_order_of_time)
 {
-    every = at_ns(300);
+    period = at_ns(300);
     set_alarm(0, 100);
     set_alarm(1, 250);
     clock_skip_to(&board, at_ns(700));
     TEST_ASSERT_EQUAL_UINT(5, ring_count);
-    assert_rung(0, 0, 100);
-    assert_rung(1, 1, 250);
-    assert_rung(2, 0, 400);
-    assert_rung(3, 1, 550);
-    assert_rung(4, 0, 700);
+    assert_ring(0, 0, 100);
+    assert_ring(1, 1, 250);
+    assert_ring(2, 0, 400);
+    assert_ring(3, 1, 550);
+    assert_ring(4, 0, 700);
     assert_moment(700, 0, board.now);
 }
 
-TEST(a_skip_passes_cycles_too)
+TEST(skip_advances_the_cycle_count)
 {
     clock_skip_to(&board, at_ns(1000000));
     TEST_ASSERT_EQUAL_UINT64(168000, board.cycles);
@@ -131,7 +131,7 @@ TEST(a_skip_passes_cycles_too)
     assert_moment(1000000, 0, board.now);
 }
 
-TEST(a_skip_to_the_next_event_ends_there_or_after_the_most)
+TEST(skip_to_event_ends_at_event_or_limit)
 {
     set_alarm(0, 5000);
     clock_skip_to_event(&board, 4000);
@@ -147,7 +147,7 @@ static void fail(struct board_clock *clock, unsigned alarm)
     clock->failed = true;
 }
 
-TEST(after_a_failure_no_more_time_passes)
+TEST(clock_stops_after_a_failure)
 {
     board.ring = fail;
     set_alarm(0, 100);
@@ -161,13 +161,13 @@ TEST(after_a_failure_no_more_time_passes)
 
 static void connect(void)
 {
-    rejoin(TXFP);
+    join_alone(TXFP);
     board.wire = &wire;
     board.now = at_ns(wire.now_ns);
     clock_settle(&board);
 }
 
-TEST(a_frame_on_the_wire_takes_its_time_and_is_taken_by_the_world)
+TEST(frame_is_taken_after_its_time_on_the_wire)
 {
     uint64_t start;
 
@@ -183,7 +183,7 @@ TEST(a_frame_on_the_wire_takes_its_time_and_is_taken_by_the_world)
     TEST_ASSERT_EQUAL_UINT(1, takes);
 }
 
-TEST(the_end_of_a_frame_is_the_next_event)
+TEST(skip_to_event_ends_at_end_of_frame)
 {
     uint64_t start;
 
@@ -195,7 +195,7 @@ TEST(the_end_of_a_frame_is_the_next_event)
     assert_moment(start + FRAME_NS, 0, board.now);
 }
 
-TEST(what_a_controller_refuses_is_taken_too)
+TEST(refused_access_is_taken_when_the_clock_settles)
 {
     connect();
     TEST_ASSERT_EQUAL_UINT(0, takes);

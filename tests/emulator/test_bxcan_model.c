@@ -1,15 +1,14 @@
-/* The model of bxCAN against the reference manuals: modes, and what is received. What drivers are tested on must be right
- * itself. */
+/* The model of bxCAN against the reference manuals: modes and reception. */
 #include "bxcan_model_rig.h"
 
 void setUp(void)
 {
-    rejoin(TXFP);
+    join_alone(TXFP);
 }
 
 /* ---- modes */
 
-TEST(it_sleeps_after_a_reset_with_garbage_in_its_mailboxes)
+TEST(reset_enters_sleep_and_leaves_mailboxes_undefined)
 {
     bxcan_reset(&can);
     TEST_ASSERT_EQUAL_HEX32(SLAK, read_register(MSR) & (INAK | SLAK));
@@ -17,7 +16,7 @@ TEST(it_sleeps_after_a_reset_with_garbage_in_its_mailboxes)
     TEST_ASSERT_EQUAL_HEX32(0xA5A5A5A5, read_register(0x184));
 }
 
-TEST(init_is_acknowledged_but_not_at_once)
+TEST(init_is_acknowledged_with_a_delay)
 {
     write_register(MCR, INRQ);
     TEST_ASSERT_EQUAL_HEX32(0, read_register(MSR) & INAK);
@@ -25,7 +24,7 @@ TEST(init_is_acknowledged_but_not_at_once)
     TEST_ASSERT_EQUAL_HEX32(INAK, read_register(MSR) & (INAK | SLAK));
 }
 
-TEST(init_can_be_asked_for_in_vain)
+TEST(init_request_is_not_acknowledged_by_a_stuck_controller)
 {
     can.node.init_stuck = true;
     write_register(MCR, INRQ);
@@ -33,7 +32,7 @@ TEST(init_can_be_asked_for_in_vain)
     TEST_ASSERT_EQUAL_HEX32(0, read_register(MSR) & INAK);
 }
 
-TEST(it_joins_the_bus_eleven_bits_after_init)
+TEST(init_ends_after_eleven_recessive_bits)
 {
     enter_init(&can);
     write_register(MCR, TXFP);
@@ -43,7 +42,7 @@ TEST(it_joins_the_bus_eleven_bits_after_init)
     TEST_ASSERT_EQUAL_HEX32(0, read_register(MSR) & INAK);
 }
 
-TEST(it_neither_sends_on_a_bus_that_is_never_idle_nor_joins_it)
+TEST(busy_bus_blocks_sending_and_leaving_init)
 {
     wire.busy = true;
     request(0, 0x81);
@@ -55,7 +54,7 @@ TEST(it_neither_sends_on_a_bus_that_is_never_idle_nor_joins_it)
     TEST_ASSERT_EQUAL_HEX32(INAK, read_register(MSR) & INAK);
 }
 
-TEST(another_speed_than_the_bus_is_refused)
+TEST(bxcan_refuses_a_bit_rate_other_than_the_bus)
 {
     enter_init(&can);
     write_register(BTR, BIT_TIMING + 1);
@@ -63,12 +62,12 @@ TEST(another_speed_than_the_bus_is_refused)
     ASSERT_REFUSED("428571 bit/s", wire_advance(&wire, wire.now_ns + 30000));
 }
 
-TEST(bit_timing_can_be_written_in_init_only)
+TEST(bit_timing_is_writable_in_init_only)
 {
     ASSERT_REFUSED("BTR", node_write(&can.node, BTR, BIT_TIMING));
 }
 
-TEST(asking_for_the_mode_that_is_changes_nothing)
+TEST(request_for_the_current_mode_changes_nothing)
 {
     can.node.bus_off = true;
     write_register(MCR, TXFP | RFLM);
@@ -77,7 +76,7 @@ TEST(asking_for_the_mode_that_is_changes_nothing)
     TEST_ASSERT_EQUAL_HEX32(BOFF, read_register(ESR) & BOFF);
 }
 
-TEST(a_master_reset_empties_everything_and_sleeps)
+TEST(master_reset_clears_state_and_enters_sleep)
 {
     wire.shorted = true;
     request(0, 0x81);
@@ -89,7 +88,7 @@ TEST(a_master_reset_empties_everything_and_sleeps)
     TEST_ASSERT_EQUAL_HEX32(TME_ALL, read_register(TSR) & TME_ALL);
 }
 
-TEST(what_is_not_modelled_is_refused)
+TEST(access_to_unmodelled_features_is_refused)
 {
     enter_init(&can);
     ASSERT_REFUSED("interrupts", node_write(&can.node, IER, 1));
@@ -100,20 +99,20 @@ TEST(what_is_not_modelled_is_refused)
 
 /* ---- receiving */
 
-TEST(three_frames_wait_in_their_order)
+TEST(fifo_holds_three_frames_in_order)
 {
     for (uint32_t id = 1; id <= 3; id++)
-        bring(id);
+        deliver(id);
     TEST_ASSERT_EQUAL_HEX32(3 | FULL, read_register(RF0R));
     for (uint32_t id = 1; id <= 3; id++)
-        TEST_ASSERT_EQUAL_HEX32(id, take());
+        TEST_ASSERT_EQUAL_HEX32(id, take_frame());
     TEST_ASSERT_EQUAL_HEX32(FULL, read_register(RF0R));   /* stays until it is cleared */
 }
 
-TEST(the_flags_of_a_fifo_are_cleared_by_writing_ones)
+TEST(fifo_flags_are_cleared_by_writing_ones)
 {
     for (uint32_t id = 1; id <= 4; id++)
-        bring(id);
+        deliver(id);
     write_register(RF0R, 0);
     TEST_ASSERT_EQUAL_HEX32(3 | FULL | FOVR, read_register(RF0R));
     write_register(RF0R, FOVR);
@@ -124,40 +123,40 @@ TEST(the_flags_of_a_fifo_are_cleared_by_writing_ones)
 
 static void assert_left_of_five(uint32_t mcr, uint32_t last)
 {
-    rejoin(mcr);
+    join_alone(mcr);
     for (uint32_t id = 1; id <= 5; id++)
-        bring(id);
+        deliver(id);
     TEST_ASSERT_EQUAL_UINT(2, can.node.overruns);
-    TEST_ASSERT_EQUAL_HEX32(1, take());
-    TEST_ASSERT_EQUAL_HEX32(2, take());
-    TEST_ASSERT_EQUAL_HEX32(last, take());
+    TEST_ASSERT_EQUAL_HEX32(1, take_frame());
+    TEST_ASSERT_EQUAL_HEX32(2, take_frame());
+    TEST_ASSERT_EQUAL_HEX32(last, take_frame());
 }
 
-TEST(an_overrun_replaces_the_last_frame_unless_locked)
+TEST(overrun_replaces_last_frame_unless_locked)
 {
     assert_left_of_five(TXFP, 5);
     assert_left_of_five(TXFP | RFLM, 3);
 }
 
-TEST(a_slow_release_shows_the_frame_on)
+TEST(fifo_shows_a_frame_until_its_release_is_complete)
 {
     can.release_slow = true;
-    bring(1);
-    bring(2);
-    TEST_ASSERT_EQUAL_HEX32(1, take());
+    deliver(1);
+    deliver(2);
+    TEST_ASSERT_EQUAL_HEX32(1, take_frame());
     pass_us(99);
     TEST_ASSERT_EQUAL_HEX32(2 | RFOM, read_register(RF0R));
     pass_us(1);
     TEST_ASSERT_EQUAL_HEX32(1, read_register(RF0R));
 }
 
-TEST(an_output_mailbox_is_read_only_and_only_when_there_is_a_frame)
+TEST(fifo_output_refuses_writes_and_reads_when_empty)
 {
     ASSERT_REFUSED("FIFO 0", node_read(&can.node, OUTPUT_0));
     ASSERT_REFUSED("read-only", node_write(&can.node, OUTPUT_0, 0));
 }
 
-TEST(a_received_frame_reads_as_it_was_sent)
+TEST(fifo_output_holds_the_received_frame)
 {
     (void)wire_put(&wire, &(struct frame){.id = FRAME_EXTENDED | 0x1ABCDEF0, .len = 5, .data = {1, 2, 3, 4, 5}});
     pass_us(213);
@@ -171,7 +170,7 @@ TEST(a_received_frame_reads_as_it_was_sent)
 
 /* ---- filters */
 
-TEST(filters_let_through_what_they_say)
+TEST(filter_modes_accept_matching_frames)
 {
     static const struct frame frames[] = {{.id = 0xC1}, {.id = FRAME_EXTENDED | 0xC1 << 18 | 5 << 15},
                                           {.id = FRAME_REMOTE | 0xC1}, {.id = 0xC2}};
@@ -200,27 +199,27 @@ TEST(filters_let_through_what_they_say)
     }
 }
 
-TEST(a_filter_names_its_fifo)
+TEST(filter_selects_the_fifo)
 {
     write_register(FMR, 1);
     write_register(FFA1R, 1);
     write_register(FMR, 0);
-    bring(5);
+    deliver(5);
     TEST_ASSERT_EQUAL_HEX32(0, read_register(RF0R) & 3);
     TEST_ASSERT_EQUAL_HEX32(1, read_register(RF1R) & 3);
 }
 
-TEST(nothing_passes_without_an_active_filter_or_while_they_are_set_up)
+TEST(inactive_filters_and_filter_init_accept_no_frame)
 {
     write_register(FA1R, 0);
-    bring(5);
+    deliver(5);
     write_register(FMR, 1);
     write_register(FA1R, 1);
-    bring(5);
+    deliver(5);
     TEST_ASSERT_EQUAL_HEX32(0, read_register(RF0R) & 3);
 }
 
-TEST(filters_in_use_must_not_be_changed)
+TEST(active_filter_refuses_changes)
 {
     ASSERT_REFUSED("F0R1", node_write(&can.node, BANK_0, 1));
     ASSERT_REFUSED("FM1R", node_write(&can.node, FM1R, 1));

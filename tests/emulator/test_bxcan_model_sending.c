@@ -1,14 +1,14 @@
-/* The model of bxCAN against the reference manuals: what is sent, and who goes first. */
+/* The model of bxCAN against the reference manuals: transmission and arbitration. */
 #include "bxcan_model_rig.h"
 
 void setUp(void)
 {
-    rejoin(TXFP);
+    join_alone(TXFP);
 }
 
 /* ---- sending */
 
-TEST(a_frame_takes_its_bits_to_leave)
+TEST(frame_leaves_after_its_bit_times)
 {
     const uint8_t data[] = {1, 2, 3, 4, 0, 0, 0, 0};
 
@@ -20,7 +20,7 @@ TEST(a_frame_takes_its_bits_to_leave)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(data, wire.heard.frames[0].data, 8);
 }
 
-TEST(what_became_of_a_frame_is_cleared_by_writing_ones)
+TEST(transmit_status_is_cleared_by_writing_ones)
 {
     request(1, 0x81);
     pass_us(300);
@@ -36,7 +36,7 @@ TEST(what_became_of_a_frame_is_cleared_by_writing_ones)
 
 static void request_three(uint32_t mcr)
 {
-    rejoin(mcr);
+    join_alone(mcr);
     request(2, 0x300);
     request(0, 0x200);
     request(1, 0x100);
@@ -49,7 +49,7 @@ TEST(mailboxes_leave_in_the_order_of_request_with_txfp)
     ASSERT_HEARD(0x300, 0x200, 0x100);
 }
 
-TEST(the_lowest_identifier_leaves_first_without_txfp)
+TEST(lowest_identifier_leaves_first_without_txfp)
 {
     request_three(0);
     pass_us(1000);
@@ -58,7 +58,7 @@ TEST(the_lowest_identifier_leaves_first_without_txfp)
 
 TEST(equal_identifiers_leave_by_mailbox_number_without_txfp)
 {
-    rejoin(0);
+    join_alone(0);
     for (uint32_t n = 3; n-- > 0;)
         request(n, 0x100);
     pass_us(1000);
@@ -66,7 +66,7 @@ TEST(equal_identifiers_leave_by_mailbox_number_without_txfp)
         TEST_ASSERT_EQUAL_UINT8(n, wire.heard.frames[n].data[4]);
 }
 
-TEST(the_status_names_a_free_mailbox_or_the_one_to_leave_last)
+TEST(tsr_code_is_free_or_lowest_priority_mailbox)
 {
     request(0, 0x81);
     TEST_ASSERT_EQUAL_HEX32(6u << 26 | 1u << 24, read_register(TSR));
@@ -77,13 +77,13 @@ TEST(the_status_names_a_free_mailbox_or_the_one_to_leave_last)
     TEST_ASSERT_EQUAL_HEX32(TME_ALL, read_register(TSR) & 0xFF000000u);
 }
 
-TEST(a_pending_mailbox_must_not_be_written)
+TEST(pending_mailbox_refuses_writes)
 {
     request(0, 0x81);
     ASSERT_REFUSED("mailbox 0", node_write(&can.node, 0x184, 1));
 }
 
-TEST(a_request_is_given_up_unless_it_is_on_the_wire)
+TEST(abort_request_spares_the_frame_on_the_wire)
 {
     request(0, 0x81);
     request(1, 0x82);
@@ -95,7 +95,7 @@ TEST(a_request_is_given_up_unless_it_is_on_the_wire)
     TEST_ASSERT_EQUAL_HEX32((RQCP | TXOK) | RQCP << 8, read_register(TSR) & 0xFFFF);
 }
 
-TEST(a_stuck_mailbox_neither_sends_nor_gives_up)
+TEST(stuck_mailbox_neither_sends_nor_aborts)
 {
     can.node.stuck_mailboxes = 1;
     request(0, 0x81);
@@ -108,7 +108,7 @@ TEST(a_stuck_mailbox_neither_sends_nor_gives_up)
 
 /* ---- arbitration */
 
-TEST(the_lower_identifier_wins_the_bus)
+TEST(lower_identifier_wins_arbitration)
 {
     (void)wire_put(&wire, &(struct frame){.id = 0x100});
     request(0, 0x81);
@@ -117,23 +117,23 @@ TEST(the_lower_identifier_wins_the_bus)
     ASSERT_HEARD(0x81);
     TEST_ASSERT_EQUAL_HEX32(0, read_register(RF0R) & 3);
     pass_us(100);
-    TEST_ASSERT_EQUAL_HEX32(0x100, take());
+    TEST_ASSERT_EQUAL_HEX32(0x100, take_frame());
     pass_us(300);
     ASSERT_HEARD(0x81, 0x200);
 }
 
-TEST(a_data_frame_goes_before_a_remote_one_and_that_before_an_extended_one)
+TEST(arbitration_prefers_data_to_remote_to_extended_frames)
 {
     static const uint32_t ids[] = {FRAME_EXTENDED | 0x100 << 18, FRAME_REMOTE | 0x100, 0x101};
 
     for (unsigned i = 0; i < 3; i++) {
-        rejoin(TXFP);
+        join_alone(TXFP);
         (void)wire_put(&wire, &(struct frame){.id = ids[i]});
         request(0, 0x100);
         pass_us(222);
         ASSERT_HEARD(0x100);
     }
-    rejoin(TXFP);
+    join_alone(TXFP);
     (void)wire_put(&wire, &(struct frame){.id = FRAME_REMOTE | 0x100});
     write_register(0x184, 0);
     write_register(0x180, 0x100u << 21 | 4 | 1);   /* extended */
@@ -141,7 +141,7 @@ TEST(a_data_frame_goes_before_a_remote_one_and_that_before_an_extended_one)
     TEST_ASSERT_EQUAL_HEX32(1, read_register(RF0R));
 }
 
-TEST(a_frame_that_lost_arbitration_can_be_given_up)
+TEST(abort_after_lost_arbitration_sends_no_frame)
 {
     (void)wire_put(&wire, &(struct frame){.id = 0x100, .len = 8});
     request(0, 0x200);
@@ -151,24 +151,24 @@ TEST(a_frame_that_lost_arbitration_can_be_given_up)
     TEST_ASSERT_EQUAL_UINT(0, wire.heard.count);
 }
 
-TEST(without_a_second_try_lost_arbitration_is_the_end)
+TEST(frame_that_loses_arbitration_without_retransmission_fails)
 {
-    rejoin(TXFP | NART);
+    join_alone(TXFP | NART);
     (void)wire_put(&wire, &(struct frame){.id = 0x100});
     request(0, 0x200);
     pass_us(1000);
     TEST_ASSERT_EQUAL_HEX32(RQCP | ALST, read_register(TSR) & 0xFF);
 }
 
-TEST(the_same_frame_goes_to_the_world_first)
+TEST(frame_of_the_world_wins_against_an_equal_identifier)
 {
     (void)wire_put(&wire, &(struct frame){.id = 0x100});
     request(0, 0x100);
     pass_us(100);
-    TEST_ASSERT_EQUAL_HEX32(0x100, take());
+    TEST_ASSERT_EQUAL_HEX32(0x100, take_frame());
 }
 
-TEST(a_frame_that_lost_to_another_controller_can_be_given_up_at_once)
+TEST(abort_after_loss_to_a_controller_is_immediate)
 {
     join_other();
     request(0, 0x200);
@@ -178,15 +178,155 @@ TEST(a_frame_that_lost_to_another_controller_can_be_given_up_at_once)
     TEST_ASSERT_EQUAL_HEX32(RQCP, read_register(TSR) & 0xFF);
 }
 
-TEST(controllers_acknowledge_each_other_and_the_lower_identifier_goes_first)
+TEST(controllers_acknowledge_and_arbitrate_with_each_other)
 {
     join_other();
     wire.alone = true;
     request(0, 0x200);
     request_from(&other, 0, 0x100);
     pass_us(1000);
-    TEST_ASSERT_EQUAL_HEX32(0x100, take());
+    TEST_ASSERT_EQUAL_HEX32(0x100, take_frame());
     TEST_ASSERT_EQUAL_HEX32(0x200u << 21, (uint32_t)node_read(&other.node, OUTPUT_0));
     TEST_ASSERT_EQUAL_HEX32(0, read_register(ESR));
     TEST_ASSERT_EQUAL_UINT(0, wire.heard.count);
+}
+
+/* The model of bxCAN against the reference manuals: error states and counters. */
+
+TEST(lone_node_becomes_error_passive_but_not_bus_off)
+{
+    wire.alone = true;
+    request(0, 0x81);
+    pass_us(100000);
+    TEST_ASSERT_EQUAL_HEX32(128u << 16 | 3u << 4 | EWGF | EPVF, read_register(ESR));
+    TEST_ASSERT_EQUAL_HEX32(6u << 26, read_register(TSR) & TME_ALL);
+}
+
+static void request_shorted(uint32_t errors)
+{
+    wire.shorted = true;
+    request(0, 0x81);
+    pass_us(errors * ERROR_US);
+}
+
+TEST(errors_lead_to_warning_passive_and_bus_off)
+{
+    static const uint32_t expected[] = {0, EWGF, EWGF, EWGF | EPVF, EWGF | EPVF, EWGF | EPVF | BOFF};
+    static const uint32_t errors[] = {11, 1, 3, 1, 15, 1};
+
+    request_shorted(0);
+    for (unsigned i = 0; i < 6; i++) {
+        pass_us(errors[i] * ERROR_US);
+        TEST_ASSERT_EQUAL_HEX32(expected[i], read_register(ESR) & (EWGF | EPVF | BOFF));
+    }
+}
+
+TEST(bus_off_lasts_until_init_and_128_times_11_bits)
+{
+    request_shorted(32);
+    wire.shorted = false;
+    pass_us(1000000);
+    TEST_ASSERT_EQUAL_HEX32(BOFF, read_register(ESR) & BOFF);
+    enter_init(&can);
+    write_register(MCR, TXFP);
+    pass_us(22 + RECOVERY_US - 1);
+    TEST_ASSERT_EQUAL_HEX32(BOFF, read_register(ESR) & BOFF);
+    pass_us(1);
+    TEST_ASSERT_EQUAL_HEX32(0, read_register(ESR));
+    pass_us(300);
+    ASSERT_HEARD(0x81);
+}
+
+TEST(abom_ends_bus_off_unless_recovery_is_stuck)
+{
+    for (unsigned stuck = 0; stuck < 2; stuck++) {
+        join_alone(TXFP | ABOM);
+        can.node.recovery_stuck = stuck;
+        request_shorted(32);
+        wire.shorted = false;
+        pass_us(RECOVERY_US);
+        TEST_ASSERT_EQUAL_HEX32(stuck ? BOFF : 0, read_register(ESR) & BOFF);
+    }
+}
+
+TEST(bus_off_node_neither_sends_nor_receives)
+{
+    request_shorted(32);
+    wire.shorted = false;
+    deliver(5);
+    TEST_ASSERT_EQUAL_UINT(0, wire.heard.count);
+    TEST_ASSERT_EQUAL_HEX32(0, read_register(RF0R) & 3);
+}
+
+TEST(frame_waits_for_a_receiver_in_init)
+{
+    enter_init(&can);
+    deliver(5);
+    TEST_ASSERT_EQUAL_HEX32(0, read_register(RF0R) & 3);
+    write_register(MCR, TXFP);
+    pass_us(300);
+    TEST_ASSERT_EQUAL_HEX32(1, read_register(RF0R) & 3);
+}
+
+TEST(successful_frames_decrement_error_counters)
+{
+    join_other();
+    request_shorted(5);
+    TEST_ASSERT_EQUAL_UINT(5, other.node.rec);
+    wire.shorted = false;
+    pass_us(400);
+    TEST_ASSERT_EQUAL_UINT(5 * 8 - 1, read_register(ESR) >> 16 & 0xFF);
+    TEST_ASSERT_EQUAL_UINT(4, other.node.rec);
+}
+
+TEST(aborted_frame_is_not_repeated_after_an_error)
+{
+    request_shorted(0);
+    pass_us(10);
+    write_register(TSR, ABRQ);
+    pass_us(ERROR_US);
+    TEST_ASSERT_EQUAL_HEX32(RQCP | TERR, read_register(TSR) & 0xFF);
+}
+
+TEST(shorted_bus_drops_frames_of_the_world)
+{
+    wire.shorted = true;
+    deliver(5);
+    wire.shorted = false;
+    pass_us(300);
+    TEST_ASSERT_EQUAL_HEX32(0, read_register(RF0R));
+}
+
+TEST(received_frame_ends_error_passive_and_clears_lec)
+{
+    can.node.rec = 200;
+    write_register(ESR, 7 << 4);
+    deliver(5);
+    TEST_ASSERT_EQUAL_HEX32(120u << 24 | EWGF, read_register(ESR));
+}
+
+TEST(nart_sends_a_destroyed_frame_once)
+{
+    join_alone(TXFP | NART);
+    request_shorted(4);
+    TEST_ASSERT_EQUAL_HEX32(RQCP | TERR, read_register(TSR) & 0xFF);
+    TEST_ASSERT_EQUAL_UINT(8, read_register(ESR) >> 16 & 0xFF);
+}
+
+TEST(last_error_code_stays_until_overwritten)
+{
+    wire.alone = true;
+    request(0, 0x81);
+    pass_us(300);
+    TEST_ASSERT_EQUAL_UINT(NODE_NO_ACKNOWLEDGE, read_register(ESR) >> 4 & 7);
+    write_register(ESR, 7 << 4);
+    TEST_ASSERT_EQUAL_UINT(7, read_register(ESR) >> 4 & 7);
+}
+
+TEST(wire_put_fails_when_its_queue_is_full)
+{
+    enter_init(&can);
+    for (unsigned i = 0; i < WIRE_QUEUE_MAX; i++)
+        TEST_ASSERT_TRUE(wire_put(&wire, &(struct frame){.id = 1}));
+    TEST_ASSERT_FALSE(wire_put(&wire, &(struct frame){.id = 2}));
 }

@@ -1,9 +1,9 @@
-/* What the core executes is counted by its instructions: a program in the test's memory, in Thumb's half-words. */
+/* The core's instructions are counted block by block, here of a Thumb program in the test's memory. */
+#include "tests/test.h"
 #include "host_sim/emulator/models/core_blocks.h"
+#include "host_sim/emulator/models/systick_model.h"
 
 #include <string.h>
-
-#include "tests/test.h"
 
 enum { NARROW = 0xE7FF, WIDE = 0xE800, PROGRAM = 0x08000000, HALVES = 16, PERIOD_NS = 10 };
 
@@ -36,7 +36,7 @@ static int read_code(void *it, uint64_t address, void *bytes, uint64_t size)
     return at < emulator.readable ? 0 : -1;
 }
 
-void setUp(void)
+BEFORE_EACH(core_blocks)
 {
     memset(&emulator, 0, sizeof emulator);
     emulator.readable = 2 * HALVES;
@@ -69,7 +69,7 @@ TEST(instructions_are_one_or_two_half_words_long)
 }
 
 /* The second half of an instruction may look like the first one of a long one. */
-TEST(the_second_half_of_an_instruction_begins_none)
+TEST(second_half_word_starts_no_instruction)
 {
     static const uint16_t program[] = {0xF000, 0xF800, 0xBF00};
 
@@ -78,7 +78,7 @@ TEST(the_second_half_of_an_instruction_begins_none)
     assert_instructions(2);
 }
 
-TEST(a_block_is_read_once)
+TEST(repeated_block_is_read_from_memory_once)
 {
     for (unsigned n = 0; n < 3; n++)
         execute(0, 8);
@@ -86,7 +86,7 @@ TEST(a_block_is_read_once)
     TEST_ASSERT_EQUAL_UINT(4, emulator.reads);
 }
 
-TEST(a_block_of_another_length_is_another_block)
+TEST(block_of_another_length_is_counted_anew)
 {
     execute(0, 8);
     execute(0, 4);
@@ -95,7 +95,7 @@ TEST(a_block_of_another_length_is_another_block)
     assert_instructions(10);
 }
 
-TEST(blocks_that_share_a_place_take_turns)
+TEST(blocks_of_one_cache_entry_replace_each_other)
 {
     emulator.halves[0] = WIDE;
     execute(0, 8);
@@ -105,14 +105,14 @@ TEST(blocks_that_share_a_place_take_turns)
     TEST_ASSERT_EQUAL_UINT(6, emulator.reads);
 }
 
-TEST(what_cannot_be_read_is_not_counted)
+TEST(unreadable_instructions_are_not_counted)
 {
     emulator.readable = 4;
     execute(0, 8);
     assert_instructions(2);
 }
 
-TEST(no_block_begins_after_a_stop)
+TEST(core_executes_no_block_when_stopping)
 {
     blocks.stopping = true;
     execute(0, 8);
@@ -120,7 +120,7 @@ TEST(no_block_begins_after_a_stop)
     assert_instructions(0);
 }
 
-TEST(no_block_begins_once_something_has_failed)
+TEST(core_executes_no_block_after_a_failure)
 {
     board.failed = true;
     execute(0, 8);
@@ -129,7 +129,7 @@ TEST(no_block_begins_once_something_has_failed)
 }
 
 /* A debugger has halted after two of four instructions, and lets the core execute one, then the rest. */
-TEST(the_rest_of_a_block_in_which_a_debugger_halted_is_not_counted_again)
+TEST(block_resumed_after_a_halt_is_counted_once)
 {
     execute(0, 8);
     TEST_ASSERT_EQUAL_UINT64(PROGRAM + 8, blocks.end);
@@ -142,4 +142,65 @@ TEST(the_rest_of_a_block_in_which_a_debugger_halted_is_not_counted_again)
     assert_instructions(4);
     execute(8, 2);
     TEST_ASSERT_EQUAL_UINT(1, emulator.stops);
+}
+
+/* The model of SysTick against PM0214 4.5. */
+
+static struct systick timer;
+
+BEFORE_EACH(systick_model)
+{
+    board = (struct board_clock){.cycles = 1000};
+    timer = (struct systick){.clock = &board, .ctrl = SYSTICK_ENABLE | SYSTICK_CLKSOURCE, .load = 9, .since_cycles = 1000};
+}
+
+static uint32_t value_after(uint64_t cycles)
+{
+    board.cycles = timer.since_cycles + cycles;
+    return systick_value(&timer);
+}
+
+TEST(systick_counts_core_cycles_since_restart)
+{
+    TEST_ASSERT_EQUAL_UINT64(0, systick_counted(&timer));
+    board.cycles = 1007;
+    TEST_ASSERT_EQUAL_UINT64(7, systick_counted(&timer));
+}
+
+TEST(systick_external_clock_counts_every_eighth_cycle)
+{
+    timer.ctrl = SYSTICK_ENABLE;
+    board.cycles = 1007;
+    TEST_ASSERT_EQUAL_UINT64(0, systick_counted(&timer));
+    board.cycles = 1008;
+    TEST_ASSERT_EQUAL_UINT64(1, systick_counted(&timer));
+    board.cycles = 1800;
+    TEST_ASSERT_EQUAL_UINT64(100, systick_counted(&timer));
+}
+
+TEST(disabled_systick_does_not_count)
+{
+    timer.ctrl = SYSTICK_CLKSOURCE;
+    board.cycles = 1007;
+    TEST_ASSERT_EQUAL_UINT64(0, systick_counted(&timer));
+    TEST_ASSERT_EQUAL_UINT32(0, systick_value(&timer));
+}
+
+/* From 0 it goes to LOAD, so that a turn takes LOAD + 1 counts. */
+TEST(systick_value_wraps_from_0_to_load)
+{
+    static const uint32_t values[] = {0, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0, 9, 8};
+
+    for (unsigned count = 0; count < sizeof values / sizeof *values; count++)
+        TEST_ASSERT_EQUAL_UINT32(values[count], value_after(count));
+}
+
+TEST(systick_accepts_load_of_0_and_32_bits)
+{
+    timer.load = 0;
+    TEST_ASSERT_EQUAL_UINT32(0, value_after(5));
+    timer.load = UINT32_MAX;
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, value_after(1));
+    TEST_ASSERT_EQUAL_UINT32(1, value_after(UINT32_MAX));
+    TEST_ASSERT_EQUAL_UINT32(0, value_after(UINT64_C(1) << 32));
 }

@@ -79,7 +79,7 @@ static void request(struct fdcan *node, uint32_t buffer, uint32_t id)
     set(node, TXBAR, 1u << buffer);
 }
 
-static void bring(uint32_t id)
+static void deliver(uint32_t id)
 {
     TEST_ASSERT_TRUE(wire_put(&wire, &(struct frame){.id = id, .len = 5, .data = {1, 2, 3, 4, 5}}));
     pass_us(FRAME_US);
@@ -103,7 +103,7 @@ TEST(frames_leave_by_identifier_and_equal_ones_by_buffer)
     TEST_ASSERT_EQUAL_HEX32(7, get(TXBTO));
 }
 
-TEST(a_request_is_given_up_unless_its_frame_is_on_the_wire)
+TEST(cancellation_spares_the_frame_on_the_wire)
 {
     request(&can, 0, 1);
     request(&can, 1, 2);
@@ -116,7 +116,7 @@ TEST(a_request_is_given_up_unless_its_frame_is_on_the_wire)
     TEST_ASSERT_EQUAL_HEX32(1, get(TXBTO));
 }
 
-TEST(a_stuck_buffer_neither_sends_nor_gives_up)
+TEST(stuck_buffer_neither_sends_nor_cancels)
 {
     can.node.stuck_mailboxes = 1;
     request(&can, 0, 1);
@@ -125,7 +125,7 @@ TEST(a_stuck_buffer_neither_sends_nor_gives_up)
     TEST_ASSERT_EQUAL_HEX32(1, get(TXBRP));
 }
 
-TEST(each_kind_of_filter_sends_frames_to_its_fifo)
+TEST(filter_types_select_the_fifo)
 {
     static const struct { uint32_t id; int fifo; unsigned filter; } cases[] = {
         {0x0FF, 0, 5}, {0x100, 0, 0}, {0x1FF, 0, 0}, {0x200, 1, 1}, {0x2FF, 0, 5}, {0x300, 1, 1}, {0x480, -1, 2},
@@ -142,9 +142,9 @@ TEST(each_kind_of_filter_sends_frames_to_its_fifo)
     TEST_ASSERT_EQUAL(1, fdcan_fifo_for(&can, &(struct frame){.id = 0x7FF}, &filter));
 }
 
-TEST(a_frame_is_in_the_message_ram_until_its_place_is_released)
+TEST(message_ram_holds_frame_until_acknowledged)
 {
-    bring(0x123);
+    deliver(0x123);
     TEST_ASSERT_EQUAL_HEX32(1 | 1u << 16, get(RXF0S));
     TEST_ASSERT_EQUAL_HEX32(0x123u << 18, get(RECEIVED));
     TEST_ASSERT_EQUAL_HEX32(5u << 16, get(RECEIVED + 4) & 0xFF0F0000);
@@ -152,15 +152,15 @@ TEST(a_frame_is_in_the_message_ram_until_its_place_is_released)
     TEST_ASSERT_EQUAL_HEX32(5, get(RECEIVED + 12));
     set(&can, RXF0A, 0);
     TEST_ASSERT_EQUAL_HEX32(1u << 8 | 1u << 16, get(RXF0S));
-    bring(FRAME_EXTENDED | 0x12345);
+    deliver(FRAME_EXTENDED | 0x12345);
     TEST_ASSERT_EQUAL_HEX32(1u << 30 | 0x12345, get(RECEIVED + ELEMENT));
     TEST_ASSERT_EQUAL_HEX32(1u << 31, get(RECEIVED + ELEMENT + 4) & 1u << 31);
 }
 
-TEST(a_fourth_frame_is_lost_and_told_until_its_flag_is_cleared)
+TEST(fifo_overrun_is_flagged_until_it_is_cleared)
 {
     for (unsigned n = 0; n < 4; n++)
-        bring(0x100 + n);
+        deliver(0x100 + n);
     TEST_ASSERT_EQUAL_HEX32(3 | 3u << 24, get(RXF0S));
     TEST_ASSERT_EQUAL_UINT(1, can.node.overruns);
     set(&can, IR, 1u << 2);
@@ -169,7 +169,7 @@ TEST(a_fourth_frame_is_lost_and_told_until_its_flag_is_cleared)
     TEST_ASSERT_EQUAL_HEX32(0x102u << 18, get(RECEIVED + 2 * ELEMENT));
 }
 
-TEST(errors_lead_to_a_warning_to_passive_and_to_bus_off_which_init_ends)
+TEST(errors_lead_to_bus_off_and_leaving_init_ends_it)
 {
     static const uint32_t errors[] = {11, 1, 3, 1, 15, 1}, expected[] = {0, EW, EW, EW | EP, EW | EP, EW | EP | BO};
 
@@ -192,7 +192,7 @@ TEST(errors_lead_to_a_warning_to_passive_and_to_bus_off_which_init_ends)
     TEST_ASSERT_EQUAL_UINT(1, wire.heard.count);
 }
 
-TEST(the_protocol_status_tells_activity_and_forgets_the_last_error_when_read)
+TEST(psr_shows_activity_and_resets_lec_when_read)
 {
     set(&can, CCCR, INIT);
     pass_us(30);
@@ -209,9 +209,9 @@ TEST(the_protocol_status_tells_activity_and_forgets_the_last_error_when_read)
     TEST_ASSERT_EQUAL_HEX32(1u << 15 | 127u << 8, get(ECR) & 0xFF00);
 }
 
-TEST(init_is_read_back_after_a_while_and_cce_forgets_all)
+TEST(init_reads_back_late_and_cce_clears_state)
 {
-    bring(0x100);
+    deliver(0x100);
     set(&can, CCCR, INIT);
     TEST_ASSERT_EQUAL_HEX32(0, get(CCCR));
     ASSERT_REFUSED("before INIT was read back", node_write(&can.node, CCCR, INIT | CCE));
@@ -223,7 +223,7 @@ TEST(init_is_read_back_after_a_while_and_cce_forgets_all)
     TEST_ASSERT_EQUAL_HEX32(0, get(TXBRP));
 }
 
-TEST(two_controllers_hear_each_other)
+TEST(controllers_receive_from_each_other)
 {
     fdcan_open(&other, &wire);
     join(&other);
@@ -234,7 +234,7 @@ TEST(two_controllers_hear_each_other)
     TEST_ASSERT_EQUAL_UINT(0, other.node.tec);
 }
 
-TEST(what_the_manual_forbids_or_nobody_needs_is_refused)
+TEST(forbidden_and_unmodelled_accesses_are_refused)
 {
     request(&can, 0, 1);
     ASSERT_REFUSED("pending", node_write(&can.node, SENT + 4, 0));
@@ -253,7 +253,7 @@ TEST(what_the_manual_forbids_or_nobody_needs_is_refused)
     ASSERT_REFUSED("from a FIFO", node_write(&can.node, TXBAR, 2));
 }
 
-TEST(another_bit_rate_than_the_buss_is_refused)
+TEST(fdcan_refuses_a_bit_rate_other_than_the_bus)
 {
     set(&can, CCCR, INIT);
     pass_us(30);

@@ -1,4 +1,4 @@
-/* Which registers are accessed here and which are left to Python; and how an image that waits is found out. */
+/* Which registers are accessed in C and which by Python, and how an image that polls is detected. */
 #include "host_sim/emulator/models/register_space.h"
 
 #include "bxcan_model_rig.h"
@@ -37,7 +37,7 @@ static void ignore(struct board_clock *clock)
 
 void setUp(void)
 {
-    rejoin(TXFP);
+    join_alone(TXFP);
     can.node.clocked = true;
     board = (struct board_clock){.now = {wire.now_ns, 0}, .period_fs = 1000000, .wire = &wire,
         .take = ignore};
@@ -53,12 +53,12 @@ void setUp(void)
     memset(&python, 0, sizeof python);
 }
 
-static uint32_t look(uint32_t offset)
+static uint32_t read_word(uint32_t offset)
 {
     return (uint32_t)window_read(NULL, offset, 4, &window);
 }
 
-static uint32_t look_at_time(void)
+static uint32_t read_timer(void)
 {
     const struct register_window core = {.clock = &board, .space = &space, .base = CORE_BASE, .read = python_reads};
 
@@ -67,20 +67,20 @@ static uint32_t look_at_time(void)
 
 /* ---- where registers are */
 
-TEST(a_register_of_can_is_read_here)
+TEST(can_register_is_read_without_python)
 {
-    TEST_ASSERT_EQUAL_HEX32(BIT_TIMING, look(BTR));
+    TEST_ASSERT_EQUAL_HEX32(BIT_TIMING, read_word(BTR));
     TEST_ASSERT_EQUAL_UINT(0, python.reads);
 }
 
-TEST(a_register_of_can_is_written_here)
+TEST(can_register_is_written_without_python)
 {
     window_write(NULL, 0x184, 4, 5, &window);
     TEST_ASSERT_EQUAL_HEX32(5, read_register(0x184));
     TEST_ASSERT_EQUAL_UINT(0, python.writes);
 }
 
-TEST(what_is_written_is_on_the_wire_at_once)
+TEST(transmit_request_starts_the_frame_at_once)
 {
     uint64_t start;
 
@@ -104,7 +104,7 @@ static void assert_read_by_python(uint32_t offset, uint32_t width)
     TEST_ASSERT_EQUAL_UINT32(width, python.width);
 }
 
-TEST(all_other_accesses_are_pythons)
+TEST(register_space_passes_all_other_accesses_to_python)
 {
     assert_read_by_python(4 * SPACE_CAN_WORDS, 4);
     assert_read_by_python(BTR, 2);
@@ -121,7 +121,7 @@ TEST(all_other_accesses_are_pythons)
     assert_read_by_python(BTR, 4);
 }
 
-TEST(what_is_not_written_here_is_pythons)
+TEST(register_space_passes_other_writes_to_python)
 {
     window_write(NULL, MCR, 4, INRQ, &window);
     TEST_ASSERT_EQUAL_UINT(1, python.writes);
@@ -130,7 +130,7 @@ TEST(what_is_not_written_here_is_pythons)
     TEST_ASSERT_EQUAL_UINT32(4, python.width);
 }
 
-TEST(what_the_controller_refuses_is_pythons_who_asks_it_again)
+TEST(register_refused_by_the_controller_is_passed_to_python)
 {
     assert_read_by_python(0x20, 4);
     window_write(NULL, 0x20, 4, 7, &window);
@@ -138,20 +138,20 @@ TEST(what_the_controller_refuses_is_pythons_who_asks_it_again)
     TEST_ASSERT_EQUAL_HEX32(7, python.value);
 }
 
-TEST(the_timers_value_is_read_here)
+TEST(timer_value_is_read_without_python)
 {
     timer.since_cycles = board.cycles;
     clock_execute(&board, 1);
-    TEST_ASSERT_EQUAL_UINT32(999, look_at_time());
+    TEST_ASSERT_EQUAL_UINT32(999, read_timer());
     TEST_ASSERT_EQUAL_UINT(0, python.reads);
     space.direct = false;
-    TEST_ASSERT_EQUAL_UINT32(FROM_PYTHON, look_at_time());
+    TEST_ASSERT_EQUAL_UINT32(FROM_PYTHON, read_timer());
 }
 
-TEST(once_something_has_failed_registers_are_dead)
+TEST(registers_ignore_accesses_after_a_failure)
 {
     board.failed = true;
-    TEST_ASSERT_EQUAL_HEX32(0, look(BTR));
+    TEST_ASSERT_EQUAL_HEX32(0, read_word(BTR));
     window_write(NULL, 0x184, 4, 5, &window);
     window_write(NULL, MCR, 4, INRQ, &window);
     TEST_ASSERT_EQUAL_HEX32(0xA5A5A5A5, read_register(0x184));
@@ -160,61 +160,61 @@ TEST(once_something_has_failed_registers_are_dead)
 
 /* ---- an image that waits */
 
-/* How long it was let wait, in so many looks. */
-static uint64_t wait_by(unsigned looks, bool at_time)
+/* Returns the time in ns that is skipped in so many reads. */
+static uint64_t skipped_ns(unsigned reads, bool with_timer)
 {
     uint64_t start = board.now.ns;
 
-    for (unsigned n = 0; n < looks; n++) {
-        (void)look(RF0R);
-        if (at_time)
-            (void)look_at_time();
+    for (unsigned n = 0; n < reads; n++) {
+        (void)read_word(RF0R);
+        if (with_timer)
+            (void)read_timer();
     }
     return board.now.ns - start;
 }
 
-/* The first look of all brings something new. */
-TEST(an_image_that_waits_is_let_wait_a_millisecond_again_and_again)
+/* The very first read returns a new value, and is not counted. */
+TEST(register_space_skips_a_millisecond_per_burst_of_reads)
 {
-    TEST_ASSERT_EQUAL_UINT64(0, wait_by(1 + SPACE_WAITING_READS, true));
-    TEST_ASSERT_EQUAL_UINT64(SPACE_SKIP_NS, wait_by(1, true));
-    TEST_ASSERT_EQUAL_UINT64(0, wait_by(SPACE_WAITING_READS, true));
-    TEST_ASSERT_EQUAL_UINT64(SPACE_SKIP_NS, wait_by(1, true));
+    TEST_ASSERT_EQUAL_UINT64(0, skipped_ns(1 + SPACE_WAITING_READS, true));
+    TEST_ASSERT_EQUAL_UINT64(SPACE_SKIP_NS, skipped_ns(1, true));
+    TEST_ASSERT_EQUAL_UINT64(0, skipped_ns(SPACE_WAITING_READS, true));
+    TEST_ASSERT_EQUAL_UINT64(SPACE_SKIP_NS, skipped_ns(1, true));
 }
 
-TEST(an_image_that_counts_its_looks_is_left_to_do_so)
+TEST(register_space_skips_no_time_for_counted_reads)
 {
-    TEST_ASSERT_EQUAL_UINT64(0, wait_by(100, false));
+    TEST_ASSERT_EQUAL_UINT64(0, skipped_ns(100, false));
 }
 
-TEST(an_image_that_writes_does_not_wait)
+TEST(register_space_skips_no_time_for_an_image_that_writes)
 {
     for (unsigned n = 0; n < 100; n++) {
-        TEST_ASSERT_EQUAL_UINT64(0, wait_by(1, true));
+        TEST_ASSERT_EQUAL_UINT64(0, skipped_ns(1, true));
         window_write(NULL, 0x184, 4, n, &window);
     }
 }
 
-TEST(an_image_that_reads_something_new_does_not_wait)
+TEST(register_space_skips_no_time_when_values_change)
 {
     uint64_t start = board.now.ns;
 
     for (uint32_t n = 0; n < 100; n++) {
         write_register(ESR, n % 7 << 4);
-        (void)look(ESR);
-        (void)look_at_time();
+        (void)read_word(ESR);
+        (void)read_timer();
     }
     TEST_ASSERT_EQUAL_UINT64(start, board.now.ns);
 }
 
-TEST(a_wait_ends_with_the_next_event)
+TEST(register_space_skips_to_the_next_event_at_most)
 {
     request(0, 0x81);
     clock_settle(&board);
-    TEST_ASSERT_EQUAL_UINT64(FRAME_NS, wait_by(2 + SPACE_WAITING_READS, true));
+    TEST_ASSERT_EQUAL_UINT64(FRAME_NS, skipped_ns(2 + SPACE_WAITING_READS, true));
 }
 
-TEST(what_python_reads_and_does_counts_as_well)
+TEST(register_space_counts_accesses_of_python)
 {
     uint64_t start = board.now.ns;
 
@@ -239,7 +239,7 @@ enum { BLOCK_BASE = 0x40010800, IDR = 2, ODR, BSRR, STATUS, OFTEN };
 
 static struct plain_block block;
 
-static void keep(void)
+static void add_plain_block(void)
 {
     block = (struct plain_block){.base = BLOCK_BASE, .clocked = true, .readable = 1u << IDR | 1u << ODR | 1u << STATUS | 1u << OFTEN,
         .writable = 1u << BSRR | 1u << STATUS | 1u << OFTEN, .outputs = 0x00F0,
@@ -248,51 +248,51 @@ static void keep(void)
     window.base = BLOCK_BASE;
 }
 
-TEST(what_is_written_is_kept_and_read)
+TEST(plain_register_holds_the_written_value)
 {
-    keep();
+    add_plain_block();
     window_write(NULL, 4 * OFTEN, 4, 0x12345678, &window);
-    TEST_ASSERT_EQUAL_HEX32(0x12345678, look(4 * OFTEN));
+    TEST_ASSERT_EQUAL_HEX32(0x12345678, read_word(4 * OFTEN));
     TEST_ASSERT_EQUAL_UINT(0, python.reads + python.writes);
 }
 
-TEST(zeros_clear_a_status_and_ones_leave_it)
+TEST(status_register_is_cleared_by_writing_zeros)
 {
-    keep();
+    add_plain_block();
     block.value[STATUS] = 0x81;
     window_write(NULL, 4 * STATUS, 4, 0xFFFFFFFE, &window);
-    TEST_ASSERT_EQUAL_HEX32(0x80, look(4 * STATUS));
+    TEST_ASSERT_EQUAL_HEX32(0x80, read_word(4 * STATUS));
 }
 
-TEST(pins_are_set_and_cleared_and_outputs_read_back)
+TEST(bsrr_drives_outputs_that_idr_reads_back)
 {
-    keep();
+    add_plain_block();
     block.value[IDR] = 0x0F0F;
     window_write(NULL, 4 * BSRR, 4, 0x00FF, &window);
-    TEST_ASSERT_EQUAL_HEX32(0x00FF, look(4 * ODR));
-    TEST_ASSERT_EQUAL_HEX32(0x0FFF, look(4 * IDR));
-    window_write(NULL, 4 * BSRR, 4, 0x00100010 | 0x0F << 16, &window);   /* what is both set and cleared is set */
-    TEST_ASSERT_EQUAL_HEX32(0x00F0, look(4 * ODR));
+    TEST_ASSERT_EQUAL_HEX32(0x00FF, read_word(4 * ODR));
+    TEST_ASSERT_EQUAL_HEX32(0x0FFF, read_word(4 * IDR));
+    window_write(NULL, 4 * BSRR, 4, 0x00100010 | 0x0F << 16, &window);   /* setting wins over clearing */
+    TEST_ASSERT_EQUAL_HEX32(0x00F0, read_word(4 * ODR));
 }
 
-TEST(a_kept_register_without_a_clock_or_of_another_kind_is_left_to_python)
+TEST(register_space_passes_unclocked_and_odd_accesses_to_python)
 {
-    keep();
-    TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, look(4 * BSRR));
+    add_plain_block();
+    TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, read_word(4 * BSRR));
     TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, (uint32_t)window_read(NULL, 4 * OFTEN, 2, &window));
     window_write(NULL, 4 * IDR, 4, 1, &window);
     TEST_ASSERT_EQUAL_UINT(1, python.writes);
     block.clocked = false;
-    TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, look(4 * OFTEN));
+    TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, read_word(4 * OFTEN));
     block.clocked = true;
     space.direct = false;
-    TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, look(4 * OFTEN));
+    TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, read_word(4 * OFTEN));
     window_write(NULL, 4 * OFTEN, 4, 1, &window);
     TEST_ASSERT_EQUAL_UINT(2, python.writes);
-    TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, look(4 * SPACE_BLOCK_WORDS));
+    TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, read_word(4 * SPACE_BLOCK_WORDS));
 }
 
-TEST(words_of_a_message_ram_follow_the_registers)
+TEST(message_ram_words_follow_the_registers)
 {
     static const uint32_t offsets[] = {0, 4, 0x3FC, 0x400, SPACE_CAN_RAM, SPACE_CAN_RAM + 0x34C, SPACE_CAN_RAM + 0x400, 2};
     static const uint32_t words[] = {0, 1, 0xFF, SPACE_CAN_WORDS, 0x100, 0x1D3, SPACE_CAN_WORDS, SPACE_CAN_WORDS};

@@ -1,4 +1,4 @@
-/* Many decisions in one call, for many_brains.py: the same question to each of many brains. */
+/* For many_brains.py: brain_next of many brains, with the same senses, in one call. */
 #include <stddef.h>
 
 #include "firmware/brain.h"

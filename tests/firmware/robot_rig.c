@@ -10,7 +10,7 @@ struct senses wheels;
 
 void respond_to(enum input_kind kind, const struct input *in)
 {
-    memset(&out, 0xA5, sizeof out);   /* whatever was there before */
+    memset(&out, 0xA5, sizeof out);   /* so that each member must be set */
     robot_respond(&robot, kind, in, &out);
 }
 
@@ -47,7 +47,7 @@ void setUp(void)
     command(OPCODE_START, PROFILE_ARTICLE, 1);
 }
 
-void learned(enum side side)
+void teach(enum side side)
 {
     memory_learn(&robot.brain.memory, PATTERN_FRONT, side);
 }
@@ -60,11 +60,11 @@ void assert_at_rest(void)
     TEST_ASSERT_FALSE(out.drive.eat);
 }
 
-/* Wheels that do as they are told: 0.2 counts a tick for each mm/s. */
-void obey(uint8_t feel_there)
+/* Wheels that obey: 0.2 counts per tick and mm/s. */
+void obey(uint8_t feel)
 {
     wheels.tick++;
-    wheels.feel = feel_there;
+    wheels.feel = feel;
     wheels.odometer_left = (uint16_t)((wheels.odometer_left + out.drive.left_mm_s / 5) & (ODOMETER_SPAN - 1));
     wheels.odometer_right = (uint16_t)((wheels.odometer_right + out.drive.right_mm_s / 5) & (ODOMETER_SPAN - 1));
     sense(wheels);

@@ -36,7 +36,7 @@ TEST(every_profile_can_be_started)
     }
 }
 
-TEST(an_unknown_profile_changes_nothing)
+TEST(start_with_an_unknown_profile_changes_no_state)
 {
     const struct brain before = brain;
 
@@ -46,14 +46,14 @@ TEST(an_unknown_profile_changes_nothing)
     }
 }
 
-TEST(a_robot_without_a_behaviour_of_its_user_would_stand_still)
+TEST(own_behaviour_not_linked_in_stops_the_robot)
 {
     brain.profile = PROFILE_OWN;
     TEST_ASSERT_EQUAL(REASON_STOP, next(FRONT).reason);
     TEST_ASSERT_FALSE(own_begin(&brain));
 }
 
-TEST(it_decides_as_the_profile_does)
+TEST(profile_decides_the_next_action)
 {
     brain_start(&brain, PROFILE_ARTICLE, 1);
     memory_learn(&brain.memory, PATTERN_FRONT, SIDE_RIGHT);
@@ -62,7 +62,7 @@ TEST(it_decides_as_the_profile_does)
     TEST_ASSERT_EQUAL(REASON_TRIAL, next(FRONT).reason);
 }
 
-TEST(what_the_article_learns_is_stored_and_what_others_know_is_not)
+TEST(only_learning_profiles_store_their_memory)
 {
     brain_start(&brain, PROFILE_FIXED, 1);
     TEST_ASSERT_FALSE(brain.learns);
@@ -72,7 +72,7 @@ TEST(what_the_article_learns_is_stored_and_what_others_know_is_not)
     TEST_ASSERT_FALSE(brain.learns);
 }
 
-TEST(a_start_ends_the_count_of_whatever_went_before)
+TEST(start_of_any_profile_resets_the_repeat_count)
 {
     for (uint8_t profile = 0; profile < PROFILE_COUNT; profile++) {
         brain.repeat_count = 9;
@@ -81,7 +81,7 @@ TEST(a_start_ends_the_count_of_whatever_went_before)
     }
 }
 
-TEST(a_start_forgets_what_was_awaited)
+TEST(start_of_any_profile_discards_the_pending_action)
 {
     for (uint8_t profile = 0; profile < PROFILE_COUNT; profile++) {
         brain_start(&brain, PROFILE_ARTICLE, 1);
@@ -95,7 +95,7 @@ TEST(a_start_forgets_what_was_awaited)
 static const uint8_t SURE[CELL_COUNT] = {0, 13, 6};
 static const uint8_t OF_ALL_SENSORS[CELL_COUNT] = {0x2F};
 
-TEST(a_start_translates_the_memory_for_the_profile)
+TEST(start_translates_the_memory_for_the_profile)
 {
     static const uint8_t expected[CELL_COUNT] = {0, 1, 2};
 
@@ -106,7 +106,7 @@ TEST(a_start_translates_the_memory_for_the_profile)
     TEST_ASSERT_TRUE(brain.changed);
 }
 
-TEST(a_start_leaves_a_memory_that_the_profile_understands)
+TEST(start_keeps_a_memory_of_the_kind_of_the_profile)
 {
     TEST_ASSERT_TRUE(brain_adopt(&brain, SURE));
     brain.changed = false;
@@ -115,7 +115,7 @@ TEST(a_start_leaves_a_memory_that_the_profile_understands)
     TEST_ASSERT_FALSE(brain.changed);
 }
 
-TEST(an_adopted_memory_chooses_the_first_profile_that_understands_it)
+TEST(adopted_memory_selects_the_first_matching_profile)
 {
     static const uint8_t sides[CELL_COUNT] = {0, 1};
 
@@ -129,7 +129,7 @@ TEST(an_adopted_memory_chooses_the_first_profile_that_understands_it)
     TEST_ASSERT_TRUE(brain.learns);
 }
 
-TEST(bytes_that_are_no_memory_change_nothing)
+TEST(adoption_of_invalid_bytes_changes_no_state)
 {
     static const uint8_t none[CELL_COUNT] = {0, 3};
     const struct brain before = brain;
@@ -138,7 +138,7 @@ TEST(bytes_that_are_no_memory_change_nothing)
     TEST_ASSERT_EQUAL_MEMORY(&before, &brain, sizeof brain);
 }
 
-TEST(what_is_written_must_be_of_the_profiles_kind)
+TEST(write_must_match_the_memory_kind_of_the_profile)
 {
     brain_start(&brain, PROFILE_ARTICLE, 1);
     brain.changed = false;
@@ -149,7 +149,7 @@ TEST(what_is_written_must_be_of_the_profiles_kind)
     TEST_ASSERT_TRUE(brain.changed);
 }
 
-TEST(a_run_begins_with_a_decision)
+TEST(start_is_followed_by_a_decision)
 {
     brain_start(&brain, PROFILE_ARTICLE, 1);
     TEST_ASSERT_EQUAL(REASON_WANDER, next(0).reason);
@@ -157,7 +157,7 @@ TEST(a_run_begins_with_a_decision)
     TEST_ASSERT_EQUAL(REASON_TRIAL, next(FRONT).reason);
 }
 
-TEST(after_an_action_that_was_not_carried_out_it_does_not_look_around)
+TEST(denied_step_is_followed_by_no_look_around)
 {
     const struct senses nothing = {.tick = 0};
 
@@ -188,7 +188,7 @@ static void assert_is_bored_without_learning(enum profile profile, uint8_t cell,
     TEST_ASSERT_FALSE(brain.changed);
 }
 
-TEST(from_actions_that_were_not_carried_out_no_behaviour_learns)
+TEST(denied_actions_teach_no_behaviour)
 {
     assert_is_bored_without_learning(PROFILE_RECHECK, 2, SIDE_LEFT);
     assert_is_bored_without_learning(PROFILE_FORGETFUL, 2, SIDE_LEFT);
@@ -196,14 +196,14 @@ TEST(from_actions_that_were_not_carried_out_no_behaviour_learns)
     assert_is_bored_without_learning(PROFILE_FIVE, 1, SIDE_LEFT);   /* that of reading 4 in the lowest bits */
 }
 
-TEST(a_start_keeps_a_change_that_was_not_yet_reported)
+TEST(start_keeps_a_change_not_yet_reported)
 {
     brain.changed = true;
     brain_start(&brain, PROFILE_ARTICLE, 1);
     TEST_ASSERT_TRUE(brain.changed);
 }
 
-TEST(the_first_profile_of_all_is_asked_too)
+TEST(adopt_considers_the_first_profile)
 {
     static const uint8_t sides[CELL_COUNT] = {0, SIDE_LEFT};
 
@@ -212,7 +212,7 @@ TEST(the_first_profile_of_all_is_asked_too)
     TEST_ASSERT_EQUAL_UINT8(0, brain.profile);
 }
 
-TEST(what_others_know_goes_to_empty_cells_that_boredom_did_not_empty)
+TEST(votes_fill_empty_cells_except_those_emptied_by_boredom)
 {
     static const int8_t votes[CELL_COUNT] = {1, 1, -1, 1, -1};
     static const uint8_t expected[CELL_COUNT] = {0, SIDE_LEFT, SIDE_LEFT, 0, SIDE_LEFT};

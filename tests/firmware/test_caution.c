@@ -2,63 +2,63 @@
 #include "tests/test.h"
 #include "robot_rig.h"
 
-enum { FRONT_RIGHT = 2, FRONT_LEFT = 8, DISTRUST_AFTER = 5, BACK_MM = 20, ENOUGH = 500 };
+enum { FRONT_RIGHT = 2, FRONT_LEFT = 8, DISTRUST_AFTER = 5, BACK_MM = 20, TICKS_MAX = 500 };
 
-static void go_until(enum reason reason, uint8_t feel_there)
+static void go_until(enum reason reason, uint8_t feel)
 {
     unsigned ticks = 0;
 
     do
-        obey(feel_there);
-    while (out.drive.reason != reason && ++ticks < ENOUGH);
+        obey(feel);
+    while (out.drive.reason != reason && ++ticks < TICKS_MAX);
     TEST_ASSERT_EQUAL(reason, out.drive.reason);
 }
 
-/* Drives a step until the body touches something. */
-static void touch(void)
+/* Lets the bumper close during a step. */
+static void close_bumper(void)
 {
     go_until(REASON_WANDER, CLEAR);
     wheels.bump = true;
     obey(CLEAR);
 }
 
-/* In 0.1 mm, as the wheels are told while they avoid. */
-static int way_back(bool lets_go)
+/* The distance commanded while backing off, in 0.1 mm. */
+static int back_off(bool releases)
 {
     int way = 0;
 
     while (out.drive.reason == REASON_AVOID) {
         way += out.drive.left_mm_s / 5;
         TEST_ASSERT_EQUAL_INT16(out.drive.left_mm_s, out.drive.right_mm_s);
-        wheels.bump = wheels.bump && !lets_go;
+        wheels.bump = wheels.bump && !releases;
         obey(CLEAR);
     }
     return way;
 }
 
-TEST(a_robot_that_touches_something_stops_pushing_in_that_tick)
+TEST(bump_reverses_the_wheels_in_the_same_tick)
 {
-    touch();
+    close_bumper();
     TEST_ASSERT_EQUAL(REASON_AVOID, out.drive.reason);
     TEST_ASSERT_LESS_THAN_INT16(0, out.drive.left_mm_s);
 }
 
-TEST(it_backs_off_by_20_mm)
+TEST(bump_backs_the_robot_off_by_20_mm)
 {
     int way;
 
-    touch();
-    way = way_back(true);
+    close_bumper();
+    way = back_off(true);
     TEST_ASSERT_INT_WITHIN(BACK_MM * 10 / 10 + 60, -BACK_MM * 10, way);
 }
 
-TEST(after_a_touch_it_turns_away_as_from_an_obstacle_in_front)
+TEST(bump_is_turned_away_from_like_an_obstacle_in_front)
 {
     int turned_deg = 0;
 
-    learned(SIDE_LEFT);
-    touch();
-    (void)way_back(true);
+    teach(SIDE_LEFT);
+    close_bumper();
+    (void)back_off(true);
     while (out.drive.reason != REASON_WANDER) {
         TEST_ASSERT_TRUE(out.drive.reason == REASON_LOOK_AROUND || out.drive.reason == REASON_REMEMBERED);
         if (out.drive.reason == REASON_REMEMBERED)
@@ -68,30 +68,30 @@ TEST(after_a_touch_it_turns_away_as_from_an_obstacle_in_front)
     TEST_ASSERT_INT_WITHIN(10, 40, turned_deg);
 }
 
-TEST(from_a_touch_it_learns_as_from_an_obstacle_in_front)
+TEST(bump_teaches_like_an_obstacle_in_front)
 {
-    touch();
-    (void)way_back(true);
+    close_bumper();
+    (void)back_off(true);
     go_until(REASON_TRIAL, CLEAR);
     go_until(REASON_WANDER, CLEAR);
     TEST_ASSERT_NOT_EQUAL(SIDE_NOTHING, robot.brain.memory.cell[PATTERN_FRONT]);
 }
 
-TEST(a_bumper_that_does_not_let_go_is_backed_off_from_once)
+TEST(stuck_bumper_is_backed_off_from_once)
 {
-    touch();
-    (void)way_back(false);
-    for (unsigned i = 0; i < ENOUGH; i++) {
+    close_bumper();
+    (void)back_off(false);
+    for (unsigned i = 0; i < TICKS_MAX; i++) {
         obey(CLEAR);
         TEST_ASSERT_NOT_EQUAL(REASON_AVOID, out.drive.reason);
     }
     wheels.bump = false;
     obey(CLEAR);
-    touch();
+    close_bumper();
     TEST_ASSERT_EQUAL(REASON_AVOID, out.drive.reason);
 }
 
-TEST(a_touch_while_it_turns_is_no_reason_to_back_off)
+TEST(bump_in_a_turn_causes_no_backing_off)
 {
     go_until(REASON_LOOK_AROUND, CLEAR);
     wheels.bump = true;
@@ -99,19 +99,19 @@ TEST(a_touch_while_it_turns_is_no_reason_to_back_off)
     TEST_ASSERT_NOT_EQUAL(REASON_AVOID, out.drive.reason);
 }
 
-/* The front sensor says that something is there, always, until it is not believed. */
-static void be_blind(void)
+/* Triggers the front sensor until the robot distrusts it. */
+static void distrust_front_sensor(void)
 {
     command(OPCODE_SET, DISTRUST, DISTRUST_AFTER);
     go_until(REASON_WANDER, FRONT);
 }
 
-static int way_until_it_looks_aside(void)
+static int distance_until_look_aside(void)
 {
     int way = 0;
 
-    be_blind();
-    for (unsigned i = 0; i < ENOUGH && out.drive.reason != REASON_AVOID; i++) {
+    distrust_front_sensor();
+    for (unsigned i = 0; i < TICKS_MAX && out.drive.reason != REASON_AVOID; i++) {
         if (out.drive.reason == REASON_WANDER)
             way += out.drive.left_mm_s / 5;
         obey(FRONT);
@@ -119,15 +119,15 @@ static int way_until_it_looks_aside(void)
     return way;
 }
 
-TEST(with_longer_steps_it_looks_aside_earlier_and_not_later)
+TEST(look_aside_comes_early_with_longer_steps)
 {
     command(OPCODE_SET, STEP_MM, 24);
-    TEST_ASSERT_INT_WITHIN(20, 480, way_until_it_looks_aside());
+    TEST_ASSERT_INT_WITHIN(20, 480, distance_until_look_aside());
 }
 
-TEST(a_robot_that_does_not_believe_its_front_sensor_looks_aside_every_60_mm)
+TEST(distrusted_front_sensor_causes_a_look_aside_every_60_mm)
 {
-    TEST_ASSERT_INT_WITHIN(20, 600, way_until_it_looks_aside());
+    TEST_ASSERT_INT_WITHIN(20, 600, distance_until_look_aside());
     TEST_ASSERT_LESS_THAN_INT16(0, out.drive.left_mm_s);    /* to the left, */
     TEST_ASSERT_GREATER_THAN_INT16(0, out.drive.right_mm_s);
     while (out.drive.left_mm_s <= 0)
@@ -136,9 +136,9 @@ TEST(a_robot_that_does_not_believe_its_front_sensor_looks_aside_every_60_mm)
     TEST_ASSERT_LESS_THAN_INT16(0, out.drive.right_mm_s);
 }
 
-TEST(what_it_sees_aside_is_ahead)
+TEST(obstacle_seen_in_a_look_aside_is_ahead)
 {
-    be_blind();
+    distrust_front_sensor();
     go_until(REASON_AVOID, FRONT);
     while (out.drive.left_mm_s <= 0)
         obey(FRONT | FRONT_RIGHT);
@@ -149,9 +149,9 @@ TEST(what_it_sees_aside_is_ahead)
     TEST_ASSERT_TRUE(out.drive.reason == REASON_TRIAL || out.drive.reason == REASON_REMEMBERED);
 }
 
-TEST(where_something_is_ahead_it_does_not_look_aside_first)
+TEST(obstacle_ahead_prevents_the_look_aside)
 {
-    be_blind();
+    distrust_front_sensor();
     go_until(REASON_LOOK_AROUND, FRONT);
     robot.caution.blind_mm = UINT8_MAX;
     while (out.drive.reason == REASON_LOOK_AROUND)
@@ -159,14 +159,14 @@ TEST(where_something_is_ahead_it_does_not_look_aside_first)
     TEST_ASSERT_EQUAL(REASON_TRIAL, out.drive.reason);
 }
 
-TEST(what_is_ahead_is_there_until_it_has_turned_by_40_degrees_either_way)
+TEST(obstacle_ahead_is_kept_until_a_turn_of_40_degrees)
 {
     for (unsigned side = SIDE_LEFT; side <= SIDE_RIGHT; side++) {
         setUp();
         command(OPCODE_SET, LOOK_CHOICES, 1);
-        learned((enum side)side);
-        touch();
-        (void)way_back(true);
+        teach((enum side)side);
+        close_bumper();
+        (void)back_off(true);
         while (robot.caution.ahead)
             obey(CLEAR);
         TEST_ASSERT_EQUAL(REASON_REMEMBERED, out.drive.reason);
@@ -174,8 +174,8 @@ TEST(what_is_ahead_is_there_until_it_has_turned_by_40_degrees_either_way)
     }
 }
 
-/* Else it would learn that the turn has helped. */
-TEST(what_a_blind_robot_turns_toward_is_ahead)
+/* Otherwise the robot would learn that the turn has helped. */
+TEST(obstacle_turned_toward_blindly_is_ahead)
 {
     struct caution caution = {.doing = 0};
 
@@ -188,22 +188,22 @@ TEST(what_a_blind_robot_turns_toward_is_ahead)
     TEST_ASSERT_TRUE(caution.ahead);
 }
 
-TEST(a_start_forgets_what_was_ahead)
+TEST(start_clears_the_obstacle_ahead)
 {
-    touch();
+    close_bumper();
     command(OPCODE_START, PROFILE_ARTICLE, 1);
     TEST_ASSERT_FALSE(robot.caution.ahead);
 }
 
-/* The next action of a robot that caution alone commands, or of one that looks around. */
-static struct action next(struct caution *caution, uint8_t feel_there, bool bump)
+/* The next action: one of caution, or else of the brain. */
+static struct action next(struct caution *caution, uint8_t feel, bool bump)
 {
-    struct senses senses = {.feel = feel_there, .bump = bump};
+    struct senses senses = {.feel = feel, .bump = bump};
 
     return caution_next(caution, &robot.brain, &robot.config, &senses);
 }
 
-TEST(it_backs_off_once_for_each_touch_and_rests_a_tick_afterwards)
+TEST(bump_backs_off_once_and_rests_a_tick)
 {
     static const struct senses touching = {.bump = true};
     struct caution caution = {.doing = 0};
@@ -228,7 +228,7 @@ TEST(it_backs_off_once_for_each_touch_and_rests_a_tick_afterwards)
     TEST_ASSERT_FALSE(caution.pressed);
 }
 
-TEST(a_look_aside_is_24_degrees_to_the_left_and_back)
+TEST(look_aside_is_24_degrees_to_the_left_and_back)
 {
     struct caution caution = {.blind_mm = 60};
     struct action action = next(&caution, CLEAR, false);
@@ -247,13 +247,13 @@ TEST(a_look_aside_is_24_degrees_to_the_left_and_back)
     TEST_ASSERT_NOT_EQUAL(REASON_AVOID, next(&caution, CLEAR, false).reason);
 }
 
-/* What is beside it is what the sensor on the side of its turn shows; in a step nothing is. */
-TEST(what_is_beside_a_turn_is_what_the_sensor_on_its_side_shows)
+/* An obstacle is beside a turn if the sensor on its side shows it; beside a step there is none. */
+TEST(obstacle_beside_a_turn_is_that_of_the_sensor_on_its_side)
 {
     static const uint8_t all = 31;
     struct caution caution = {.blind_mm = 60};
 
-    (void)next(&caution, 16 | 1, false);   /* neither is a front sensor: left is looked at */
+    (void)next(&caution, 16 | 1, false);   /* neither is a front sensor; the look aside is to the left */
     TEST_ASSERT_EQUAL_UINT8(0, caution.beside);
     for (unsigned i = 0; i < MANY; i++) {
         uint8_t there = i % 2 ? all : FRONT_LEFT;
@@ -264,7 +264,7 @@ TEST(what_is_beside_a_turn_is_what_the_sensor_on_its_side_shows)
     }
 }
 
-TEST(what_was_ahead_counts_until_just_40_degrees)
+TEST(obstacle_ahead_is_cleared_at_40_degrees_to_the_right)
 {
     static const int8_t turns[] = {39, -39, 16, -16, 15, -15};
 
@@ -277,7 +277,7 @@ TEST(what_was_ahead_counts_until_just_40_degrees)
     }
 }
 
-TEST(what_a_blind_robot_finds_is_ahead_from_there_on)
+TEST(blind_sighting_restarts_the_angle_of_the_obstacle_ahead)
 {
     struct caution caution = {.beside = FRONT_RIGHT, .turned_deg = 5, .blind_mm = 30};
 
@@ -289,16 +289,16 @@ TEST(what_a_blind_robot_finds_is_ahead_from_there_on)
     TEST_ASSERT_EQUAL_UINT8(0, caution.blind_mm);
 }
 
-TEST(nothing_is_beside_a_step_back_and_it_is_no_way_driven_blind)
+TEST(step_back_has_no_obstacle_beside_and_no_blind_distance)
 {
-    struct caution caution = {.doing = 1, .beside = FRONT_LEFT, .blind_mm = 30};   /* it touches something */
+    struct caution caution = {.doing = 1, .beside = FRONT_LEFT, .blind_mm = 30};   /* backing off */
 
     TEST_ASSERT_EQUAL_INT(-BACK_MM, next(&caution, FRONT_LEFT | FRONT_RIGHT, true).forward_mm);
     TEST_ASSERT_EQUAL_UINT8(0, caution.beside);
     TEST_ASSERT_EQUAL_UINT8(30, caution.blind_mm);
 }
 
-TEST(what_is_ahead_is_shown_by_the_front_sensor_alone)
+TEST(obstacle_ahead_triggers_only_the_front_sensor)
 {
     struct senses senses = {.feel = CLEAR};
     struct caution caution = {.ahead = true};
@@ -307,11 +307,11 @@ TEST(what_is_ahead_is_shown_by_the_front_sensor_alone)
     TEST_ASSERT_EQUAL_UINT8(FRONT, senses.feel);
 }
 
-TEST(what_was_ahead_is_not_after_just_40_degrees_to_the_left)
+TEST(obstacle_ahead_is_cleared_at_40_degrees_to_the_left)
 {
     unsigned found = 0;
 
-    learned(SIDE_LEFT);
+    teach(SIDE_LEFT);
     for (unsigned i = 0; i < MANY; i++) {
         struct caution caution = {.ahead = true, .turned_deg = -30};
         struct action action = next(&caution, CLEAR, false);

@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from host_sim.protocol.generated import MEMORY_KINDS, PROFILES, MemoryKind
-from tests.firmware.many_brains import ACTION, Brains, C
-from tests.firmware.memory.memories import CELL_VALUES, MEMORIES
+from tests.firmware.many_brains import ACTION, CELL_VALUES, MEMORIES, Brains, C
 from tests.firmware.oracle_robots import Reading, ScriptedRobot, SensingRobot, oracle_of, oracle_says
 from tests.firmware.oracles.listing import Action, Listing
 

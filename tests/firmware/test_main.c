@@ -1,4 +1,4 @@
-/* The robot's main, between a fake body and the real robot. */
+/* The robot's main with the real robot and a fake body. */
 #include "firmware/robot.h"
 #include "hal/hal.h"
 
@@ -8,7 +8,7 @@
 
 enum { SCRIPT_MAX = 8 };
 
-int robot_main(int argc, char *argv[]);   /* main, as it is called here */
+int robot_main(int argc, char *argv[]);   /* main of main.c, renamed */
 
 struct hal {
     int open_result, load_result, send_result;
@@ -16,7 +16,7 @@ struct hal {
     struct {
         int result;
         struct input in;
-    } script[SCRIPT_MAX];   /* what is received; behind its end the body is gone */
+    } script[SCRIPT_MAX];   /* what is received; after the last one the body is closed */
     unsigned received, events;
     struct output sent[SCRIPT_MAX];
     unsigned sends, stores;
@@ -30,7 +30,7 @@ int hal_open(struct hal **hal, int argc, char *const argv[])
 {
     (void)argv;
     body.argc = argc;
-    if (body.open_result == 0)
+    if (body.open_result >= 0)
         *hal = &body;
     return body.open_result;
 }
@@ -83,15 +83,15 @@ static int run(void)
     return robot_main(1, argv);
 }
 
-static void comes(int result, struct input in)
+static void queue_input(int result, struct input in)
 {
     body.script[body.events].result = result;
     body.script[body.events++].in = in;
 }
 
-static void command_comes(enum opcode opcode, uint8_t which, uint32_t value)
+static void queue_command(enum opcode opcode, uint8_t which, uint32_t value)
 {
-    comes(INPUT_COMMAND, (struct input){.command = {opcode, which, value}});
+    queue_input(INPUT_COMMAND, (struct input){.command = {opcode, which, value}});
 }
 
 static const struct output *last_sent(void)
@@ -100,10 +100,10 @@ static const struct output *last_sent(void)
     return &body.sent[body.sends - 1];
 }
 
-/* What the robot says of its memory when it is asked for all. */
-static void assert_wakes_with(const uint8_t cells[CELL_COUNT])
+/* Checks the memory in the robot's report. */
+static void assert_starts_with(const uint8_t cells[CELL_COUNT])
 {
-    command_comes(OPCODE_REPORT, 0, 0);
+    queue_command(OPCODE_REPORT, 0, 0);
     TEST_ASSERT_EQUAL(0, run());
     TEST_ASSERT_TRUE(last_sent()->has_report);
     TEST_ASSERT_EQUAL_UINT8_ARRAY(cells, last_sent()->memory, CELL_COUNT);
@@ -111,73 +111,90 @@ static void assert_wakes_with(const uint8_t cells[CELL_COUNT])
 
 static const uint8_t LEARNED[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 2}, NOTHING[CELL_COUNT] = {0};
 
-TEST(a_body_that_cannot_be_had_is_the_exit_code)
+TEST(failed_open_is_the_exit_code)
 {
-    body.open_result = HAL_E_USAGE;
-    TEST_ASSERT_EQUAL(-HAL_E_USAGE, run());
-    TEST_ASSERT_EQUAL(1, body.argc);
+    for (int error = HAL_E_BODY; error >= HAL_E_USAGE; error--) {
+        body.open_result = error;
+        TEST_ASSERT_EQUAL(-error, run());
+        TEST_ASSERT_EQUAL(1, body.argc);
+    }
 }
 
-TEST(a_body_that_is_gone_ends_the_robot_in_order)
+TEST(closed_body_exits_with_0)
 {
     TEST_ASSERT_EQUAL(0, run());
 }
 
-TEST(a_body_that_fails_is_the_exit_code)
+TEST(failed_receive_is_the_exit_code)
 {
-    comes(HAL_E_BODY, (struct input){0});
+    queue_input(HAL_E_BODY, (struct input){0});
     TEST_ASSERT_EQUAL(-HAL_E_BODY, run());
     TEST_ASSERT_EQUAL_UINT(0, body.sends);
 }
 
-TEST(a_failure_to_send_ends_the_robot_too)
+TEST(failed_send_is_the_exit_code)
 {
-    comes(INPUT_SILENCE, (struct input){0});
-    comes(INPUT_SILENCE, (struct input){0});
+    queue_input(INPUT_SILENCE, (struct input){0});
+    queue_input(INPUT_SILENCE, (struct input){0});
     body.send_result = HAL_E_BODY;
     TEST_ASSERT_EQUAL(-HAL_E_BODY, run());
     TEST_ASSERT_EQUAL_UINT(1, body.sends);
 }
 
-TEST(each_input_is_responded_to)
+TEST(error_of_the_body_is_the_exit_code)
 {
-    comes(INPUT_SENSES, (struct input){.senses = {.tick = 3}});
-    comes(INPUT_SILENCE, (struct input){0});
+    queue_input(HAL_E_STORE, (struct input){0});
+    TEST_ASSERT_EQUAL(-HAL_E_STORE, run());
+}
+
+TEST(positive_results_of_the_body_are_success)
+{
+    body.open_result = body.send_result = 2;
+    queue_input(INPUT_SILENCE, (struct input){0});
+    queue_input(INPUT_SILENCE, (struct input){0});
+    TEST_ASSERT_EQUAL(0, run());
+    TEST_ASSERT_EQUAL_UINT(2, body.sends);
+}
+
+TEST(main_sends_a_response_to_every_input)
+{
+    queue_input(INPUT_SENSES, (struct input){.senses = {.tick = 3}});
+    queue_input(INPUT_SILENCE, (struct input){0});
     TEST_ASSERT_EQUAL(0, run());
     TEST_ASSERT_EQUAL_UINT(2, body.sends);
     TEST_ASSERT_EQUAL_UINT8(3, body.sent[0].drive.tick);
     TEST_ASSERT_EQUAL(REASON_SILENCE, body.sent[1].drive.reason);
 }
 
-TEST(it_wakes_with_what_was_stored)
+TEST(stored_memory_is_loaded_at_start)
 {
     memcpy(body.stored, LEARNED, CELL_COUNT);
     body.load_result = 1;
-    assert_wakes_with(LEARNED);
+    assert_starts_with(LEARNED);
 }
 
-TEST(it_wakes_with_nothing_where_nothing_was_stored)
+TEST(memory_is_empty_at_start_when_none_was_stored)
 {
-    assert_wakes_with(NOTHING);
+    assert_starts_with(NOTHING);
 }
 
-TEST(what_cannot_be_loaded_is_learned_anew)
+TEST(failed_load_starts_with_an_empty_memory)
 {
     memcpy(body.stored, LEARNED, CELL_COUNT);
     body.load_result = HAL_E_STORE;
-    assert_wakes_with(NOTHING);
+    assert_starts_with(NOTHING);
 }
 
-TEST(bytes_that_are_no_memory_are_learned_anew)
+TEST(invalid_stored_bytes_start_with_an_empty_memory)
 {
     memset(body.stored, 0xEE, CELL_COUNT);
     body.load_result = 1;
-    assert_wakes_with(NOTHING);
+    assert_starts_with(NOTHING);
 }
 
-TEST(a_changed_memory_is_stored_after_the_answer_has_gone)
+TEST(changed_memory_is_stored_after_the_answer_is_sent)
 {
-    command_comes(OPCODE_WRITE, 0x02, 0x0100);
+    queue_command(OPCODE_WRITE, 0x02, 0x0100);
     TEST_ASSERT_EQUAL(0, run());
     TEST_ASSERT_EQUAL_UINT(1, body.stores);
     TEST_ASSERT_EQUAL_UINT8(1, body.stored[1]);
@@ -185,17 +202,17 @@ TEST(a_changed_memory_is_stored_after_the_answer_has_gone)
     TEST_ASSERT_FALSE(body.stored_before_sent);
 }
 
-TEST(a_robot_that_runs_stores_on_the_move)
+TEST(running_robot_stores_without_at_rest)
 {
-    command_comes(OPCODE_START, 0, 1);
-    command_comes(OPCODE_WRITE, 0x02, 0x0100);
+    queue_command(OPCODE_START, 0, 1);
+    queue_command(OPCODE_WRITE, 0x02, 0x0100);
     TEST_ASSERT_EQUAL(0, run());
     TEST_ASSERT_FALSE(body.stored_at_rest);
 }
 
-TEST(nothing_new_is_not_stored)
+TEST(unchanged_memory_is_not_stored)
 {
-    comes(INPUT_SENSES, (struct input){.senses = {.tick = 0}});
+    queue_input(INPUT_SENSES, (struct input){.senses = {.tick = 0}});
     TEST_ASSERT_EQUAL(0, run());
     TEST_ASSERT_EQUAL_UINT(0, body.stores);
 }

@@ -1,14 +1,39 @@
-#include "firmware/perception.h"
-
-#include "firmware/robot.h"
 #include "tests/test.h"
+#include "firmware/pattern.h"
+#include "firmware/perception.h"
+#include "firmware/robot.h"
+
+enum { RIGHT_BIT = 1, FRONT_RIGHT_BIT = 2, FRONT_BIT = 4, FRONT_LEFT_BIT = 8, LEFT_BIT = 16 };
+
+TEST(front_sensors_have_bits_0_to_2)
+{
+    TEST_ASSERT_EQUAL_UINT8(1, pattern_of(FRONT_RIGHT_BIT));
+    TEST_ASSERT_EQUAL_UINT8(2, pattern_of(FRONT_BIT));
+    TEST_ASSERT_EQUAL_UINT8(4, pattern_of(FRONT_LEFT_BIT));
+}
+
+TEST(side_sensors_and_unused_bits_change_no_pattern)
+{
+    for (unsigned front = 0; front < 8; front++) {
+        TEST_ASSERT_EQUAL_UINT8(front, pattern_of((uint8_t)(front << 1 | RIGHT_BIT | LEFT_BIT)));
+        TEST_ASSERT_EQUAL_UINT8(front, pattern_of((uint8_t)(front << 1 | 0xE0)));
+    }
+}
+
+TEST(pattern_count_is_the_number_of_triggered_sensors)
+{
+    static const uint8_t counts[8] = {0, 1, 1, 2, 1, 2, 2, 3};
+
+    for (uint8_t pattern = 0; pattern < 8; pattern++)
+        TEST_ASSERT_EQUAL_UINT8(counts[pattern], pattern_count(pattern));
+}
 
 enum { FRONT = FEEL_FRONT, LEFT = FEEL_LEFT, ALL = 31, LIMIT = 32 };
 
 static struct perception perception;
 static struct config config;
 
-void setUp(void)
+BEFORE_EACH(perception)
 {
     perception_start(&perception);
     config_reset(&config);
@@ -30,14 +55,14 @@ static uint8_t believed(uint8_t feel)
     return perception_believed(&perception, &config, feel);
 }
 
-TEST(by_default_all_is_believed_at_once)
+TEST(perception_believes_all_sensors_by_default)
 {
     decide(ALL, 300);
     for (uint8_t feel = 0; feel <= ALL; feel++)
         TEST_ASSERT_EQUAL_HEX8(feel, believed(filtered(feel)));
 }
 
-TEST(filtered_each_bit_is_what_two_of_three_ticks_say)
+TEST(filter_takes_the_majority_of_three_ticks)
 {
     config.value[FILTER] = 1;
     for (unsigned cases = 0; cases < 8; cases++) {
@@ -52,7 +77,7 @@ TEST(filtered_each_bit_is_what_two_of_three_ticks_say)
     }
 }
 
-TEST(a_sensor_is_distrusted_after_the_limit_of_decisions_in_a_row)
+TEST(sensor_is_distrusted_after_the_limit_of_decisions_in_a_row)
 {
     config.value[DISTRUST] = LIMIT;
     decide(FRONT, LIMIT - 1);
@@ -61,21 +86,21 @@ TEST(a_sensor_is_distrusted_after_the_limit_of_decisions_in_a_row)
     TEST_ASSERT_EQUAL_HEX8(0, believed(FRONT));
 }
 
-TEST(the_other_sensors_are_still_believed)
+TEST(other_sensors_are_still_believed)
 {
     config.value[DISTRUST] = LIMIT;
     decide(FRONT, LIMIT);
     TEST_ASSERT_EQUAL_HEX8(ALL & ~FRONT, believed(ALL));
 }
 
-TEST(it_stays_distrusted_however_long_it_goes_on)
+TEST(stuck_sensor_stays_distrusted)
 {
     config.value[DISTRUST] = 255;
     decide(FRONT, 1000);
     TEST_ASSERT_EQUAL_HEX8(0, believed(FRONT));
 }
 
-TEST(one_quiet_decision_restores_trust)
+TEST(quiet_decision_restores_trust)
 {
     config.value[DISTRUST] = LIMIT;
     decide(FRONT, LIMIT);
@@ -83,7 +108,7 @@ TEST(one_quiet_decision_restores_trust)
     TEST_ASSERT_EQUAL_HEX8(FRONT, believed(FRONT));
 }
 
-/* The whole robot, on wheels that do as they are told. */
+/* The whole robot, on wheels that obey. */
 
 static struct robot robot;
 static struct senses senses;
@@ -117,7 +142,7 @@ static struct drive step(uint8_t feel)
     return drive;
 }
 
-TEST(a_glitch_of_one_tick_does_not_end_a_filtered_step)
+TEST(filter_ignores_a_glitch_of_one_tick_in_a_step)
 {
     start(FILTER, 1);
     TEST_ASSERT_EQUAL(REASON_WANDER, step(0).reason);
@@ -125,7 +150,7 @@ TEST(a_glitch_of_one_tick_does_not_end_a_filtered_step)
     TEST_ASSERT_EQUAL(200, step(0).left_mm_s);
 }
 
-TEST(a_glitch_of_one_tick_ends_a_step_by_default)
+TEST(glitch_of_one_tick_ends_a_step_without_filter)
 {
     start(FILTER, 0);
     TEST_ASSERT_EQUAL(REASON_WANDER, step(0).reason);
@@ -148,19 +173,19 @@ static unsigned ticks_at_rest_in_a_trial(void)
     }
 }
 
-TEST(filtered_a_trial_is_judged_after_two_ticks_at_rest)
+TEST(filtered_trial_is_judged_after_two_ticks_at_rest)
 {
     start(FILTER, 1);
     TEST_ASSERT_EQUAL_UINT(2, ticks_at_rest_in_a_trial());
 }
 
-TEST(by_default_a_trial_is_judged_at_once)
+TEST(unfiltered_trial_is_judged_at_once)
 {
     start(FILTER, 0);
     TEST_ASSERT_EQUAL_UINT(0, ticks_at_rest_in_a_trial());
 }
 
-static unsigned ticks_until_it_drives_on(void)
+static unsigned ticks_until_next_step(void)
 {
     unsigned ticks = 0;
 
@@ -169,28 +194,28 @@ static unsigned ticks_until_it_drives_on(void)
     return ticks;
 }
 
-TEST(a_sensor_that_is_stuck_blocks_no_robot_that_distrusts_it)
+TEST(stuck_sensor_does_not_block_a_robot_that_distrusts_it)
 {
     start(DISTRUST, LIMIT);
-    ticks_until_it_drives_on();
+    ticks_until_next_step();
 }
 
-TEST(a_start_trusts_again)
+TEST(start_resets_the_distrust_of_sensors)
 {
     start(DISTRUST, LIMIT);
-    ticks_until_it_drives_on();
+    ticks_until_next_step();
     start(DISTRUST, LIMIT);
     TEST_ASSERT_EQUAL(REASON_TRIAL, step(FRONT).reason);
 }
 
-TEST(while_no_sensor_is_distrusted_none_is_counted)
+TEST(decisions_are_not_counted_while_distrust_is_off)
 {
     decide(ALL, 300);
     config.value[DISTRUST] = 1;
     TEST_ASSERT_EQUAL_HEX8(ALL, believed(ALL));
 }
 
-TEST(a_limit_of_one_distrusts_after_the_first_decision)
+TEST(limit_of_one_distrusts_after_the_first_decision)
 {
     config.value[DISTRUST] = 1;
     decide(FRONT, 1);
@@ -204,7 +229,7 @@ TEST(every_sensor_can_be_distrusted)
     TEST_ASSERT_EQUAL_HEX8(0, believed(ALL));
 }
 
-TEST(after_a_quiet_decision_the_count_begins_at_nothing)
+TEST(quiet_decision_resets_the_count)
 {
     config.value[DISTRUST] = LIMIT;
     decide(FRONT, LIMIT);
@@ -213,7 +238,7 @@ TEST(after_a_quiet_decision_the_count_begins_at_nothing)
     TEST_ASSERT_EQUAL_HEX8(FRONT, believed(FRONT));
 }
 
-TEST(a_new_start_trusts_every_sensor)
+TEST(perception_start_trusts_every_sensor)
 {
     config.value[DISTRUST] = LIMIT;
     decide(ALL, LIMIT);

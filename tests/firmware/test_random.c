@@ -12,8 +12,8 @@ void setUp(void)
     random_seed(&dice, 1);
 }
 
-/* The authors' own C code gives these numbers for the state 1, 2, and so did a rendering in Python. */
-TEST(the_sequence_is_that_of_xoroshiro64_star_star)
+/* From the authors' own C code for the state 1, 2; a Python version gave the same. */
+TEST(sequence_is_that_of_xoroshiro64_star_star)
 {
     static const uint32_t published[10] = {3802928447u, 813792938u,  1618621494u, 2955957307u, 3252880261u,
                                            1129983909u, 2539651700u, 1327610908u, 1757650787u, 2763843748u};
@@ -41,7 +41,7 @@ static const struct {
 
 enum { ANSWER_COUNT = sizeof ANSWERS / sizeof ANSWERS[0] };
 
-TEST(a_seed_gives_the_known_state_and_sequence)
+TEST(seed_gives_the_reference_state_and_sequence)
 {
     for (unsigned i = 0; i < ANSWER_COUNT; i++) {
         random_seed(&dice, ANSWERS[i].seed);
@@ -51,7 +51,7 @@ TEST(a_seed_gives_the_known_state_and_sequence)
     }
 }
 
-TEST(draws_are_the_known_ones)
+TEST(draws_match_the_reference)
 {
     static const uint8_t below[12] = {2, 3, 10, 60, 129, 200, 255, 1, 2, 3, 10, 60};
 
@@ -74,7 +74,7 @@ TEST(neighbouring_seeds_give_different_sequences)
 }
 
 /* The first choice that a robot makes: seeds 0, 1, 2.. must not all make the same. */
-TEST(the_first_draw_of_neighbouring_seeds_is_fair)
+TEST(first_draw_of_neighbouring_seeds_is_fair)
 {
     unsigned ones = 0;
 
@@ -86,7 +86,7 @@ TEST(the_first_draw_of_neighbouring_seeds_is_fair)
 }
 
 /* These two seeds make one word of the state 0. */
-TEST(no_seed_makes_the_dice_stand_still)
+TEST(no_seed_gives_an_all_zero_state)
 {
     static const uint32_t seeds[2] = {0u - 0x9e3779b9u, 0u - 0x3c6ef372u};
 
@@ -96,7 +96,7 @@ TEST(no_seed_makes_the_dice_stand_still)
     }
 }
 
-TEST(below_n_reaches_each_number_and_no_other)
+TEST(random_below_reaches_exactly_0_to_n_minus_1)
 {
     for (unsigned n = 1; n <= UINT8_MAX; n++) {
         bool seen[UINT8_MAX + 1] = {false};
@@ -121,8 +121,8 @@ static void assert_fair(uint8_t n)
         TEST_ASSERT_UINT_WITHIN_MESSAGE(FIVE_DEVIATIONS, EACH, counts[value], text);
 }
 
-/* 256 % 60 is 16: a plain remainder would draw 0..15 a quarter too often. Of 256 / 129 half of what is drawn is thrown away. */
-TEST(of_any_number_of_choices_each_is_as_likely)
+/* 256 % 60 is 16: a plain remainder would draw 0..15 a quarter too often. Below 129, half of the draws are rejected. */
+TEST(random_below_is_uniform)
 {
     static const uint8_t choices[] = {2, 10, 60, 129, 255};
 

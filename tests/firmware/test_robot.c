@@ -1,16 +1,19 @@
-/* What it drives, tick by tick. */
-#include "firmware/robot.h"
-#include "tests/test.h"
+/* The robot's drives, tick by tick. */
 #include "robot_rig.h"
 
-TEST(after_power_up_it_rests)
+#include "tests/test.h"
+#include "firmware/robot.h"
+
+#include <string.h>
+
+TEST(robot_rests_after_power_up)
 {
     robot_init(&robot, 1);
     feel(CLEAR);
     assert_at_rest();
 }
 
-TEST(after_power_up_it_knows_nothing)
+TEST(memory_is_empty_after_power_up)
 {
     static const uint8_t nothing[CELL_COUNT] = {0};
 
@@ -18,13 +21,13 @@ TEST(after_power_up_it_knows_nothing)
     TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, robot.brain.memory.cell, CELL_COUNT);
 }
 
-TEST(a_drive_answers_the_tick_of_its_senses)
+TEST(drive_echoes_the_tick_of_its_senses)
 {
     sense((struct senses){.tick = 255});
     TEST_ASSERT_EQUAL_UINT8(255, out.drive.tick);
 }
 
-TEST(a_clear_way_is_driven)
+TEST(clear_way_drives_both_wheels_forward)
 {
     feel(CLEAR);
     TEST_ASSERT_EQUAL(REASON_WANDER, out.drive.reason);
@@ -32,15 +35,15 @@ TEST(a_clear_way_is_driven)
     TEST_ASSERT_EQUAL_INT16(out.drive.left_mm_s, out.drive.right_mm_s);
 }
 
-TEST(a_remembered_left_turns_the_left_wheel_back)
+TEST(remembered_left_turns_the_left_wheel_backward)
 {
-    learned(SIDE_LEFT);
+    teach(SIDE_LEFT);
     feel(FRONT);
     TEST_ASSERT_LESS_THAN_INT16(0, out.drive.left_mm_s);
     TEST_ASSERT_GREATER_THAN_INT16(0, out.drive.right_mm_s);
 }
 
-TEST(the_wheels_stop_in_the_tick_that_brings_an_obstacle)
+TEST(wheels_stop_in_the_tick_that_senses_an_obstacle)
 {
     feel(CLEAR);
     sense((struct senses){.feel = FRONT, .look = true, .beacon_mm = 100});   /* the step ends, and it eats */
@@ -62,7 +65,7 @@ TEST(food_is_eaten_for_exactly_one_tick)
     TEST_ASSERT_FALSE(out.drive.eat);
 }
 
-TEST(trials_eat_nothing)
+TEST(trials_do_not_eat)
 {
     for (unsigned i = 0; i < MANY; i++) {
         feel(FRONT);
@@ -70,14 +73,14 @@ TEST(trials_eat_nothing)
     }
 }
 
-TEST(the_drive_tells_the_repeat_count)
+TEST(drive_reports_the_repeat_count)
 {
-    learned(SIDE_LEFT);
+    teach(SIDE_LEFT);
     feel(FRONT);
     TEST_ASSERT_EQUAL_UINT8(1, out.drive.repeat_count);
 }
 
-TEST(an_action_keeps_its_number_while_it_lasts)
+TEST(action_number_is_constant_during_an_action)
 {
     uint8_t number;
 
@@ -87,7 +90,7 @@ TEST(an_action_keeps_its_number_while_it_lasts)
     TEST_ASSERT_EQUAL_UINT8(number, out.drive.action);
 }
 
-TEST(actions_are_numbered_0_to_127_round_and_round)
+TEST(action_number_wraps_from_127_to_0)
 {
     uint8_t last = out.drive.action;
     unsigned changes = 0;
@@ -105,7 +108,7 @@ TEST(actions_are_numbered_0_to_127_round_and_round)
 
 enum { RUN_TICKS = 300 };
 
-/* Half a minute of robot time with others to hear, but for what counts since power-up. */
+/* Outputs of 30 s with another robot's frames, without the uptime. */
 static void run(struct output told[RUN_TICKS])
 {
     static const struct input peer = {.peer = {.cell = {0, 1, 2, 1}}};
@@ -122,7 +125,7 @@ static void run(struct output told[RUN_TICKS])
     }
 }
 
-TEST(a_robot_that_ran_before_runs_as_a_new_one)
+TEST(restarted_robot_runs_like_a_new_one)
 {
     struct output fresh[RUN_TICKS], again[RUN_TICKS];
 
@@ -135,4 +138,154 @@ TEST(a_robot_that_ran_before_runs_as_a_new_one)
         run(again);
         TEST_ASSERT_EQUAL_MEMORY(fresh, again, sizeof fresh);
     }
+}
+
+/* Answers to commands, and when the memory is sent and stored. */
+
+TEST(command_yields_an_answer_and_no_drive)
+{
+    command(OPCODE_RESUME, 0, 0);
+    TEST_ASSERT_TRUE(out.has_answer);
+    TEST_ASSERT_EQUAL(RESULT_DONE, out.answer);
+    TEST_ASSERT_FALSE(out.has_drive);
+}
+
+TEST(rejected_command_is_answered)
+{
+    command(OPCODE_SET, PARAMETER_COUNT, 0);
+    TEST_ASSERT_TRUE(out.has_answer);
+    TEST_ASSERT_EQUAL(RESULT_UNKNOWN_PARAMETER, out.answer);
+}
+
+TEST(senses_yield_a_drive_and_no_answer)
+{
+    feel(CLEAR);
+    TEST_ASSERT_TRUE(out.has_drive);
+    TEST_ASSERT_FALSE(out.has_answer);
+}
+
+TEST(written_memory_is_sent_and_stored_once)
+{
+    command(OPCODE_WRITE, 1u << PATTERN_FRONT, SIDE_LEFT << 8 * PATTERN_FRONT);
+    TEST_ASSERT_TRUE(out.has_memory);
+    TEST_ASSERT_TRUE(out.store);
+    TEST_ASSERT_EQUAL_UINT8(SIDE_LEFT, out.memory[PATTERN_FRONT]);
+    feel(CLEAR);
+    TEST_ASSERT_FALSE(out.has_memory);
+    TEST_ASSERT_FALSE(out.store);
+}
+
+/* A trial of 45 degrees is 1257 counts of difference between the wheels. */
+TEST(lesson_is_sent_and_stored_when_learned)
+{
+    feel(FRONT);
+    for (uint8_t tick = 5; tick <= 10; tick += 5) {
+        uint16_t rolled = (uint16_t)(tick == 5 ? 314 : 628);
+        uint16_t back = (uint16_t)(ODOMETER_SPAN - rolled);
+        bool left = out.drive.left_mm_s < 0;
+
+        sense((struct senses){.tick = tick, .odometer_left = left ? back : rolled, .odometer_right = left ? rolled : back});
+    }
+    TEST_ASSERT_TRUE(out.has_memory);
+    TEST_ASSERT_TRUE(out.store);
+    TEST_ASSERT_NOT_EQUAL_UINT8(SIDE_NOTHING, out.memory[PATTERN_FRONT]);
+}
+
+TEST(fixed_memory_is_sent_but_not_stored)
+{
+    command(OPCODE_START, PROFILE_FIXED, 1);
+    TEST_ASSERT_TRUE(out.has_answer);
+    TEST_ASSERT_TRUE(out.has_memory);
+    TEST_ASSERT_FALSE(out.store);
+    TEST_ASSERT_EQUAL_UINT8(SIDE_LEFT, out.memory[PATTERN_FRONT]);
+}
+
+TEST(write_to_a_fixed_robot_is_not_stored)
+{
+    command(OPCODE_START, PROFILE_FIXED, 1);
+    command(OPCODE_WRITE, 1u << PATTERN_FRONT, SIDE_RIGHT << 8 * PATTERN_FRONT);
+    TEST_ASSERT_EQUAL_UINT8(SIDE_RIGHT, out.memory[PATTERN_FRONT]);
+    TEST_ASSERT_FALSE(out.store);
+}
+
+TEST(report_stores_no_memory)
+{
+    command(OPCODE_STOP, 0, 0);
+    TEST_ASSERT_FALSE(out.store);
+}
+
+/* Silence and stop: the wheels rest, and the action continues afterwards. */
+
+TEST(silence_rests_the_wheels_and_is_reported)
+{
+    feel(CLEAR);
+    silence();
+    assert_at_rest();
+    TEST_ASSERT_EQUAL(REASON_SILENCE, out.drive.reason);
+    TEST_ASSERT_TRUE(out.silent);
+}
+
+TEST(drive_in_silence_repeats_tick_and_action)
+{
+    uint8_t number;
+
+    sense((struct senses){.tick = 255});
+    number = out.drive.action;
+    silence();
+    TEST_ASSERT_EQUAL_UINT8(255, out.drive.tick);
+    TEST_ASSERT_EQUAL_UINT8(number, out.drive.action);
+}
+
+TEST(silence_changes_only_its_count)
+{
+    struct robot before;
+
+    feel(CLEAR);
+    before = robot;
+    silence();
+    TEST_ASSERT_EQUAL_UINT8(before.silences + 1, robot.silences);
+    before.silences = robot.silences;
+    TEST_ASSERT_EQUAL_MEMORY(&before, &robot, sizeof robot);
+}
+
+TEST(action_continues_after_silence)
+{
+    struct drive expected;
+    struct robot before;
+
+    feel(CLEAR);
+    before = robot;
+    feel(CLEAR);
+    expected = out.drive;
+    robot = before;
+    silence();
+    feel(CLEAR);
+    TEST_ASSERT_EQUAL_INT16(expected.left_mm_s, out.drive.left_mm_s);
+    TEST_ASSERT_EQUAL_UINT8(expected.action, out.drive.action);
+    TEST_ASSERT_EQUAL(expected.reason, out.drive.reason);
+}
+
+TEST(stopped_robot_reports_rest_in_silence)
+{
+    command(OPCODE_STOP, 0, 0);
+    silence();
+    assert_at_rest();
+}
+
+TEST(stop_rests_the_wheels_at_once)
+{
+    feel(CLEAR);
+    command(OPCODE_STOP, 0, 0);
+    assert_at_rest();
+    TEST_ASSERT_EQUAL(REASON_STOP, out.drive.reason);
+}
+
+TEST(drive_after_stop_repeats_tick_and_action)
+{
+    sense((struct senses){.tick = 77});
+    command(OPCODE_STOP, 0, 0);
+    assert_at_rest();
+    TEST_ASSERT_EQUAL(REASON_STOP, out.drive.reason);
+    TEST_ASSERT_EQUAL_UINT8(77, out.drive.tick);
+    TEST_ASSERT_EQUAL_UINT8(1, out.drive.action);
 }

@@ -1,9 +1,12 @@
-/* What a robot tells of itself, and when. */
-#include "firmware/robot.h"
-#include "tests/test.h"
+/* Reports: what they contain, and when they are sent. */
 #include "robot_rig.h"
 
-TEST(every_tenth_silence_brings_a_report)
+#include "tests/test.h"
+#include "firmware/robot.h"
+
+#include <stdlib.h>
+
+TEST(report_is_sent_every_tenth_silence)
 {
     for (unsigned i = 1; i <= 100; i++) {
         silence();
@@ -11,7 +14,7 @@ TEST(every_tenth_silence_brings_a_report)
     }
 }
 
-TEST(senses_begin_the_count_of_silences_anew)
+TEST(senses_reset_the_count_of_silences)
 {
     for (unsigned i = 0; i < 9; i++)
         silence();
@@ -20,7 +23,7 @@ TEST(senses_begin_the_count_of_silences_anew)
     TEST_ASSERT_FALSE(out.has_report);
 }
 
-TEST(a_report_comes_once_a_second)
+TEST(report_is_sent_once_a_second)
 {
     for (unsigned tick = 1; tick <= MANY; tick++) {
         feel(CLEAR);
@@ -28,9 +31,9 @@ TEST(a_report_comes_once_a_second)
     }
 }
 
-TEST(a_report_has_the_memory)
+TEST(report_contains_the_memory)
 {
-    learned(SIDE_RIGHT);
+    teach(SIDE_RIGHT);
     for (unsigned tick = 1; tick <= TICKS_PER_SECOND; tick++)
         feel(CLEAR);
     TEST_ASSERT_TRUE(out.has_report);
@@ -38,7 +41,7 @@ TEST(a_report_has_the_memory)
     TEST_ASSERT_EQUAL_UINT8(SIDE_RIGHT, out.memory[PATTERN_FRONT]);
 }
 
-TEST(what_a_report_tells_is_there_when_none_is_due)
+TEST(report_content_is_current_when_no_report_is_due)
 {
     robot.uptime_s = 77;
     feel(CLEAR);
@@ -48,7 +51,7 @@ TEST(what_a_report_tells_is_there_when_none_is_due)
     TEST_ASSERT_EQUAL_UINT8(PROFILE_ARTICLE, out.report.profile);
 }
 
-TEST(a_stopped_robot_reports_too)
+TEST(stopped_robot_sends_reports)
 {
     robot_init(&robot, 1);
     for (unsigned tick = 1; tick <= TICKS_PER_SECOND; tick++)
@@ -56,7 +59,7 @@ TEST(a_stopped_robot_reports_too)
     TEST_ASSERT_TRUE(out.has_report);
 }
 
-TEST(reports_keep_to_the_second_with_any_tick)
+TEST(report_interval_is_a_second_for_any_tick)
 {
     unsigned reports = 0;
 
@@ -69,7 +72,7 @@ TEST(reports_keep_to_the_second_with_any_tick)
 }
 
 /* 34 ticks of 30 ms are 1,020 ms: 20 of these belong to the next second. */
-TEST(where_no_tick_ends_with_a_second_the_next_one_reports)
+TEST(report_is_sent_in_the_first_tick_after_the_second)
 {
     command(OPCODE_SET, TICK_MS, 30);
     for (unsigned tick = 1; tick <= 134; tick++) {
@@ -79,8 +82,8 @@ TEST(where_no_tick_ends_with_a_second_the_next_one_reports)
     TEST_ASSERT_EQUAL_UINT32(4, out.report.uptime_s);
 }
 
-/* The same ticks to the report as of a robot that was never started before. */
-TEST(a_start_begins_a_second)
+/* The report comes after as many ticks as of a robot that was never started before. */
+TEST(start_of_a_stopped_robot_restarts_the_report_interval)
 {
     static const uint8_t tick_ms[] = {20, 30, 100};
 
@@ -97,7 +100,7 @@ TEST(a_start_begins_a_second)
     }
 }
 
-TEST(the_second_of_a_robot_that_runs_goes_on)
+TEST(start_of_a_running_robot_keeps_the_report_interval)
 {
     for (unsigned tick = 1; tick <= TICKS_PER_SECOND; tick++) {
         command(OPCODE_START, PROFILE_ARTICLE, 1);
@@ -131,7 +134,7 @@ TEST(stop_is_answered_with_a_report)
     TEST_ASSERT_FALSE(out.report.running);
 }
 
-TEST(a_report_is_made_when_it_is_asked_for)
+TEST(report_command_yields_a_report)
 {
     command(OPCODE_REPORT, 0, 0);
     TEST_ASSERT_TRUE(out.has_answer);
@@ -141,14 +144,14 @@ TEST(a_report_is_made_when_it_is_asked_for)
     TEST_ASSERT_FALSE(out.has_drive);
 }
 
-TEST(the_report_tells_a_frozen_robot)
+TEST(report_shows_whether_learning_is_frozen)
 {
     command(OPCODE_FREEZE, 1, 0);
     command(OPCODE_STOP, 0, 0);
     TEST_ASSERT_TRUE(out.report.frozen);
 }
 
-TEST(the_report_tells_the_profile)
+TEST(report_shows_the_profile)
 {
     for (uint8_t profile = 0; profile < PROFILE_COUNT; profile++) {
         command(OPCODE_START, profile, 1);
@@ -157,10 +160,134 @@ TEST(the_report_tells_the_profile)
     }
 }
 
-TEST(every_byte_of_the_memory_is_told)
+TEST(report_contains_every_byte_of_the_memory)
 {
     command(OPCODE_START, PROFILE_FIVE, 1);
     robot.brain.memory = (struct memory){{0xFF, 1, 2, 3, 4, 5, 6, 7}};
     command(OPCODE_REPORT, 0, 0);
     TEST_ASSERT_EQUAL_HEX8_ARRAY(robot.brain.memory.cell, out.memory, CELL_COUNT);
+}
+
+/* A body that restarts in the middle of a turn: its odometers restart at 0, and the turn continues. */
+
+enum {
+    TRIAL_COUNTS = 1257, TWO_DEGREES = 56,   /* left minus right wheel: 45 degrees are 1256.6 counts, one degree 27.9 */
+    SILENCE_MS = 100, TICK = 20
+};
+
+static const unsigned OUTAGES_MS[] = {50, 100, 300, 1000};
+
+/* The counts that the body has turned since these senses, right positive. */
+static int turned(const struct senses *from)
+{
+    int left = (wheels.odometer_left - from->odometer_left) & (ODOMETER_SPAN - 1);
+    int right = (wheels.odometer_right - from->odometer_right) & (ODOMETER_SPAN - 1);
+
+    return (left < ODOMETER_SPAN / 2 ? left : left - ODOMETER_SPAN)
+        - (right < ODOMETER_SPAN / 2 ? right : right - ODOMETER_SPAN);
+}
+
+/* A body whose odometers show these when a trial begins obeys for some ticks; the senses after that are yet to come.
+ * Returns how far it has turned. */
+static int turn_for(unsigned ticks, uint16_t left, uint16_t right)
+{
+    struct senses begun;
+
+    setUp();
+    wheels.odometer_left = left;
+    wheels.odometer_right = right;
+    obey(FRONT);
+    begun = wheels;
+    while (ticks-- > 0)
+        obey(FRONT);
+    return turned(&begun);
+}
+
+static void interrupt_for(unsigned ms)
+{
+    for (unsigned silent_ms = SILENCE_MS; silent_ms <= ms; silent_ms += SILENCE_MS)
+        silence();
+    wheels.tick = (uint8_t)(wheels.tick + ms / TICK);
+}
+
+/* Continues the trial with a body whose odometers show these. Returns how far that turns it. */
+static int continue_turn_from(uint16_t left, uint16_t right)
+{
+    const struct senses anew = {.odometer_left = left, .odometer_right = right};
+    const uint8_t trial = robot.action;
+
+    wheels.odometer_left = left;
+    wheels.odometer_right = right;
+    sense(wheels);
+    while (robot.action == trial)
+        obey(FRONT);
+    return turned(&anew);
+}
+
+TEST(restarted_body_completes_the_turn_exactly)
+{
+    for (unsigned i = 0; i < sizeof OUTAGES_MS / sizeof *OUTAGES_MS; i++)
+        for (uint16_t left = 7; left < ODOMETER_SPAN; left += 130)
+            for (uint16_t right = 5; right < ODOMETER_SPAN; right += 170) {
+                int way = turn_for(5, left, right);
+
+                interrupt_for(OUTAGES_MS[i]);
+                way += continue_turn_from(0, 0);
+                TEST_ASSERT_INT_WITHIN(TWO_DEGREES, TRIAL_COUNTS, abs(way));
+            }
+}
+
+TEST(restart_of_the_body_is_a_contradiction)
+{
+    (void)turn_for(5, 300, 300);
+    interrupt_for(300);
+    wheels.odometer_left = wheels.odometer_right = 0;
+    sense(wheels);
+    TEST_ASSERT_TRUE(out.contradiction);
+}
+
+/* A body holds its last drive for 100 ms, and then stops. */
+TEST(motion_during_silence_counts_toward_the_turn)
+{
+    for (unsigned i = 0; i < sizeof OUTAGES_MS / sizeof *OUTAGES_MS; i++) {
+        int way = turn_for(2, 1000, 1000);
+        int held = (int)(OUTAGES_MS[i] < SILENCE_MS ? OUTAGES_MS[i] : SILENCE_MS) / TICK * (out.drive.left_mm_s / 5);
+
+        interrupt_for(OUTAGES_MS[i]);
+        way += 2 * held + continue_turn_from((uint16_t)(wheels.odometer_left + held), (uint16_t)(wheels.odometer_right - held));
+        TEST_ASSERT_INT_WITHIN(TWO_DEGREES, TRIAL_COUNTS, abs(way));
+        TEST_ASSERT_FALSE(out.contradiction);
+    }
+}
+
+/* At any tick number: a restarted body may begin with any. */
+TEST(motion_beyond_the_hold_time_is_a_contradiction)
+{
+    for (unsigned silences = 0; silences <= 21; silences++) {
+        setUp();
+        obey(CLEAR);
+        interrupt_for(SILENCE_MS * silences);
+        wheels.odometer_left = wheels.odometer_right = 500;
+        wheels.tick += 200;
+        sense(wheels);
+        TEST_ASSERT_TRUE(out.contradiction);
+    }
+}
+
+TEST(odometers_that_stay_at_0_are_no_restart)
+{
+    obey(CLEAR);
+    interrupt_for(300);
+    wheels.odometer_left = wheels.odometer_right = 0;
+    sense(wheels);
+    TEST_ASSERT_FALSE(out.contradiction);
+}
+
+TEST(stopping_the_robot_clears_the_backlog)
+{
+    robot.motion.apart.counts = robot.motion.together.counts = 100;
+    command(OPCODE_STOP, 0, 0);
+    TEST_ASSERT_EQUAL_INT32(0, robot.motion.apart.counts);
+    TEST_ASSERT_EQUAL_INT32(0, robot.motion.together.counts);
+    TEST_ASSERT_FALSE(robot.motion.referenced);
 }

@@ -2,7 +2,7 @@
 #include "tests/test.h"
 #include "robot_rig.h"
 
-TEST(wheels_that_obey_are_no_fault)
+TEST(obeying_wheels_are_not_denied)
 {
     for (unsigned i = 0; i < MANY; i++) {
         obey(i / 100 % 2 ? FRONT : CLEAR);
@@ -25,7 +25,7 @@ TEST(wheels_that_do_not_obey_stop_the_robot)
     TEST_ASSERT_EQUAL(REASON_STOP, out.drive.reason);
 }
 
-TEST(from_wheels_that_do_not_obey_nothing_is_learned)
+TEST(robot_learns_nothing_from_stuck_wheels)
 {
     static const uint8_t nothing[CELL_COUNT] = {0};
     unsigned ticks = 0;
@@ -37,7 +37,7 @@ TEST(from_wheels_that_do_not_obey_nothing_is_learned)
 }
 
 /* A trial with wheels or odometers that make a multiple, or a part, of what they are told. */
-static void try_with(unsigned times, unsigned of)
+static void assert_denied_with(unsigned times, unsigned of)
 {
     static const uint8_t nothing[CELL_COUNT] = {0};
 
@@ -50,21 +50,21 @@ static void try_with(unsigned times, unsigned of)
     TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, robot.brain.memory.cell, CELL_COUNT);
 }
 
-TEST(from_wheels_that_turn_at_half_the_speed_nothing_is_learned)
+TEST(robot_learns_nothing_from_wheels_at_half_speed)
 {
-    try_with(1, 2);
+    assert_denied_with(1, 2);
 }
 
-TEST(from_odometers_that_count_a_multiple_nothing_is_learned)
+TEST(robot_learns_nothing_from_odometers_that_count_a_multiple)
 {
     for (unsigned times = 2; times <= 4; times++) {
         setUp();
-        try_with(times, 1);
+        assert_denied_with(times, 1);
     }
 }
 
-/* With food ahead a searcher takes step after step, and never the turn that would tell. */
-TEST(a_dead_motor_stops_a_robot_that_only_takes_steps)
+/* With food ahead a searcher only steps, and makes no turn that could be judged. */
+TEST(dead_motor_stops_a_robot_that_only_steps)
 {
     unsigned denials = 0, ticks = 0;
 
@@ -81,7 +81,7 @@ TEST(a_dead_motor_stops_a_robot_that_only_takes_steps)
     assert_at_rest();
 }
 
-TEST(a_turn_that_was_denied_is_not_forgiven_for_steps)
+TEST(steps_do_not_clear_the_denial_of_a_turn)
 {
     command(OPCODE_START, PROFILE_SEARCHER, 1);
     obey(FRONT);
@@ -94,7 +94,7 @@ TEST(a_turn_that_was_denied_is_not_forgiven_for_steps)
     TEST_ASSERT_EQUAL_UINT8(1, robot.denials);
 }
 
-TEST(a_step_that_was_denied_is_forgiven_for_steps)
+TEST(steps_clear_the_denial_of_a_step)
 {
     command(OPCODE_START, PROFILE_SEARCHER, 1);
     wheels.look = true;
@@ -108,7 +108,7 @@ TEST(a_step_that_was_denied_is_forgiven_for_steps)
     TEST_ASSERT_EQUAL_UINT8(0, robot.denials);
 }
 
-TEST(wheels_that_obey_again_are_forgiven)
+TEST(obeying_wheels_clear_denials)
 {
     while (!out.denied)
         sense((struct senses){.tick = wheels.tick++, .feel = FRONT});
@@ -118,7 +118,7 @@ TEST(wheels_that_obey_again_are_forgiven)
     TEST_ASSERT_TRUE(robot.running);
 }
 
-TEST(food_at_no_distance_is_not_eaten)
+TEST(food_at_distance_0_is_a_contradiction_and_not_eaten)
 {
     sense((struct senses){.tick = 0, .look = true, .beacon_mm = 0});
     TEST_ASSERT_TRUE(out.contradiction);
@@ -130,19 +130,19 @@ TEST(food_at_no_distance_is_not_eaten)
     }
 }
 
-TEST(a_distance_to_no_food_is_a_contradiction)
+TEST(distance_without_food_is_a_contradiction)
 {
     sense((struct senses){.beacon_mm = 100});
     TEST_ASSERT_TRUE(out.contradiction);
 }
 
-/* A body that has begun anew counts from 0. */
-TEST(odometers_that_jump_turn_nothing)
+/* A restarted body counts from 0. */
+TEST(odometer_jump_does_not_change_the_turn)
 {
     int32_t before;
 
     wheels.odometer_left = wheels.odometer_right = 2000;
-    learned(SIDE_LEFT);
+    teach(SIDE_LEFT);
     for (unsigned i = 0; i < 3; i++)
         obey(FRONT);
     before = robot.motion.turn_left;
@@ -153,7 +153,7 @@ TEST(odometers_that_jump_turn_nothing)
     TEST_ASSERT_EQUAL_INT32(before, robot.motion.turn_left);
 }
 
-/* Returns how many of its actions were denied before. */
+/* Returns how many actions were denied until then. */
 static unsigned stand_until_it_stops(void)
 {
     unsigned denials = 0;
@@ -166,7 +166,7 @@ static unsigned stand_until_it_stops(void)
     return denials;
 }
 
-TEST(each_start_gives_its_wheels_three_actions)
+TEST(start_allows_three_denied_actions)
 {
     for (unsigned starts = 0; starts < 3; starts++) {
         command(OPCODE_START, PROFILE_ARTICLE, 1);
@@ -174,8 +174,8 @@ TEST(each_start_gives_its_wheels_three_actions)
     }
 }
 
-/* However often it is: a count that went round would trust them three times more. */
-TEST(resumed_with_wheels_that_still_do_not_obey_it_stops_at_once)
+/* However often: a count that wrapped would allow three more denials. */
+TEST(resumed_robot_stops_after_one_more_denial)
 {
     (void)stand_until_it_stops();
     for (unsigned resumed = 0; resumed < 300; resumed++) {
@@ -188,14 +188,14 @@ TEST(resumed_with_wheels_that_still_do_not_obey_it_stops_at_once)
 static void deny_a_trial(void)
 {
     sense((struct senses){.tick = wheels.tick++, .feel = FRONT});
-    learned(SIDE_LEFT);
+    teach(SIDE_LEFT);
     while (!out.denied)
         sense((struct senses){.tick = wheels.tick++, .feel = FRONT});
     TEST_ASSERT_EQUAL_UINT8(1, robot.denials);
 }
 
 /* Remembered turns are too short to make up for a trial. */
-TEST(boredom_strikes_a_robot_whose_wheels_once_did_not_obey_and_teaches_it_nothing)
+TEST(boredom_after_a_denial_empties_no_cell)
 {
     unsigned ticks = 0;
 
@@ -207,7 +207,7 @@ TEST(boredom_strikes_a_robot_whose_wheels_once_did_not_obey_and_teaches_it_nothi
     TEST_ASSERT_EQUAL_UINT8(SIDE_LEFT, robot.brain.memory.cell[PATTERN_FRONT]);
 }
 
-TEST(food_is_eaten_by_a_robot_whose_wheels_once_did_not_obey)
+TEST(food_is_eaten_after_a_denial)
 {
     unsigned ticks = 0;
 
@@ -220,7 +220,7 @@ TEST(food_is_eaten_by_a_robot_whose_wheels_once_did_not_obey)
     TEST_ASSERT_EQUAL_UINT8(1, robot.denials);
 }
 
-TEST(resumed_with_wheels_that_obey_again_it_goes_on)
+TEST(resumed_robot_continues_when_wheels_obey)
 {
     (void)stand_until_it_stops();
     wheels.odometer_left = 2000;   /* somebody has turned them meanwhile */
@@ -233,7 +233,7 @@ TEST(resumed_with_wheels_that_obey_again_it_goes_on)
     TEST_ASSERT_EQUAL_UINT8(0, robot.denials);
 }
 
-TEST(resumed_without_ever_having_been_started_it_trusts_its_wheels)
+TEST(resume_before_any_start_trusts_the_wheels)
 {
     robot_init(&robot, 1);
     command(OPCODE_RESUME, 0, 0);
@@ -244,7 +244,7 @@ TEST(resumed_without_ever_having_been_started_it_trusts_its_wheels)
 }
 
 /* 45 degrees take 12.5 ticks: half as many more, and 25. */
-TEST(after_a_trial_that_was_given_up_it_does_not_wait_for_the_filter)
+TEST(trial_given_up_skips_the_rest_for_the_filter)
 {
     unsigned ticks = 0;
 
@@ -259,7 +259,7 @@ TEST(after_a_trial_that_was_given_up_it_does_not_wait_for_the_filter)
 }
 
 /* In one tick no wheel makes 200 counts, whatever the number of the tick. */
-TEST(wheels_that_jump_within_a_tick_are_seen_at_any_tick)
+TEST(odometer_jump_is_detected_at_any_tick_number)
 {
     for (unsigned tick = 1; tick < 250; tick += 31) {
         setUp();
@@ -269,14 +269,14 @@ TEST(wheels_that_jump_within_a_tick_are_seen_at_any_tick)
     }
 }
 
-TEST(a_sensor_is_distrusted_in_the_very_decision_that_is_one_too_many)
+TEST(distrust_applies_in_the_decision_that_reaches_the_limit)
 {
     command(OPCODE_SET, DISTRUST, 1);
     feel(FRONT);
     TEST_ASSERT_EQUAL(REASON_WANDER, out.drive.reason);
 }
 
-/* Whether a robot that believes no sensor that is stuck ever looks aside. */
+/* Whether a robot that distrusts this stuck sensor ever looks aside. */
 static bool looks_aside(uint8_t stuck)
 {
     bool looked = false;
@@ -290,13 +290,13 @@ static bool looks_aside(uint8_t stuck)
     return looked;
 }
 
-TEST(a_robot_looks_aside_for_a_front_sensor_that_it_does_not_believe_and_for_no_other)
+TEST(only_a_distrusted_front_sensor_causes_looks_aside)
 {
     for (uint8_t stuck = 1; stuck < 1u << FEEL_COUNT; stuck = (uint8_t)(stuck << 1))
         TEST_ASSERT_EQUAL(stuck == FRONT, looks_aside(stuck));
 }
 
-TEST(in_a_single_silence_too_wheels_may_have_rolled_on)
+TEST(odometers_after_one_silence_are_credible)
 {
     for (unsigned ticks = 0; ticks < 3; ticks++)
         obey(CLEAR);

@@ -41,7 +41,7 @@ static uint16_t rolled(uint16_t odometer, int16_t mm_s)
     return (uint16_t)((odometer + mm_s * ODOMETER_COUNTS_PER_MM / TICKS_A_SECOND) & (ODOMETER_SPAN - 1));
 }
 
-/* To the tick in which the second is full, on wheels that obey. */
+/* Runs on obeying wheels up to the tick with which the second ends. */
 static void pass_second(void)
 {
     static struct senses senses;
@@ -66,7 +66,7 @@ static void assert_cell(uint8_t expected)
     TEST_ASSERT_EQUAL_HEX8(expected, robot.brain.memory.cell[CELL_FRONT]);
 }
 
-TEST(an_empty_cell_takes_the_side_that_has_more_votes_with_the_least_confidence)
+TEST(majority_fills_an_empty_cell_with_least_confidence)
 {
     hear_front(confidence_cell(SIDE_RIGHT, 3));
     hear_front(confidence_cell(SIDE_LEFT, 1));
@@ -75,7 +75,7 @@ TEST(an_empty_cell_takes_the_side_that_has_more_votes_with_the_least_confidence)
     assert_cell(confidence_cell(SIDE_LEFT, 1));
 }
 
-TEST(where_each_side_has_as_many_votes_nothing_is_taken)
+TEST(tied_votes_fill_no_cell)
 {
     hear_front(confidence_cell(SIDE_RIGHT, 3));
     hear_front(confidence_cell(SIDE_LEFT, 1));
@@ -83,7 +83,7 @@ TEST(where_each_side_has_as_many_votes_nothing_is_taken)
     assert_cell(0);
 }
 
-TEST(each_cell_of_both_halves_is_taken)
+TEST(votes_fill_cells_of_both_halves)
 {
     static const uint8_t lower[] = {0, 1, 2, 1}, upper[] = {2, 1, 2, 1};
     static const uint8_t expected[CELL_COUNT] = {0, 5, 6, 5, 6, 5, 6, 5};
@@ -94,7 +94,7 @@ TEST(each_cell_of_both_halves_is_taken)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, robot.brain.memory.cell, CELL_COUNT);
 }
 
-TEST(where_a_cell_is_a_side_it_takes_a_side)
+TEST(votes_fill_a_sides_memory_without_confidence)
 {
     start(PROFILE_ARTICLE, 1);
     pass_second();
@@ -103,7 +103,7 @@ TEST(where_a_cell_is_a_side_it_takes_a_side)
     assert_cell(SIDE_RIGHT);
 }
 
-TEST(an_invalid_cell_has_no_vote)
+TEST(invalid_cell_has_no_vote)
 {
     static const uint8_t others[] = {0, 3, 4, 7, 8, 11, 15, 16, 17, 0x10, 0x80, 0xFF};
 
@@ -113,7 +113,7 @@ TEST(an_invalid_cell_has_no_vote)
     assert_cell(0);
 }
 
-TEST(a_cell_that_knows_a_turn_keeps_it)
+TEST(votes_keep_a_filled_cell)
 {
     robot.brain.memory.cell[CELL_FRONT] = confidence_cell(SIDE_RIGHT, 1);
     hear_front(SIDE_LEFT);
@@ -121,7 +121,7 @@ TEST(a_cell_that_knows_a_turn_keeps_it)
     assert_cell(confidence_cell(SIDE_RIGHT, 1));
 }
 
-TEST(a_cell_that_boredom_has_emptied_stays_empty_until_the_next_start)
+TEST(cell_emptied_by_boredom_ignores_votes_until_start)
 {
     robot.brain.unlearned = 1u << CELL_FRONT;
     hear_front(SIDE_LEFT);
@@ -134,7 +134,7 @@ TEST(a_cell_that_boredom_has_emptied_stays_empty_until_the_next_start)
     assert_cell(confidence_cell(SIDE_LEFT, 1));
 }
 
-TEST(votes_are_those_of_the_second)
+TEST(votes_are_counted_per_second)
 {
     hear_front(SIDE_LEFT);
     hear_front(SIDE_LEFT);
@@ -146,7 +146,7 @@ TEST(votes_are_those_of_the_second)
     assert_cell(confidence_cell(SIDE_RIGHT, 1));
 }
 
-TEST(a_second_that_began_before_the_start_does_not_count)
+TEST(sharing_ignores_votes_from_before_the_start)
 {
     start(PROFILE_ADAPTIVE, 1);
     hear_front(SIDE_LEFT);
@@ -154,7 +154,7 @@ TEST(a_second_that_began_before_the_start_does_not_count)
     assert_cell(0);
 }
 
-TEST(nothing_is_taken_while_it_is_off)
+TEST(disabled_sharing_fills_no_cell)
 {
     start(PROFILE_ADAPTIVE, 0);
     for (unsigned i = 0; i < 3; i++) {
@@ -164,7 +164,7 @@ TEST(nothing_is_taken_while_it_is_off)
     assert_cell(0);
 }
 
-TEST(nothing_is_taken_by_a_robot_that_is_frozen_or_stopped)
+TEST(frozen_or_stopped_robot_takes_no_votes)
 {
     robot.brain.frozen = true;
     hear_front(SIDE_LEFT);
@@ -177,7 +177,7 @@ TEST(nothing_is_taken_by_a_robot_that_is_frozen_or_stopped)
     assert_cell(0);
 }
 
-TEST(a_profile_that_does_not_learn_or_has_no_cell_for_a_pattern_takes_nothing)
+TEST(profile_without_learning_or_pattern_cells_takes_no_votes)
 {
     static const enum profile profiles[] = {PROFILE_NEVER, PROFILE_FIVE};
     static const uint8_t nothing[CELL_COUNT] = {0};
@@ -191,7 +191,7 @@ TEST(a_profile_that_does_not_learn_or_has_no_cell_for_a_pattern_takes_nothing)
     }
 }
 
-TEST(what_was_taken_is_stored_and_told_by_the_report)
+TEST(filled_cell_is_stored_and_reported)
 {
     hear_front(SIDE_LEFT);
     pass_second();
@@ -202,14 +202,14 @@ TEST(what_was_taken_is_stored_and_told_by_the_report)
     TEST_ASSERT_FALSE(out.store);
 }
 
-TEST(the_memory_of_another_robot_causes_no_output)
+TEST(peer_memory_causes_no_output)
 {
     memset(&out, 0xA5, sizeof out);
     hear_front(SIDE_LEFT);
     TEST_ASSERT_FALSE(out.has_answer || out.has_report || out.has_memory || out.has_drive || out.store);
 }
 
-TEST(nothing_is_taken_in_the_second_in_which_it_is_switched_off)
+TEST(votes_are_dropped_in_the_second_of_switching_off)
 {
     hear_front(SIDE_LEFT);
     respond(INPUT_COMMAND, (struct input){.command = {.opcode = OPCODE_SET, .which = SHARE}});
@@ -217,7 +217,7 @@ TEST(nothing_is_taken_in_the_second_in_which_it_is_switched_off)
     assert_cell(0);
 }
 
-TEST(nothing_is_taken_in_the_second_in_which_it_is_switched_on)
+TEST(votes_are_dropped_in_the_second_of_switching_on)
 {
     respond(INPUT_COMMAND, (struct input){.command = {.opcode = OPCODE_SET, .which = SHARE}});
     pass_second();

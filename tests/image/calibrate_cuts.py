@@ -18,10 +18,9 @@ from functools import partial
 
 from host_sim.emulator.board import EmulatedBoard, start_board
 from host_sim.emulator.chips import CHIPS
-from host_sim.emulator.flash_kinds import FlashG4
+from host_sim.emulator.flash import FlashG4
 from host_sim.emulator.pins_board import PinsBoard, start_robot
-from host_sim.lab.calibrate.calibration import CALIBRATION_VALUES, STEPS
-from host_sim.lab.calibrate.places import Places
+from host_sim.lab.calibrate.calibration import CALIBRATION_VALUES, STEPS, Places
 from host_sim.protocol.generated import Side
 from host_sim.protocol.words import BODY_PARAMETERS
 from host_sim.sim.access import BOARDS

@@ -11,7 +11,7 @@ NOISE_PER_TICK = 200
 """Ten thousand frames a second."""
 
 
-def test_a_controller_that_never_gets_ready_is_tried_again_and_nothing_moves(name):
+def test_stuck_controller_resets_the_board_and_sends_no_frame(name):
     talk = talk_to(name, Faults(can=CanFaults(init_stuck=True)))
 
     said = talk.wait(0.1)
@@ -21,7 +21,7 @@ def test_a_controller_that_never_gets_ready_is_tried_again_and_nothing_moves(nam
     assert set(talk.board.resets) == {"software"}
 
 
-def test_it_does_with_two_mailboxes(name):
+def test_image_works_with_two_mailboxes(name):
     talk = talk_to(name, Faults(can=CanFaults(stuck_mailboxes=0b001)))
     talk.start()
 
@@ -32,7 +32,7 @@ def test_it_does_with_two_mailboxes(name):
 
 
 @pytest.mark.parametrize("signal", ["CAN_RX", "CAN_TX"])
-def test_an_image_with_can_on_another_pin_hears_and_says_nothing(name, signal):
+def test_image_with_can_on_another_pin_is_silent(name, signal):
     talk = talk_to(name)
     talk.board.hardware.wiring.rewire(signal, "PC13")
     talk.start()
@@ -40,7 +40,7 @@ def test_an_image_with_can_on_another_pin_hears_and_says_nothing(name, signal):
     assert talk.live(5) == []
 
 
-def test_stuck_mailboxes_cost_frames_and_no_more(name):
+def test_stuck_mailboxes_lose_frames_and_recover(name):
     talk = talk_to(name)
     talk.start()
     talk.live(5)
@@ -74,7 +74,7 @@ def test_frames_lost_in_the_controller_are_counted(name):
     assert report
 
 
-def test_after_bus_off_it_joins_again(name):
+def test_robot_recovers_from_bus_off(name):
     talk = talk_to(name)
     talk.start()
     talk.live(5)
@@ -93,7 +93,7 @@ def test_after_bus_off_it_joins_again(name):
     assert talk.board.resets == []
 
 
-def test_what_waited_during_bus_off_is_not_sent_afterwards(name):
+def test_frames_that_waited_during_bus_off_are_not_sent(name):
     talk = talk_to(name)
     talk.start()
     talk.live(5)
@@ -107,7 +107,7 @@ def test_what_waited_during_bus_off_is_not_sent_afterwards(name):
     assert [drive.signals["tick"] for drive in fresh] == [talk.tick]
 
 
-def test_a_lone_robot_is_passive_and_drives_on_when_the_other_comes_back(name):
+def test_lone_robot_is_error_passive_and_recovers(name):
     talk = talk_to(name)
     talk.start()
     talk.live(5)
@@ -123,7 +123,7 @@ def test_a_lone_robot_is_passive_and_drives_on_when_the_other_comes_back(name):
     assert talk.board.resets == []
 
 
-def test_strange_frames_are_counted_or_kept_out(name):
+def test_invalid_frames_are_counted_and_foreign_ones_filtered(name):
     talk = talk_to(name)
     talk.start()
     talk.live(5)
@@ -151,7 +151,7 @@ def test_strange_frames_are_counted_or_kept_out(name):
     assert counted(talk.ask()) == {"damaged": 3}
 
 
-def test_ten_thousand_frames_of_noise_a_second_do_not_cost_a_tick(name):
+def test_noise_of_10000_frames_per_second_loses_no_tick(name):
     talk = talk_to(name)
     talk.start()
     before = len(talk.heard)
@@ -167,7 +167,7 @@ def test_ten_thousand_frames_of_noise_a_second_do_not_cost_a_tick(name):
     assert counted(talk.ask()) == {}
 
 
-def test_noise_on_its_own_identifiers_is_counted_and_does_not_cost_a_tick(name):
+def test_noise_on_own_identifiers_is_counted_and_loses_no_tick(name):
     talk = talk_to(name)
     talk.start()
     before = len(talk.heard)

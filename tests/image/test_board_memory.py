@@ -23,7 +23,7 @@ def memory_after_power_up(talk: Talk) -> tuple[int, ...]:
     return talk.memory
 
 
-def test_the_memory_survives_a_loss_of_power(name):
+def test_memory_survives_a_power_cut(name):
     talk = talk_to(name)
     learn(talk, Side.LEFT)
     talk.wait(1.0)
@@ -35,7 +35,7 @@ SMALL_PAGES = pytest.mark.parametrize("board", ["blue_pill", "nucleo_g431rb"])
 
 
 @SMALL_PAGES
-def test_a_flash_that_is_full_is_erased_and_written_again(board):
+def test_full_flash_is_erased_and_written_again(board):
     talk = talk_to(board)
     for i in range(300):
         learn(talk, (Side.LEFT, Side.RIGHT)[i % 2])
@@ -47,7 +47,7 @@ def test_a_flash_that_is_full_is_erased_and_written_again(board):
 
 
 @SMALL_PAGES
-def test_a_page_whose_erase_lost_its_power_is_erased_again(board):
+def test_page_with_an_interrupted_erase_is_erased_again(board):
     talk = talk_to(board)
     flash = talk.board.hardware.flash
     flash.erasure_cuts.add(3)  # of a page with a mark
@@ -59,7 +59,7 @@ def test_a_page_whose_erase_lost_its_power_is_erased_again(board):
     assert memory_after_power_up(talk) == (0, 2, 0, 0, 0, 0, 0, 0)
 
 
-def test_a_memory_that_cannot_be_stored_is_counted_and_the_robot_goes_on(name):
+def test_failed_stores_are_counted_and_the_robot_continues(name):
     talk = talk_to(name, Faults(flash=FlashFaults(failing=frozenset(range(1, 1000)))))
     talk.start()
     learn(talk, Side.LEFT)
@@ -70,7 +70,7 @@ def test_a_memory_that_cannot_be_stored_is_counted_and_the_robot_goes_on(name):
     assert talk.board.resets == []
 
 
-def test_nothing_is_written_while_the_supply_is_low_and_all_is_when_it_is_good(name):
+def test_flash_is_written_only_with_a_good_supply(name):
     talk = talk_to(name)
     talk.board.hardware.power.supply_mv = 2800
     operations = talk.board.hardware.flash.operations
@@ -85,7 +85,7 @@ def test_nothing_is_written_while_the_supply_is_low_and_all_is_when_it_is_good(n
     assert memory_after_power_up(talk) == (0, 2, 0, 0, 0, 0, 0, 0)
 
 
-def test_a_loss_of_power_while_storing_leaves_the_old_memory_or_the_new(name):
+def test_power_cut_during_a_store_leaves_old_or_new_memory(name):
     found, cut_at, operations = set(), 0, 1
     while cut_at < operations:
         cut_at += 1
@@ -111,11 +111,11 @@ def told(talk: Talk) -> dict[str, int]:
 VTOR, FLASH = 0xE000ED08, 0x08000000
 
 
-def test_its_own_vectors_are_in_force_whoever_started_it(name):
+def test_image_installs_its_own_vector_table(name):
     assert talk_to(name).board.hardware.space.read(VTOR, 4) == FLASH
 
 
-def test_a_crash_is_told_afterwards(name):
+def test_crash_is_reported_after_the_reset(name):
     talk = talk_to(name)
     talk.start()
     talk.live(5)
@@ -129,7 +129,7 @@ def test_a_crash_is_told_afterwards(name):
 
 
 @pytest.mark.parametrize("depth", [0, 8, 300, 600, 900])
-def test_a_crash_is_told_wherever_the_stack_is(name, depth):
+def test_crash_is_reported_at_any_stack_depth(name, depth):
     talk = talk_to(name)
     stack_top = int.from_bytes(talk.board.hardware.flash.memory[:4], "little")
 
@@ -139,7 +139,7 @@ def test_a_crash_is_told_wherever_the_stack_is(name, depth):
     assert told(talk)["pc"] == 0x60000000
 
 
-def test_what_cannot_be_corrected_is_a_crash_where_nobody_expects_it():
+def test_uncorrectable_ecc_error_outside_of_a_read_is_a_crash():
     talk = talk_to("nucleo_g431rb")
     hardware = talk.board.hardware
     hardware.flash.unreadable.add(0x1F800)
@@ -154,7 +154,7 @@ def test_what_cannot_be_corrected_is_a_crash_where_nobody_expects_it():
     assert talk.last("BOOT")["reset_cause"] == talk.protocol.choices("BOOT", "reset_cause")["crash"]
 
 
-def test_a_stack_that_has_left_the_ram_ends_in_a_crash_too(name):
+def test_stack_outside_the_ram_is_reported_as_a_crash(name):
     talk = talk_to(name)
 
     talk.board.hardware.core.derail(0x60000000, stack=0x20000008)

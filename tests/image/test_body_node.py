@@ -77,7 +77,7 @@ def test_bodies_keep_the_contract_of_the_wire(source, profile, tmp_path):
 
 
 @pytest.mark.parametrize("body", ["blue_pill", "nucleo_g431rb"])
-def test_it_drives_and_touches_nothing(body):
+def test_body_node_drives_without_collisions(body):
     boards, place = TwoBoards(body=body), arena()
     start = place.body.pose
     started(boards).live(place, 300)
@@ -96,7 +96,7 @@ def rolls(boards):
     return any(abs((b - a + 0x8000) % 0x10000 - 0x8000) > 1 for a, b in zip(before, now, strict=True))
 
 
-def test_without_drives_its_wheels_rest_after_a_tenth_of_a_second(boards):
+def test_wheels_stop_without_drives(boards):
     started(boards).live(arena(), 20)
     boards.cut = True
     boards.pass_time(0.05)
@@ -105,7 +105,7 @@ def test_without_drives_its_wheels_rest_after_a_tenth_of_a_second(boards):
     assert not rolls(boards)
 
 
-def test_the_button_starts_the_brain_and_stops_it(boards):
+def test_button_starts_and_stops_the_brain(boards):
     started(boards)
     boards.press()
     boards.pass_time(0.1)
@@ -115,7 +115,7 @@ def test_the_button_starts_the_brain_and_stops_it(boards):
     assert [it.signals["reason"] for it in said if it.name == "DRIVE"][-1] == Reason.STOP
 
 
-def test_a_drive_that_is_damaged_or_old_moves_nothing(boards):
+def test_damaged_or_old_drive_moves_no_wheel(boards):
     boards.cut = True
     boards.robot.join(arena().body.kit)
     drive = {"left": 200, "right": 200, "reason": 1, "repeat_count": 0, "eat": 0, "action": 1}

@@ -7,7 +7,6 @@ from types import SimpleNamespace
 import pytest
 
 from host_sim.base.errors import UsageError
-from host_sim.base.paths import ROOT
 from host_sim.cli.main import main
 from host_sim.client.commands import handshake
 from host_sim.client.connection import Connection
@@ -15,8 +14,7 @@ from host_sim.client.frame_log import NoLog
 from host_sim.client.robot_client import RobotClient
 from host_sim.emulator.pins_board import start_robot
 from host_sim.lab.calibrate import calibrate_command
-from host_sim.lab.calibrate.calibration import CALIBRATION_VALUES, STEPS, Calibration
-from host_sim.lab.calibrate.places import Places
+from host_sim.lab.calibrate.calibration import CALIBRATION_VALUES, STEPS, Calibration, Places
 from host_sim.protocol.codec import Protocol
 from host_sim.protocol.generated import Side
 from host_sim.protocol.words import BODY_PARAMETERS
@@ -62,7 +60,7 @@ def rig(tmp_path):
     made.log.close()
 
 
-def test_what_it_measures_is_near_the_truth_and_survives_a_loss_of_power(rig):
+def test_calibration_is_accurate_and_survives_a_power_cut(rig):
     assert [rig.measure(step) for step in STEPS] == ["", "", ""]
     found, true = rig.calibration.stored_values(), rig.places.true_values()
     for name, row in CALIBRATION_VALUES.items():
@@ -73,7 +71,7 @@ def test_what_it_measures_is_near_the_truth_and_survives_a_loss_of_power(rig):
     assert rig.calibration.stored_values() == found
 
 
-def test_a_sensor_without_its_wire_is_refused_by_name_and_the_old_values_stay(rig):
+def test_disconnected_sensor_is_refused_and_old_values_stay(rig):
     rig.board.robot.wiring.rewire("PROXIMITY_FRONT")
     assert rig.measure("light") == "body_near_front cannot be 0 1/256: it is 20 to 250"
     assert set(rig.calibration.stored_values().items()) == {
@@ -81,19 +79,19 @@ def test_a_sensor_without_its_wire_is_refused_by_name_and_the_old_values_stay(ri
     }
 
 
-def test_a_motor_without_its_encoder_is_refused(rig):
+def test_motor_without_its_encoder_is_refused(rig):
     rig.board.robot.wiring.rewire("RIGHT_ENCODER_A")
     assert rig.measure("motors").startswith("body_forward_right cannot be 0 ")
 
 
-def test_a_motor_that_turns_only_forward_is_refused(rig, monkeypatch):
+def test_motor_that_turns_only_forward_is_refused(rig, monkeypatch):
     robot = rig.board.robot
     push = robot._push
     monkeypatch.setattr(robot, "_push", lambda side: max(push(side), 0) if side else push(side))
     assert rig.measure("motors").startswith("body_forward_right cannot be 0 ")
 
 
-def test_a_bump_interrupts_it(rig):
+def test_bump_interrupts_a_calibration(rig):
     rig.places.put("motors")
     rig.calibration.set("body_measure", 1 + STEPS.index("motors"))
     rig.places.wait(0.5)
@@ -103,7 +101,7 @@ def test_a_bump_interrupts_it(rig):
     assert rig.calibration.get("body_refused") == BODY_PARAMETERS["body_measure"].number
 
 
-def test_the_button_held_at_power_up_measures_light(rig):
+def test_button_held_at_power_up_measures_light(rig):
     rig.board.robot.set_button(True)
     rig.board.cut_power()
     rig.places.put("light")
@@ -118,7 +116,7 @@ def life(request):
     return a_calibration(request.param)
 
 
-def test_a_power_cut_at_any_write_leaves_the_old_values_or_the_new_and_always_the_memory(life):
+def test_power_cut_at_any_write_leaves_old_or_new_values(life):
     cuts = range(len(life.recording.changes))
     found, again = outcomes(life, cuts), cut_again(life, cuts[::SAMPLE])
 
@@ -129,7 +127,7 @@ def test_a_power_cut_at_any_write_leaves_the_old_values_or_the_new_and_always_th
     assert again.total() > len(cuts[::SAMPLE])
 
 
-def test_a_cut_that_lost_something_would_be_noticed(life):
+def test_outcomes_detect_a_cut_that_loses_data(life):
     begin, end = STORES[life.recording.board]
     before = life.recording.before
     harmed = replace(life.recording, before=before[:begin] + bytes(end - begin) + before[end:])
@@ -137,16 +135,23 @@ def test_a_cut_that_lost_something_would_be_noticed(life):
     assert outcomes(replace(life, recording=harmed), [0]) == {"old": 0, "new": 0, "neither": 1}
 
 
-def test_the_command_prints_what_the_document_shows(capsys):
+def test_command_prints_measured_beside_true_values(capsys):
     assert main(["calibrate", "--robot", "emulated", "--seed", "3"]) == 0
-    assert f"```text\n{capsys.readouterr().out}```" in (ROOT / "docs" / "build.md").read_text()
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[: len(STEPS)] == [f"{step}: measured and stored" for step in STEPS]
+    assert lines[len(STEPS)].split() == ["before", "now", "true", "unit"]
+    rows = lines[len(STEPS) + 1 :]
+    values = {name: (float(now), float(true)) for name, _, now, true, *_ in map(str.split, rows)}
+    assert values.keys() == CALIBRATION_VALUES.keys()
+    for now, true in values.values():
+        assert now == pytest.approx(true, rel=0.05)
 
 
 @pytest.mark.parametrize(
     ("words", "why"),
     [
         ([], "calibrate needs a robot"),
-        (["dance", "--robot", "emulated"], "there is no 'dance' to calibrate: light, motors, track"),
+        (["dance", "--robot", "emulated"], "there is no 'dance' to calibrate: choose from light, motors, track"),
         (
             ["--robot", "emulated", "--set", "body_track_mm=260"],
             "must be a whole number from 90 to 250 mm, not '260'",
@@ -156,14 +161,14 @@ def test_the_command_prints_what_the_document_shows(capsys):
         (["--robot", "emulated", "--body", "ideal"], "a body to calibrate has motors"),
     ],
 )
-def test_what_cannot_be_is_said_in_a_line(words, why, capsys):
+def test_impossible_calibration_is_refused_in_one_line(words, why, capsys):
     assert main(["calibrate", *words]) == 2
     said = capsys.readouterr().err
     assert why in said
     assert said.count("\n") == 1
 
 
-def test_an_input_that_ends_before_a_step_is_told_in_a_line(monkeypatch):
+def test_end_of_input_before_a_step_is_reported(monkeypatch):
     def ends(_text: str) -> str:
         raise EOFError
 

@@ -50,7 +50,7 @@ def run(hardware, address, *instructions):
         (LOAD, IER + 0x20, "0x40006434 was read, where no register is modelled"),
     ],
 )
-def test_what_a_controller_refuses_ends_the_run(hardware, instruction, address, refusal):
+def test_refused_register_access_ends_the_run(hardware, instruction, address, refusal):
     write(hardware.rcc, APB1ENR, CAN_GATE)
 
     with pytest.raises(BoardError, match=refusal):
@@ -58,12 +58,12 @@ def test_what_a_controller_refuses_ends_the_run(hardware, instruction, address, 
 
 
 @pytest.mark.parametrize(("instruction", "how"), [(LOAD, "read"), (STORE, "written")])
-def test_a_controller_without_clock_is_not_reached(hardware, instruction, how):
+def test_access_to_an_unclocked_controller_is_refused(hardware, instruction, how):
     with pytest.raises(BoardError, match=f"CAN1 IER was {how}, but CAN1 has no clock"):
         run(hardware, IER, instruction)
 
 
-def test_what_fails_while_time_passes_ends_the_run(hardware):
+def test_error_in_a_timed_event_ends_the_run(hardware):
     def due():
         raise BoardError("as was asked for")
 
@@ -74,7 +74,7 @@ def test_what_fails_while_time_passes_ends_the_run(hardware):
 
 
 @pytest.mark.parametrize("nop", [NOP, WIDE_NOP])
-def test_an_instruction_takes_a_cycle_whatever_its_length(hardware, nop):
+def test_instruction_takes_a_cycle_whatever_its_length(hardware, nop):
     counts = []
     status = hardware.watchdog.registers[0xC]
     status.on_read = lambda: counts.append((hardware.core.instructions, hardware.clock.cycles)) or 0
@@ -95,24 +95,24 @@ def space(clock):
     return made
 
 
-def test_a_register_that_is_not_modelled_is_named(space):
+def test_unmodelled_register_is_named(space):
     with pytest.raises(BoardError, match=r"0x4000000C was read, .* \(0x40000008 is THING COUNT\)"):
         space.read(0x4000000C, 4)
     with pytest.raises(BoardError, match="0x3FFFFFFC was written"):
         space.write(0x3FFFFFFC, 4, 0)
 
 
-def test_a_peripheral_without_clock_is_named(space):
+def test_unclocked_peripheral_is_named(space):
     with pytest.raises(BoardError, match="SLEEPER has no clock"):
         space.read(0x40001000, 4)
 
 
-def test_a_register_is_accessed_as_a_whole(space):
+def test_partial_register_write_is_refused(space):
     with pytest.raises(BoardError, match="THING A was written by 1 bytes"):
         space.write(0x40000000, 1, 0)
 
 
-def test_events_happen_in_their_order_while_time_is_skipped(clock):
+def test_skipped_time_runs_events_in_order(clock):
     seen = []
     moments = {"a": [3, 9], "b": [5]}
 
@@ -161,16 +161,16 @@ def handled(hardware, first, vector=HANDLER + 1):
     return active
 
 
-def test_an_interrupt_is_taken_once_and_its_handler_returns(hardware):
+def test_interrupt_is_taken_once_and_its_handler_returns(hardware):
     assert handled(hardware, *NOP) == [16 + TIM1_UP]
     assert (hardware.space.read(ICSR, 4), hardware.interrupts.wakes, hardware.faults) == (0, False, [])
 
 
-def test_an_interrupt_that_is_masked_stays_pending(hardware):
+def test_masked_interrupt_stays_pending(hardware):
     assert handled(hardware, MASK) == []
     assert hardware.interrupts.wakes
 
 
-def test_a_vector_that_is_no_code_for_this_core_is_a_fault(hardware):
+def test_vector_without_thumb_bit_is_a_fault(hardware):
     assert handled(hardware, *NOP, vector=0x4903BF38) == []
     assert [fault.cause for fault in hardware.faults] == [1 << 17]  # INVSTATE

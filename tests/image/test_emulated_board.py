@@ -16,7 +16,7 @@ def changes(levels: list[bool]) -> int:
     return sum(before != after for before, after in pairwise(levels))
 
 
-def test_a_started_robot_drives_and_counts_no_fault(name):
+def test_started_robot_drives_and_counts_no_fault(name):
     talk = talk_to(name)
     talk.start()
 
@@ -28,7 +28,7 @@ def test_a_started_robot_drives_and_counts_no_fault(name):
     assert talk.board.resets == []
 
 
-def test_registers_do_the_same_in_c_as_in_python(name):
+def test_registers_behave_alike_in_c_and_python(name):
     talks = [talk_to(name), talk_to(name)]
     talks[1].board.hardware.space.watch()
 
@@ -55,7 +55,7 @@ def test_wheels_stop_after_100_ms_without_senses(name):
     assert counted(talk.ask()) == {"silences": 1}
 
 
-def test_the_led_blinks_slowly_while_all_is_well_and_fast_while_senses_fail(name):
+def test_led_blinks_slowly_and_fast_without_senses(name):
     talk = talk_to(name)
     talk.start()
     port, pin = talk.board.hardware.wiring.port("LED")
@@ -69,7 +69,7 @@ def test_the_led_blinks_slowly_while_all_is_well_and_fast_while_senses_fail(name
     assert 18 <= changes(failing) <= 28
 
 
-def test_it_drives_on_when_senses_come_again(name):
+def test_robot_drives_on_when_senses_return(name):
     talk = talk_to(name)
     talk.start()
     talk.live(10)
@@ -78,7 +78,7 @@ def test_it_drives_on_when_senses_come_again(name):
     assert len(talk.live(10)) == 10
 
 
-def test_in_lockstep_it_waits_longer_than_its_watchdog_would(name):
+def test_lockstep_robot_waits_longer_than_the_watchdog_period(name):
     talk = talk_to(name, lockstep=1)
     talk.start()
     talk.live(10)
@@ -95,7 +95,7 @@ INTERNAL_MHZ = {"feather_stm32f405": (168, 16), "blue_pill": (64, 8), "nucleo_g4
 
 
 @pytest.mark.parametrize("crystal_s", [0.001, 0.099])
-def test_it_runs_at_full_speed_from_its_crystal(name, crystal_s):
+def test_core_runs_at_full_speed_from_its_crystal(name, crystal_s):
     talk = talk_to(name, Faults(rcc=RccFaults(crystal_s=crystal_s)))
     hardware = talk.board.hardware
 
@@ -109,7 +109,7 @@ def test_it_runs_at_full_speed_from_its_crystal(name, crystal_s):
     [RccFaults(crystal_dead=True), RccFaults(pll_dead=True), RccFaults(crystal_s=0.2)],
     ids=["crystal", "pll", "slow"],
 )
-def test_it_works_without_and_says_so(name, dead):
+def test_robot_works_without_crystal_and_reports_it(name, dead):
     talk = talk_to(name, Faults(rcc=dead))
     talk.start()
     with_pll, without = INTERNAL_MHZ[name]
@@ -121,11 +121,11 @@ def test_it_works_without_and_says_so(name, dead):
     assert report["clock"] == 0
 
 
-def test_its_watchdog_waits_for_2_s_or_a_little_less(name):
+def test_watchdog_period_is_1500_to_2100_ms(name):
     assert 1.5 <= talk_to(name).board.hardware.watchdog.period_s() <= 2.1
 
 
-def test_a_core_that_stands_still_is_reset_by_the_watchdog_and_rests(name):
+def test_watchdog_resets_a_halted_core_and_the_robot_rests(name):
     talk = talk_to(name)
     talk.start()
     talk.live(5)
@@ -139,13 +139,13 @@ def test_a_core_that_stands_still_is_reset_by_the_watchdog_and_rests(name):
     assert not all(map(is_rest, talk.live(10)))
 
 
-def test_the_same_run_takes_the_same_instructions():
+def test_same_run_takes_the_same_instructions():
     first, second = (count_ticks("feather_stm32f405", 7, 300) for _ in range(2))
 
     assert first == second
 
 
-def test_a_board_that_has_nothing_to_say_takes_its_time(name):
+def test_receive_from_a_silent_board_waits_for_its_timeout(name):
     talk = talk_to(name)
     while not talk.wait(0.001):
         pass  # until it has told that all is silent, which is news every 0.1 s

@@ -3,8 +3,7 @@
 import pytest
 
 from host_sim.emulator.clock import SECOND
-from host_sim.emulator.flash import FlashFaults
-from host_sim.emulator.flash_kinds import FlashF1, FlashF4, FlashG4
+from host_sim.emulator.flash import FlashF1, FlashF4, FlashFaults, FlashG4
 from host_sim.emulator.registers import BoardError, PowerCut
 from tests.image.support import read, write
 
@@ -41,7 +40,7 @@ def write_double(flash, offset, low, high):
     flash.write(offset + 4, 4, high)
 
 
-def test_an_f1_page_is_erased_and_nothing_else(clock):
+def test_f1_erase_clears_its_page_only(clock):
     flash = f1(clock)
     flash.memory[:] = bytes(len(flash.memory))
 
@@ -54,7 +53,7 @@ def test_an_f1_page_is_erased_and_nothing_else(clock):
     assert clock.now >= SECOND // 50
 
 
-def test_an_f1_half_word_is_written_once(clock):
+def test_f1_half_word_is_written_once(clock):
     flash = f1(clock)
     write(flash, CR, 1)
 
@@ -70,7 +69,7 @@ def test_an_f1_half_word_is_written_once(clock):
 
 
 @pytest.mark.parametrize(("programming", "width"), [(0, 2), (1, 4), (1, 1)])
-def test_an_f1_refuses_other_writes(clock, programming, width):
+def test_f1_refuses_other_writes(clock, programming, width):
     flash = f1(clock)
     write(flash, CR, programming)
 
@@ -80,7 +79,7 @@ def test_an_f1_refuses_other_writes(clock, programming, width):
     assert flash.read(0x100, 2) == 0xFFFF
 
 
-def test_an_f4_sector_is_erased_and_nothing_else(clock):
+def test_f4_erase_clears_its_sector_only(clock):
     flash = f4(clock)
     flash.memory[:] = bytes(len(flash.memory))
 
@@ -90,7 +89,7 @@ def test_an_f4_sector_is_erased_and_nothing_else(clock):
     assert set(flash.memory[64 << 10 : 128 << 10]) == {0xFF}
 
 
-def test_an_f4_write_clears_bits_and_sets_none(clock):
+def test_f4_write_only_clears_bits(clock):
     flash = f4(clock)
     write(flash, CR, 1 | 2 << 8)
 
@@ -102,7 +101,7 @@ def test_an_f4_write_clears_bits_and_sets_none(clock):
 
 
 @pytest.mark.parametrize(("control", "flag"), [(0, 1 << 7), (1, 1 << 6)])
-def test_an_f4_refuses_writes_of_another_size_or_without_consent(clock, control, flag):
+def test_f4_refuses_writes_of_wrong_size_or_without_pg_bit(clock, control, flag):
     flash = f4(clock)
     write(flash, CR, control)
 
@@ -113,7 +112,7 @@ def test_an_f4_refuses_writes_of_another_size_or_without_consent(clock, control,
 
 
 @pytest.mark.parametrize(("make", "cr", "erase"), [(f4, CR, 1 << 1 | 1 << 16), (g4, G4_CR, 1 << 1 | 1 << 16)])
-def test_what_a_data_cache_would_go_on_to_show_is_not_erased(clock, make, cr, erase):
+def test_erase_behind_an_enabled_data_cache_is_refused(clock, make, cr, erase):
     flash = make(clock)
     write(flash, 0x00, 1 << 10)
 
@@ -123,11 +122,11 @@ def test_what_a_data_cache_would_go_on_to_show_is_not_erased(clock, make, cr, er
     write(flash, cr, erase)
 
 
-def test_a_data_cache_of_a_g4_is_on_after_a_reset(clock):
+def test_g4_data_cache_is_on_after_a_reset(clock):
     assert read(FlashG4(clock, FlashFaults()), 0x00) == 0x40600
 
 
-def test_a_locked_flash_takes_no_orders(clock):
+def test_locked_flash_refuses_commands(clock):
     flash = FlashF4(clock, FlashFaults())
 
     with pytest.raises(BoardError, match="locked"):
@@ -136,7 +135,7 @@ def test_a_locked_flash_takes_no_orders(clock):
         write(flash, KEYR, KEYS[1])
 
 
-def test_the_image_cannot_change_itself(clock):
+def test_write_to_the_image_itself_is_refused(clock):
     flash = f4(clock)
     flash.code_end = 0x4000
     write(flash, CR, 1 | 2 << 8)
@@ -147,7 +146,7 @@ def test_the_image_cannot_change_itself(clock):
         write(flash, CR, 1 << 1 | 1 << 16)
 
 
-def test_a_page_that_does_not_exist_is_named(clock):
+def test_missing_page_is_named(clock):
     flash = f1(clock)
     write(flash, 0x14, 0x08010000)
 
@@ -156,7 +155,7 @@ def test_a_page_that_does_not_exist_is_named(clock):
         write(flash, CR, 2 | 1 << 6)
 
 
-def test_a_write_can_be_made_to_fail(clock):
+def test_injected_write_failure_sets_the_error_flag(clock):
     flash = f4(clock, failing=frozenset({2}))
     write(flash, CR, 1 | 2 << 8)
 
@@ -167,7 +166,7 @@ def test_a_write_can_be_made_to_fail(clock):
     assert read(flash, SR) == 1 << 1
 
 
-def test_a_write_can_be_cut_in_the_middle(clock):
+def test_injected_power_cut_leaves_a_partial_write(clock):
     flash = f1(clock, cut_at=1)
     write(flash, CR, 1)
 
@@ -178,7 +177,7 @@ def test_a_write_can_be_cut_in_the_middle(clock):
 
 
 @pytest.mark.parametrize("make", [f1, f4])
-def test_a_page_whose_erase_was_cut_short_reads_blank_but_for_its_begin_and_takes_only_zeros(clock, make):
+def test_page_with_an_interrupted_erase_takes_only_zeros(clock, make):
     flash = make(clock)
     flash.erasure_cuts.add(1)
     page, size = 3, flash.pages[3]
@@ -198,7 +197,7 @@ def test_a_page_whose_erase_was_cut_short_reads_blank_but_for_its_begin_and_take
     flash.write(start + 16, 2, 0)
 
 
-def test_a_g4_writes_two_words_at_once(clock):
+def test_g4_writes_two_words_at_once(clock):
     flash = g4(clock)
 
     flash.write(0x1F000, 4, 1)
@@ -221,7 +220,7 @@ def test_a_g4_writes_two_words_at_once(clock):
     ],
     ids=["second half", "another pair", "half-word", "twice", "after an error"],
 )
-def test_a_g4_refuses_other_writes(clock, writes, flag):
+def test_g4_refuses_other_writes(clock, writes, flag):
     flash = g4(clock)
 
     for offset, size in writes:
@@ -230,7 +229,7 @@ def test_a_g4_refuses_other_writes(clock, writes, flag):
     assert read(flash, G4_SR) == flag
 
 
-def test_a_g4_takes_no_writes_without_consent_and_zeros_over_anything(clock):
+def test_g4_refuses_writes_without_pg_bit_and_takes_zeros(clock):
     flash = g4(clock)
     write_double(flash, 0x1F000, 1, 2)
     write_double(flash, 0x1F000, 0, 0)
@@ -243,7 +242,7 @@ def test_a_g4_takes_no_writes_without_consent_and_zeros_over_anything(clock):
     assert (flash.read(0x1F008, 4), read(flash, G4_SR)) == (0xFFFFFFFF, 1 << 7)
 
 
-def test_a_g4_write_that_was_cut_short_cannot_be_corrected_and_is_told(clock):
+def test_g4_interrupted_write_is_an_uncorrectable_ecc_error(clock):
     flash, told = g4(clock, cut_at=1), []
     flash.on_unreadable = lambda: told.append(read(flash, ECCR))
 
@@ -263,7 +262,7 @@ def test_a_g4_write_that_was_cut_short_cannot_be_corrected_and_is_told(clock):
     assert len(told) == 1
 
 
-def test_an_erase_makes_a_g4_readable_again_but_where_it_was_cut_short(clock):
+def test_g4_erase_clears_ecc_errors_up_to_a_cut(clock):
     flash = g4(clock)
     flash.unreadable = {0x1F000, 0x1F800, 0x1F808, 0x1F810}
     write(flash, G4_CR, 2 | 62 << 3 | 1 << 16)

@@ -16,7 +16,7 @@ ROBOTS = ("qemu", "emulated")
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
-def test_a_run_waits_while_the_image_stands_at_a_breakpoint(robot, tmp_path):
+def test_run_waits_while_the_image_is_at_a_breakpoint(robot, tmp_path):
     words = "delete\nbreak brain_next\ncontinue\nshell sleep 6\nbacktrace\ndelete\ncontinue\n"
 
     done = octet_process("run", "--robot", robot, *OPTIONS, "4", "--gdb", "--out", tmp_path, input=words)
@@ -28,7 +28,7 @@ def test_a_run_waits_while_the_image_stands_at_a_breakpoint(robot, tmp_path):
 
 
 @pytest.mark.parametrize(("robot", "end"), [("qemu", "kill\n"), ("emulated", "kill\n"), ("emulated", "")])
-def test_who_leaves_the_debugger_ends_the_run(robot, end, tmp_path):
+def test_leaving_the_debugger_ends_an_image_run(robot, end, tmp_path):
     words = f"continue\n{end}quit\n"
 
     done = octet_process("run", "--robot", robot, *OPTIONS, "600", "--gdb", "--out", tmp_path, input=words)
@@ -38,7 +38,7 @@ def test_who_leaves_the_debugger_ends_the_run(robot, end, tmp_path):
 
 
 @pytest.mark.parametrize("board", ["feather_stm32f405", "blue_pill", "nucleo_g431rb"])
-def test_on_an_emulated_board_the_log_is_what_it_is_without_a_debugger(board, tmp_path):
+def test_debugger_leaves_the_log_of_an_emulated_board_unchanged(board, tmp_path):
     words = "continue\n" + "next\nstepi\ncontinue\n" * 20 + "finish\ndetach\n"
     run = ("run", "--robot", "emulated", "--board", board, *OPTIONS, "3")
 
@@ -98,7 +98,7 @@ WRONG = [
 ]
 
 
-def test_wrong_requests_are_answered_with_an_error(board, client):
+def test_malformed_requests_are_answered_with_an_error(board, client):
     client.send(*WRONG, "D")
 
     board.pass_time(0.02)
@@ -106,7 +106,7 @@ def test_wrong_requests_are_answered_with_an_error(board, client):
     assert client.answers() == ["E01"] * len(WRONG) + ["OK"]
 
 
-def test_unknown_requests_are_answered_as_the_protocol_says(board, client):
+def test_unknown_requests_get_an_empty_answer(board, client):
     unknown = [
         "",
         "Z0",
@@ -128,7 +128,7 @@ def test_unknown_requests_are_answered_as_the_protocol_says(board, client):
     assert client.answers() == [""] * len(unknown) + known
 
 
-def test_a_packet_with_another_checksum_is_asked_for_again(board, client):
+def test_packet_with_a_wrong_checksum_is_requested_again(board, client):
     client.socket.sendall(b"+-\x03$?#00")
     client.send("?", "D")
 
@@ -138,7 +138,7 @@ def test_a_packet_with_another_checksum_is_asked_for_again(board, client):
 
 
 @pytest.mark.parametrize("sent", [b"GET / HTTP/1.1\r\n\r\n", b"$" + b"m" * 9000, b"#", b"$?#zz" + b"$" * 9, b"\xff"])
-def test_who_does_not_speak_the_protocol_is_dropped(board, client, sent):
+def test_gdb_stub_drops_a_client_with_another_protocol(board, client, sent):
     client.socket.sendall(sent)
     client.socket.shutdown(socket.SHUT_WR)
 
@@ -148,7 +148,7 @@ def test_who_does_not_speak_the_protocol_is_dropped(board, client, sent):
     board.pass_time(0.1)  # the board goes on
 
 
-def test_breakpoints_are_bounded_and_nobody_else_is_let_in(board, client, tmp_path):
+def test_breakpoints_are_limited_and_second_client_is_refused(board, client, tmp_path):
     client.send(*(f"Z0,{0x8000000 + 2 * n:x},2" for n in range(70)), "D")
 
     board.pass_time(0.02)
@@ -159,7 +159,7 @@ def test_breakpoints_are_bounded_and_nobody_else_is_let_in(board, client, tmp_pa
         other.connect(str(tmp_path / "gdb"))
 
 
-def test_an_interrupt_halts_a_core_that_runs(board, client):
+def test_interrupt_halts_a_running_core(board, client):
     client.send("c")
     board.pass_time(0.02)
     client.socket.sendall(b"\x03")

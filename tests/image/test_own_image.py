@@ -46,7 +46,7 @@ def memory(folder: Path) -> list[int]:
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
-def test_an_image_with_one_s_own_behaviour_does_what_the_host_does(robot, mine, tmp_path):
+def test_image_with_a_custom_behaviour_equals_the_host(robot, mine, tmp_path):
     for out, words in (("host", ("--bus", "none")), ("image", ROBOTS[robot])):
         done = octet_process("run", "--profile", mine, *SHORT, *words, "--out", tmp_path / out)
         assert done.returncode == 0, done.stderr
@@ -57,7 +57,7 @@ def test_an_image_with_one_s_own_behaviour_does_what_the_host_does(robot, mine, 
     assert memory(tmp_path / "image") == memory(tmp_path / "host")
 
 
-def test_what_an_image_cannot_have_is_named_before_it_is_built(mine, tmp_path):
+def test_impossible_image_is_refused_before_it_is_built(mine, tmp_path):
     mine.write_text(TEMPLATE.replace("return true;", "return malloc(1) != 0;"))
 
     done = octet_process("run", "--profile", mine, *ROBOTS["qemu"], *SHORT, "--out", tmp_path)
@@ -66,7 +66,7 @@ def test_what_an_image_cannot_have_is_named_before_it_is_built(mine, tmp_path):
     assert "mine.c:9:" in done.stderr
 
 
-def test_a_board_s_folder_that_another_process_builds_in_is_waited_for_and_then_named(mine, tmp_path, monkeypatch):
+def test_lasting_build_lock_of_another_process_is_reported(mine, tmp_path, monkeypatch):
     monkeypatch.setattr(own_brain, "_IMAGES", tmp_path / "images")
     monkeypatch.setattr(own_brain, "_OTHER_S", 0.3)
     brain = own_brain.own_brain(mine)
@@ -92,7 +92,7 @@ def starts_own() -> None:
         start(client, Session(1, OWN_PROFILE))
 
 
-def test_an_image_is_flashed_with_one_s_own_behaviour_or_without(mine):
+def test_flash_builds_images_with_and_without_a_custom_behaviour(mine):
     done = flashed("--profile", str(mine))
     assert done.returncode == 0, done.stderr
     assert "image  " in done.stdout

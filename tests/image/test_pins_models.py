@@ -5,18 +5,18 @@ import pytest
 from host_sim.emulator.board_pins import read_pins
 from host_sim.emulator.clock import SECOND
 from host_sim.emulator.converter import ConverterF1, ConverterG4, Dma, Multiplexer
-from host_sim.emulator.interrupts import Interrupts
+from host_sim.emulator.hardware import Interrupts
 from host_sim.emulator.ports import GpioF1, GpioG4
 from host_sim.emulator.registers import BoardError, Register
+from host_sim.emulator.robot_on_pins import Wiring
 from host_sim.emulator.timers import MotorTimer, Timer
-from host_sim.emulator.wiring import Wiring
 from tests.image.support import read, write
 
 CRL, IDR, ODR, BSRR = 0x00, 0x08, 0x0C, 0x10
 HZ = 8_000_000
 
 
-def test_an_open_input_reads_its_pull_and_a_driven_one_its_level():
+def test_open_input_reads_its_pull_and_driven_input_its_level():
     port = GpioF1("GPIOA")
     write(port, CRL, 0x44444488)
     write(port, BSRR, 1)
@@ -28,7 +28,7 @@ def test_an_open_input_reads_its_pull_and_a_driven_one_its_level():
     assert not port.drives(0)
 
 
-def test_an_output_reads_back_and_an_alternate_one_is_not_the_images():
+def test_output_reads_back_and_alternate_pin_is_not_driven():
     port = GpioF1("GPIOA")
     write(port, CRL, 0x444444B2)
     write(port, BSRR, 3)
@@ -36,7 +36,7 @@ def test_an_output_reads_back_and_an_alternate_one_is_not_the_images():
     assert read(port, IDR) == 3
 
 
-def test_an_open_drain_drives_nothing_high():
+def test_open_drain_output_drives_only_low():
     f1, g4 = GpioF1("GPIOA"), GpioG4("GPIOC")
     write(f1, CRL, 0x44444462)
     write(f1, BSRR, 3)
@@ -52,7 +52,7 @@ def wiring():
     return Wiring(read_pins("blue_pill"), ports, Register("MAPR")), ports
 
 
-def test_a_signal_meets_its_function_with_the_right_mode_and_remap(wiring):
+def test_f1_signal_is_connected_by_pin_mode_and_remap(wiring):
     wires, ports = wiring
     mapr = wires._mapr
     write(ports[1], 0x04, 0x444444B8)
@@ -66,7 +66,7 @@ def test_a_signal_meets_its_function_with_the_right_mode_and_remap(wiring):
     assert not wires.meets("CAN_RX")
 
 
-def test_a_pin_of_a_g4_serves_with_its_function_alone():
+def test_g4_signal_is_connected_by_its_alternate_function():
     ports = [GpioG4(f"GPIO{letter}") for letter in "ABC"]
     wires = Wiring(read_pins("nucleo_g431rb"), ports, None)
     write(ports[0], 0x24, 9 << 12 | 9 << 16)
@@ -79,7 +79,7 @@ def test_a_pin_of_a_g4_serves_with_its_function_alone():
     assert not wires.meets("CAN_RX")
 
 
-def test_a_pin_of_a_g4_is_analogue_until_told_otherwise_and_reads_its_pull():
+def test_g4_pin_starts_analogue_and_input_reads_its_pull():
     port = GpioG4("GPIOC")
     assert port.measures(3)
     write(port, 0x00, 0xFFFFFFF1)
@@ -88,7 +88,7 @@ def test_a_pin_of_a_g4_is_analogue_until_told_otherwise_and_reads_its_pull():
     assert (read(port, 0x10), port.drives(0), port.measures(1)) == (3, True, False)
 
 
-def test_pins_of_jtag_are_free_only_where_it_is_off(wiring):
+def test_jtag_pins_are_free_only_with_jtag_disabled(wiring):
     wires, _ = wiring
     wires._mapr.write(1 << 8)
     assert not wires.meets("BEACON")
@@ -96,14 +96,14 @@ def test_pins_of_jtag_are_free_only_where_it_is_off(wiring):
     assert wires.meets("BEACON")
 
 
-def test_a_sensor_needs_an_analogue_pin(wiring):
+def test_sensor_needs_an_analogue_pin(wiring):
     wires, ports = wiring
     assert not wires.meets("BATTERY")
     write(ports[0], CRL, 0x44044444)
     assert wires.meets("BATTERY")
 
 
-def test_an_encoder_is_counted_either_way_and_wraps():
+def test_encoder_counts_down_and_wraps():
     timer = Timer("TIM3")
     assert not timer.follows_encoder()
     for offset, value in ((0x18, 0x3131), (0x08, 3), (0x00, 1)):
@@ -114,7 +114,7 @@ def test_an_encoder_is_counted_either_way_and_wraps():
     assert read(timer, 0x24) == 0xFFFF
 
 
-def test_bursts_are_counted_at_the_first_input():
+def test_timer_counts_bursts_at_its_first_input():
     timer = Timer("TIM2")
     for offset, value in ((0x18, 0x31), (0x08, 7 | 5 << 4), (0x00, 1)):
         write(timer, offset, value)
@@ -130,7 +130,7 @@ def motors(clock):
     return timer, pended
 
 
-def test_an_update_comes_each_so_many_periods_and_asks_for_its_interrupt(clock, motors):
+def test_update_event_follows_the_repetition_counter(clock, motors):
     timer, pended = motors
     write(timer, 0x0C, 1)
     write(timer, 0x00, 1)
@@ -142,7 +142,7 @@ def test_an_update_comes_each_so_many_periods_and_asks_for_its_interrupt(clock, 
     assert not read(timer, 0x10) & 1
 
 
-def test_a_duty_is_that_of_a_running_enabled_unbroken_channel(motors):
+def test_duty_is_zero_unless_channel_runs_enabled_and_unbroken(motors):
     timer, _ = motors
     assert timer.duty("ch2n") == 0
     write(timer, 0x00, 1)
@@ -178,7 +178,7 @@ def begin(made):
     write(made, 0x08, SET_UP | BEGIN)
 
 
-def test_a_round_is_converted_in_its_order(converter):
+def test_f1_adc_converts_its_sequence_in_order(converter):
     made, _ = converter
     assert made.convert({}) is None
     begin(made)
@@ -201,7 +201,7 @@ def test_a_round_is_converted_in_its_order(converter):
         ([1 | CALIBRATE_F1, None, None, 1 | RESET_CALIBRATION, None, None, SET_UP | BEGIN], "begun before it was"),
     ],
 )
-def test_what_an_f1s_converter_cannot_do_is_refused(converter, words, why):
+def test_invalid_f1_adc_setup_is_refused(converter, words, why):
     made, _ = converter
     for value in words[:-1]:
         if value is None:
@@ -212,14 +212,14 @@ def test_what_an_f1s_converter_cannot_do_is_refused(converter, words, why):
         write(made, 0x08, words[-1])
 
 
-def test_samples_that_nobody_carries_off_are_lost(converter):
+def test_adc_samples_without_dma_are_lost(converter):
     made, dma = converter
     begin(made)
     write(dma, 0x08, 0)
     assert made.convert({3: 700}) is None
 
 
-def test_a_round_of_another_length_and_a_clock_too_fast_are_refused(converter):
+def test_adc_with_wrong_dma_length_or_fast_clock_is_refused(converter):
     made, dma = converter
     begin(made)
     write(dma, 0x0C, 3)
@@ -258,7 +258,7 @@ def switched_on(made):
     return made
 
 
-def test_a_g4_converts_a_round_over_two_registers_in_its_order(converter_g4):
+def test_g4_adc_converts_its_sequence_over_two_registers(converter_g4):
     made, before = converter_g4
     assert made.convert({}) is None
     at, data = switched_on(made).convert({9: 9, 8: 8, 7: 7, 6: 6, 1: 1, 2: 2, 3: 3})
@@ -275,7 +275,7 @@ def test_a_g4_converts_a_round_over_two_registers_in_its_order(converter_g4):
         ([REGULATOR, REGULATOR | ON, REGULATOR | CALIBRATE], "calibrated while it was on"),
     ],
 )
-def test_what_a_g4s_converter_cannot_do_is_refused(converter_g4, words, why):
+def test_invalid_g4_adc_setup_is_refused(converter_g4, words, why):
     made, _ = converter_g4
     for value in words[:-1]:
         write(made, 0x08, value)
@@ -285,7 +285,7 @@ def test_what_a_g4s_converter_cannot_do_is_refused(converter_g4, words, why):
 
 
 @pytest.mark.parametrize(("divisor", "hz"), [(0, 0), (1, 80_000_000)])
-def test_a_g4s_converter_needs_a_clock_that_it_can_follow(converter_g4, divisor, hz):
+def test_g4_adc_with_a_wrong_clock_is_refused(converter_g4, divisor, hz):
     made, _ = converter_g4
     write(made, 0x308, divisor << 16)
     write(made, 0x08, REGULATOR)
@@ -294,14 +294,14 @@ def test_a_g4s_converter_needs_a_clock_that_it_can_follow(converter_g4, divisor,
         write(made, 0x08, REGULATOR | ON)
 
 
-def test_a_status_is_cleared_by_zeros_from_python_too():
+def test_status_bits_are_cleared_by_writing_zeros():
     timer = Timer("TIM3")
     timer.registers[0x10].value = 0x81
     write(timer, 0x10, 0xFFFFFFFE)
     assert read(timer, 0x10) == 0x80
 
 
-def test_what_is_enabled_and_pending_wakes():
+def test_enabled_pending_interrupt_wakes_the_core():
     interrupts = Interrupts()
     interrupts.pend(25)
     assert not interrupts.wakes

@@ -48,7 +48,7 @@ def is_running(pid):
     return True
 
 
-def test_a_robot_in_qemu_learns_and_its_process_ends(tmp_path):
+def test_robot_in_qemu_learns_and_its_process_ends(tmp_path):
     with ExitStack() as stack:
         connection = Connector(stack, Access("fd", "qemu")).connection(1)
         session = run_robot(connection, 1, 1000, tmp_path / "run.log")
@@ -59,7 +59,7 @@ def test_a_robot_in_qemu_learns_and_its_process_ends(tmp_path):
     assert not is_running(connection.pid)
 
 
-def test_qemu_that_cannot_be_started_is_told_and_leaves_nothing_open(monkeypatch):
+def test_failed_start_of_qemu_is_reported_and_leaks_nothing(monkeypatch):
     def fail(*_: object, **__: object) -> None:
         raise FileNotFoundError(errno.ENOENT, "No such file or directory", "setpriv")
 
@@ -70,7 +70,7 @@ def test_qemu_that_cannot_be_started_is_told_and_leaves_nothing_open(monkeypatch
     gc.collect()  # a socket that is left open is a warning, and that an error
 
 
-def test_qemu_that_dies_is_named(qemu):
+def test_death_of_qemu_is_reported(qemu):
     os.kill(qemu.pid, signal.SIGKILL)
 
     with pytest.raises(RobotError, match="closed"):
@@ -92,33 +92,33 @@ def test_qemu_ends_with_the_process_that_started_it():
     assert not is_running(pid)
 
 
-def test_qemu_that_is_not_installed_is_named(monkeypatch):
+def test_missing_qemu_is_reported_with_the_setup_command(monkeypatch):
     monkeypatch.setenv("PATH", "/nowhere")
 
     with pytest.raises(OctetError, match="tools/setup images"):
         Qemu()
 
 
-def test_an_image_that_is_not_built_is_named_with_how_to_build_it(monkeypatch, tmp_path):
+def test_missing_image_is_reported_with_the_setup_command(monkeypatch, tmp_path):
     monkeypatch.setattr("host_sim.base.paths.BUILD", tmp_path)
 
     with pytest.raises(OctetError, match="tools/setup images"):
         image_path("feather_stm32f405", "slcan")
 
 
-def test_what_is_no_image_ends_qemu_with_its_reason(tmp_path):
+def test_invalid_image_ends_qemu_with_its_reason(tmp_path):
     with pytest.raises(RobotError, match=r"QEMU ended with exit code 1 and printed: .*nothing\.elf"):
         Qemu(tmp_path / "nothing.elf")
 
 
-def test_an_image_that_says_nothing_is_given_up(monkeypatch):
+def test_silent_image_times_out(monkeypatch):
     monkeypatch.setattr("host_sim.sim.qemu._READY_S", 0.001)
 
     with pytest.raises(RobotError, match=r"sent nothing for 0\.001 s; it is running in QEMU"):
         Qemu()
 
 
-def test_an_image_that_never_pauses_is_ready_nevertheless(monkeypatch):
+def test_image_that_never_pauses_becomes_ready(monkeypatch):
     monkeypatch.setattr("host_sim.sim.qemu._PAUSE_S", 5.0)  # heartbeats come each second
     monkeypatch.setattr("host_sim.sim.qemu._READY_S", 1.0)
 
@@ -129,19 +129,19 @@ def test_an_image_that_never_pauses_is_ready_nevertheless(monkeypatch):
 
 
 @pytest.mark.parametrize("robot", ["qemu", "emulated"])
-def test_an_emulator_brings_its_own_bus_and_node(robot):
+def test_emulator_refuses_another_bus_or_node(robot):
     with pytest.raises(UsageError, match="its own bus"):
         Access("socketcan:vcan0", robot)
     with pytest.raises(UsageError, match="is node 1, not 2"):
         Access("fd", robot, [2])
 
 
-def test_a_board_that_does_not_exist_is_named():
+def test_unknown_board_is_reported_with_the_known_ones():
     with ExitStack() as stack, pytest.raises(UsageError, match="no board 'stm32f999'; there are feather_stm32f405,"):
         Connector(stack, Access("fd", "emulated", board="stm32f999")).connection(1)
 
 
-def test_frames_go_over_the_line_as_text(line):
+def test_serial_line_carries_frames_as_slcan_text(line):
     link, far = line
 
     link.send(Frame(0x41, b"\x01\xab"))
@@ -153,7 +153,7 @@ def test_frames_go_over_the_line_as_text(line):
 
 
 @pytest.mark.parametrize("text", [b"t0812FF\r", b"t0811FF00\r", b"T000000810\r", b"nonsense\r", b"t0819\r"])
-def test_a_line_that_is_not_a_data_frame_has_no_identifier(line, text):
+def test_line_without_a_data_frame_has_no_identifier(line, text):
     link, far = line
 
     far.sendall(text)
@@ -161,7 +161,7 @@ def test_a_line_that_is_not_a_data_frame_has_no_identifier(line, text):
     assert link.receive(1.0) == Frame(-1, b"")
 
 
-def test_a_line_whose_far_end_is_closed_is_an_error(line):
+def test_closed_far_end_raises_an_error(line):
     link, far = line
     far.close()
 

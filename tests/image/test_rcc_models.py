@@ -20,7 +20,7 @@ def start(rcc, clock, bit):
     return bool(read(rcc, 0x00) >> bit & 2)
 
 
-def test_an_f4_runs_at_168_mhz(clock):
+def test_f4_runs_at_168_mhz(clock):
     rcc = rcc_of(STM32F405, clock)
 
     assert start(rcc, clock, 16)
@@ -35,7 +35,7 @@ def test_an_f4_runs_at_168_mhz(clock):
     assert rcc.follows_crystal()
 
 
-def test_a_g4_runs_at_80_mhz_and_its_can_as_it_was_told(clock):
+def test_g4_runs_at_80_mhz_with_a_selectable_can_clock(clock):
     rcc = rcc_of(STM32G431, clock)
     reset = read(rcc, 0x00), read(rcc, 0x08), rcc.core_hz(), rcc.can_hz()
 
@@ -63,7 +63,7 @@ def test_a_g4_runs_at_80_mhz_and_its_can_as_it_was_told(clock):
     ],
     ids=["APB1", "APB2", "all in one write"],
 )
-def test_a_bus_that_is_too_fast_even_for_a_moment_is_an_error(clock, before, switch, name):
+def test_momentarily_too_fast_bus_clock_is_refused(clock, before, switch, name):
     rcc = rcc_of(STM32F405, clock)
     start(rcc, clock, 16)
     write(rcc, 0x04, 7 << 24 | 1 << 22 | 336 << 6 | 12)
@@ -86,7 +86,7 @@ def test_a_bus_that_is_too_fast_even_for_a_moment_is_an_error(clock, before, swi
         (STM32F103, 1 << 16 | 8 << 18),
     ],
 )
-def test_a_pll_is_not_asked_for_what_it_cannot_make(clock, chip, setup):
+def test_impossible_pll_setup_is_refused(clock, chip, setup):
     rcc = rcc_of(chip, clock)
     start(rcc, clock, 16)
     write(rcc, 0x0C if chip is STM32G431 else 0x04, setup)
@@ -95,14 +95,14 @@ def test_a_pll_is_not_asked_for_what_it_cannot_make(clock, chip, setup):
         start(rcc, clock, 24)
 
 
-def test_flash_that_becomes_too_slow_for_the_clock_is_an_error():
+def test_lowering_flash_wait_states_below_the_clock_is_refused():
     board = start_board("blue_pill")
 
     with pytest.raises(BoardError, match="wait states, runs at 72000000 Hz, where 24000000"):
         write(board.hardware.flash, 0x00, 0)
 
 
-def test_an_f1_runs_at_72_mhz(clock):
+def test_f1_runs_at_72_mhz(clock):
     rcc = rcc_of(STM32F103, clock)
 
     assert start(rcc, clock, 16)
@@ -113,7 +113,7 @@ def test_an_f1_runs_at_72_mhz(clock):
     assert (clock.model.period_fs, rcc.apb1_hz()) == (SECOND // 72_000_000, 36_000_000)
 
 
-def test_a_clock_that_does_not_run_is_not_switched_to(clock):
+def test_switch_to_a_stopped_oscillator_is_ignored(clock):
     rcc = rcc_of(STM32F405, clock, RccFaults(crystal_dead=True))
 
     assert not start(rcc, clock, 16)
@@ -122,7 +122,7 @@ def test_a_clock_that_does_not_run_is_not_switched_to(clock):
     assert read(rcc, 0x08) >> 2 & 3 == 0
 
 
-def test_a_clock_too_fast_for_the_flash_is_an_error(clock):
+def test_clock_too_fast_for_flash_wait_states_is_refused(clock):
     rcc = rcc_of(STM32F405, clock, flash_hz=30_000_000)
     start(rcc, clock, 16)
     write(rcc, 0x04, 1 << 22 | 336 << 6 | 12)
@@ -134,7 +134,7 @@ def test_a_clock_too_fast_for_the_flash_is_an_error(clock):
 
 
 @pytest.mark.parametrize(("chip", "setup"), [(STM32F405, 1 << 22 | 336 << 6 | 12), (STM32F103, 1 << 16 | 7 << 18)])
-def test_a_pll_does_not_start_from_a_crystal_that_does_not_run(clock, chip, setup):
+def test_pll_start_from_a_stopped_crystal_is_refused(clock, chip, setup):
     rcc = rcc_of(chip, clock)
     write(rcc, 0x04, setup)
 
@@ -142,7 +142,7 @@ def test_a_pll_does_not_start_from_a_crystal_that_does_not_run(clock, chip, setu
         start(rcc, clock, 24)
 
 
-def test_a_pll_is_not_set_up_while_it_is_on(clock):
+def test_running_pll_cannot_be_set_up(clock):
     f4, f1 = rcc_of(STM32F405, clock), rcc_of(STM32F103, clock)
     for rcc in (f4, f1):
         start(rcc, clock, 24)
@@ -155,7 +155,7 @@ def test_a_pll_is_not_set_up_while_it_is_on(clock):
 
 
 @pytest.mark.parametrize("stopped", [16, 24])
-def test_what_the_core_runs_from_is_not_switched_off(clock, stopped):
+def test_clock_source_of_the_core_cannot_be_stopped(clock, stopped):
     rcc = rcc_of(STM32F103, clock)
     start(rcc, clock, 16)
     write(rcc, 0x04, 4 << 8 | 1 << 16 | 7 << 18)
@@ -168,7 +168,7 @@ def test_what_the_core_runs_from_is_not_switched_off(clock, stopped):
     write(rcc, 0x00, 1)
 
 
-def test_causes_of_resets_are_noted_until_cleared(clock):
+def test_reset_flags_are_kept_until_cleared(clock):
     rcc = rcc_of(STM32F405, clock)
     rcc.restart("watchdog")
     noted = read(rcc, 0x74)

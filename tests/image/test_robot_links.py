@@ -1,4 +1,7 @@
-"""What every link to a robot does, whatever carries the frames: in process, a socket pair, QEMU, emulated boards."""
+"""What every link to a robot does, whatever carries the frames: in process, a socket pair, QEMU, emulated boards.
+
+The bridge's mean voltages, compared with its truth table and with the motor's current computed step by step.
+"""
 
 import itertools
 import time
@@ -6,6 +9,7 @@ from contextlib import ExitStack
 
 import pytest
 
+from host_sim.emulator.robot_on_pins import PWM_S, Winding, voltage
 from host_sim.protocol.codec import COUNTERS as COUNTER_SPAN
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import Reason, Senses
@@ -85,7 +89,7 @@ def faults(link):
     return report
 
 
-def test_a_command_is_answered_once_and_in_full(link):
+def test_command_is_answered_once_and_in_full(link):
     names = [said.name for said in ask(link)]
 
     assert names == ["ANSWER", "HEARTBEAT", "MEMORY", "MEMORY", "FAULTS", "FAULTS", "HEALTH", "DRIVE"]
@@ -103,7 +107,7 @@ def test_frames_keep_their_order(link):
     assert ticks == sorted(set(ticks))
 
 
-def test_receiving_waits_as_long_as_told_and_then_ends(link):
+def test_receive_returns_none_after_its_timeout(link):
     assert receive(link, 0.0) is None
     began = time.monotonic()
     assert receive(link, 0.1) is None
@@ -112,7 +116,7 @@ def test_receiving_waits_as_long_as_told_and_then_ends(link):
 
 
 @pytest.mark.parametrize("damage", ["length", "crc"])
-def test_a_bad_frame_gets_no_answer_and_is_counted(link, damage):
+def test_damaged_frame_gets_no_answer_and_is_counted(link, damage):
     before = faults(link)
     good = order()
     link.send(good)
@@ -128,7 +132,7 @@ def test_a_bad_frame_gets_no_answer_and_is_counted(link, damage):
     assert faults(link)["damaged"] == before["damaged"] + 1
 
 
-def test_a_command_again_is_answered_again_and_not_carried_out_again(link):
+def test_repeated_command_is_answered_again_and_not_executed(link):
     before = faults(link)
     command = order()
     link.send(command)
@@ -141,9 +145,45 @@ def test_a_command_again_is_answered_again_and_not_carried_out_again(link):
     assert {name: faults(link)[name] for name in KINDS} == {name: before[name] for name in KINDS}
 
 
-def test_frames_for_others_get_no_answer(link):
+def test_frames_for_other_nodes_get_no_answer(link):
     for frame_id in (0x000, 0x022, 0x102, 0x181, 0x7FF):
         link.send(Frame(frame_id, bytes(8)))
 
     assert receive(link, 0.05) is None
     assert ask(link)[0].name == "ANSWER"
+
+
+STEPS, PERIODS = 2000, 30
+
+
+def stepped(in_1: float, in_2: float, emf: float, winding: Winding) -> float:
+    """The mean voltage of the last of many periods, from the differential equation of the winding."""
+    current, total = 0.0, 0.0
+    for _ in range(PERIODS):
+        total = 0.0
+        for step in range(STEPS):
+            high = [step < duty * STEPS for duty in (in_1, in_2)]
+            if any(high):
+                applied = float(high[0] - high[1])
+            elif current != 0:
+                applied = -1.0 if current > 0 else 1.0
+            else:
+                applied = emf
+            after = current + (applied - emf - current * winding.ohm) * PWM_S / STEPS / winding.henry
+            current = 0.0 if not any(high) and after * current <= 0 else after
+            total += applied
+    return total / STEPS
+
+
+@pytest.mark.parametrize("henry", [0.3e-3, 1e-3, 2e-3])
+@pytest.mark.parametrize("emf", [0.0, 0.3, -0.1])
+@pytest.mark.parametrize("inputs", [(0.4, 0.0), (0.8, 0.0), (0.0, 0.3), (1.0, 0.6), (0.6, 1.0), (1.0, 1.0)])
+def test_mean_motor_voltage_matches_the_stepped_winding_model(inputs, emf, henry):
+    winding = Winding(henry=henry)
+
+    assert voltage(*inputs, emf, winding) == pytest.approx(stepped(*inputs, emf, winding), abs=0.01)
+
+
+@pytest.mark.parametrize(("inputs", "wanted"), [((1, 0), 1), ((0, 1), -1), ((1, 1), 0), ((0, 0), 0.3)])
+def test_steady_inputs_follow_the_truth_table(inputs, wanted):
+    assert voltage(*inputs, 0.3, Winding()) == pytest.approx(wanted)

@@ -1,4 +1,7 @@
-"""A robot of its own on the pins of an emulated board: it drives, and what is wired wrong shows."""
+"""A robot of its own on the pins of an emulated board: it drives, and what is wired wrong shows.
+
+Told against driven speed on the emulated bridge, with motors of any inductance, in both directions.
+"""
 
 import json
 from dataclasses import replace
@@ -8,13 +11,20 @@ import pytest
 
 from host_sim.base.errors import RobotError, UsageError
 from host_sim.emulator.pins_board import PinsBoard, start_robot
+from host_sim.emulator.robot_on_pins import Winding
 from host_sim.live.feed import PageFeed
 from host_sim.live.paced_run import PacedRun
-from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.codec import COUNTERS, Frame, Protocol
+from host_sim.protocol.generated import TICK_SPAN, Reason
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
+from host_sim.world.arena import Arena
+from host_sim.world.body_kinds import body_kind
+from host_sim.world.geometry import SimParams
+from host_sim.world.layouts import generate
+from tests.image.two_boards import TwoBoards
 from tests.runs.support import octet_process
 
 PINS = RunConfig(seed=2, environments=1, robot="emulated", board="blue_pill", body="pins", limit_s=20)
@@ -35,7 +45,7 @@ def counts(simulation: Simulation) -> list[int]:
 
 
 @pytest.mark.parametrize("board", BOARDS)
-def test_its_log_is_that_of_the_firmware_and_comes_again(board, tmp_path):
+def test_log_on_pins_replays_and_is_reproducible(board, tmp_path):
     logs = []
     for name in "ab":
         words = replace(PINS, board=board).command().split()[1:]
@@ -48,7 +58,7 @@ def test_its_log_is_that_of_the_firmware_and_comes_again(board, tmp_path):
 
 
 @pytest.mark.parametrize("board", BOARDS)
-def test_it_drives_and_touches_nothing(board):
+def test_robot_on_pins_drives_without_collisions(board):
     with make(replace(PINS, board=board)) as simulation:
         simulation.enter(1)
         start = simulation.arena.bodies[0].pose
@@ -61,7 +71,7 @@ def test_it_drives_and_touches_nothing(board):
 
 
 @pytest.mark.parametrize("channel", ["A", "B"])
-def test_an_encoder_on_a_wrong_pin_counts_nothing(channel):
+def test_encoder_on_a_wrong_pin_does_not_count(channel):
     with make(PINS) as simulation:
         board_of(simulation).robot.wiring.rewire(f"LEFT_ENCODER_{channel}", "PB4")
         simulation.enter(1)
@@ -72,7 +82,7 @@ def test_an_encoder_on_a_wrong_pin_counts_nothing(channel):
         assert (after[0] == before[0], after[1] == before[1]) == (True, False)
 
 
-def test_can_on_a_wrong_pin_is_heard_by_nobody():
+def test_can_on_a_wrong_pin_gets_no_answer():
     board = start_robot("blue_pill")
     board.pass_time(0.1)
     board.robot.wiring.rewire("CAN_RX", "PA11")
@@ -84,7 +94,7 @@ def test_can_on_a_wrong_pin_is_heard_by_nobody():
 
 
 @pytest.mark.parametrize("name", BOARDS)
-def test_a_sensor_whose_wire_is_broken_sees_nothing(name):
+def test_disconnected_sensor_detects_no_wall(name):
     board = start_robot(name)
     board.robot.light = [4000] * 5
     board.robot.wiring.rewire("PROXIMITY_FRONT")
@@ -101,7 +111,7 @@ def feel_of(board: PinsBoard) -> int:
     return decoded.signals["feel"]
 
 
-def test_light_of_the_room_is_not_a_wall():
+def test_ambient_light_is_not_detected_as_a_wall():
     board = start_robot("blue_pill")
     board.robot.ambient = 3500
     assert feel_of(board) == 0
@@ -109,7 +119,7 @@ def test_light_of_the_room_is_not_a_wall():
     assert feel_of(board) == 0b11111
 
 
-def test_an_encoder_that_counts_against_its_motor_stops_the_robot_within_a_second():
+def test_reversed_encoder_stops_the_robot_within_a_second():
     with make(PINS) as simulation:
         board = board_of(simulation)
         board.robot.counts_by[0] = -1
@@ -121,7 +131,7 @@ def test_an_encoder_that_counts_against_its_motor_stops_the_robot_within_a_secon
 
 
 @pytest.mark.parametrize("name", BOARDS)
-def test_a_fault_of_the_bridge_stops_the_pwm_without_the_image(name):
+def test_bridge_fault_stops_the_pwm_in_hardware(name):
     with make(replace(PINS, board=name)) as simulation:
         simulation.enter(1)
         for _ in range(20):
@@ -143,7 +153,7 @@ def test_a_fault_of_the_bridge_stops_the_pwm_without_the_image(name):
         ("blue_pill", 1e-7, False),
     ],
 )
-def test_a_spike_on_the_fault_signal_ends_no_run_where_the_chip_can_filter_it(name, lasts_s, drives):
+def test_short_fault_spike_is_filtered_if_the_chip_can(name, lasts_s, drives):
     with make(replace(PINS, board=name)) as simulation:
         simulation.enter(1)
         board = board_of(simulation)
@@ -154,7 +164,7 @@ def test_a_spike_on_the_fault_signal_ends_no_run_where_the_chip_can_filter_it(na
 
 
 @pytest.mark.parametrize("name", BOARDS)
-def test_the_button_starts_and_stops_it_without_a_pc(name):
+def test_button_starts_and_stops_the_robot_without_a_pc(name):
     board = start_robot(name)
     board.robot.set_button(True)
     board.pass_time(0.3)
@@ -170,7 +180,7 @@ def test_the_button_starts_and_stops_it_without_a_pc(name):
 
 
 @pytest.mark.parametrize("name", BOARDS)
-def test_its_beat_has_no_jitter(name):
+def test_pwm_is_updated_without_jitter(name):
     with make(replace(PINS, board=name)) as simulation:
         board = board_of(simulation)
         moments = []
@@ -190,7 +200,7 @@ def test_its_beat_has_no_jitter(name):
     assert max(abs(span - 0.005) for span in spans) < 1e-6
 
 
-def test_a_page_is_told_what_is_on_its_pins():
+def test_page_feed_contains_the_pins():
     with make(PINS) as simulation:
         live = PacedRun(simulation, RunRecorder.of(simulation, boredom_limit=10), lambda _: None)
         live.begin()
@@ -203,7 +213,7 @@ def test_a_page_is_told_what_is_on_its_pins():
         assert pins["volts"] == round(robot.volts, 2)
 
 
-def test_other_boards_and_robots_are_refused():
+def test_pins_on_unsupported_boards_and_robots_are_refused():
     why = "there is no image with a body on pins for feather_stm32f405: use --board blue_pill, nucleo_g431rb or pico"
     with pytest.raises(UsageError, match=why):
         start_robot("feather_stm32f405")
@@ -211,7 +221,7 @@ def test_other_boards_and_robots_are_refused():
         RunConfig(body="pins")
 
 
-def test_a_robot_that_says_nothing_is_lost_and_not_waited_for_for_ever():
+def test_silent_robot_on_pins_times_out():
     with make(PINS) as simulation:
         simulation.enter(1)
         board = board_of(simulation)
@@ -219,3 +229,55 @@ def test_a_robot_that_says_nothing_is_lost_and_not_waited_for_for_ever():
         simulation.clients[0].connection.__dict__["deadline_s"] = 0.3
         with pytest.raises(RobotError):
             simulation.step()
+
+
+INDUCTANCES_MH = (0.3, 1.0, 2.0)
+SETTLING_TICKS, DRIVE_TICKS, TICK_S = 40, 50, 0.02
+COUNT_MM = 0.0916
+_PROTOCOL = Protocol()
+
+
+def driven_mm_s(board: str, told_mm_s: int, inductance_mh: float) -> float:
+    """The speed that the left wheel of a body on a board reaches, by its encoder, when both are told this one."""
+    boards = TwoBoards(body=board)
+    boards.cut = True
+    boards.robot.winding = Winding(henry=inductance_mh / 1000)
+    kind = body_kind("kit")
+    params = kind.reach(SimParams())
+    arena = Arena(generate(2, 1, params), params, kind=kind)
+    arena.begin(2)
+    boards.robot.join(arena.body.kit)
+    kit, begin = arena.body.kit, 0
+    for tick in range(SETTLING_TICKS + DRIVE_TICKS):
+        if tick == SETTLING_TICKS:
+            begin = kit.wheels[0].place
+        _tell(boards, told_mm_s)
+    way = (kit.wheels[0].place - begin + 2**63) % 2**64 - 2**63
+    return float(way / 65536 * COUNT_MM / (DRIVE_TICKS * TICK_S))
+
+
+def _tell(boards: TwoBoards, speed_mm_s: int) -> None:
+    """A tick, in which the body gets a drive for the senses that it sent last."""
+    boards.pass_time(TICK_S)
+    said = [_PROTOCOL.decode(frame) for _, frame in boards.heard[-8:]]
+    senses = [it.signals for it in said if it is not None and it.name == "SENSES"][-1]
+    stamp = {"tick": senses["tick"] % TICK_SPAN, "counter": senses["counter"] % COUNTERS}
+    drive = {
+        "left": speed_mm_s,
+        "right": speed_mm_s,
+        "reason": Reason.WANDER,
+        "repeat_count": 0,
+        "eat": 0,
+        "action": 1,
+    }
+    boards.body.send(_PROTOCOL.encode("DRIVE", drive | stamp))
+
+
+@pytest.mark.parametrize("board", ["blue_pill", "nucleo_g431rb"])
+@pytest.mark.parametrize("way", [1, -1], ids=["forward", "backward"])
+@pytest.mark.parametrize("speed_mm_s", [60, 200])
+@pytest.mark.parametrize("inductance_mh", INDUCTANCES_MH)
+def test_wheels_reach_the_commanded_speed(inductance_mh, speed_mm_s, way, board):
+    driven = driven_mm_s(board, way * speed_mm_s, inductance_mh)
+
+    assert driven == pytest.approx(way * speed_mm_s, rel=0.05)

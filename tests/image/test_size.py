@@ -7,10 +7,7 @@ import pytest
 from tests.tools.project import ROOT, script_named
 from tools.verify import command
 from tools.verify.command import ChoiceError, VerifyError
-from tools.verify.size.budget import read
-from tools.verify.size.core_alone import compiler_of
-from tools.verify.size.pieces import read_pieces
-from tools.verify.size.stack import CallGraph, worst_stack
+from tools.verify.size.pieces import CallGraph, compiler_of, read, read_pieces, worst_stack
 
 BUDGET = ROOT / "tools" / "verify" / "size.md"
 HEAD = "# Budgets\n\n| what | compiler | flash | ram | stack | instructions |\n| - | - | - | - | - | - |\n"
@@ -36,7 +33,7 @@ def graph(text: str) -> CallGraph:
     return made
 
 
-def test_everything_is_within_its_budget_but_for_the_limits_that_were_lowered(
+def test_size_reports_only_the_lowered_limits_as_exceeded(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     budget = read(BUDGET)
@@ -61,7 +58,7 @@ def test_everything_is_within_its_budget_but_for_the_limits_that_were_lowered(
     assert {"core on Cortex-M0", "core on RV32"} <= tables
 
 
-def test_nearly_all_of_an_image_is_known_by_its_file() -> None:
+def test_bytes_of_an_image_are_assigned_to_their_modules() -> None:
     pieces = read_pieces(ROOT / "build" / "blue_pill" / "octet-blue_pill-bxcan.elf")
 
     flash = sum(piece.flash for piece in pieces)
@@ -80,7 +77,7 @@ def test_nearly_all_of_an_image_is_known_by_its_file() -> None:
         ("gcc 13", 1, "size: no budget for an image with gcc 13: add a row, and tools/size --record fills it in\n"),
     ],
 )
-def test_a_limit_that_is_passed_or_not_there_is_an_error(
+def test_exceeded_or_missing_limit_is_an_error(
     compiler: str, flash: int, complaint: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     table(tmp_path / "size.md")
@@ -92,7 +89,7 @@ def test_a_limit_that_is_passed_or_not_there_is_an_error(
     assert capsys.readouterr().err == complaint
 
 
-def test_what_is_recorded_changes_no_limit(tmp_path: Path) -> None:
+def test_recording_sizes_changes_no_limit(tmp_path: Path) -> None:
     path = tmp_path / "size.md"
     table(path)
     budget = read(path)
@@ -104,7 +101,7 @@ def test_what_is_recorded_changes_no_limit(tmp_path: Path) -> None:
     assert path.read_text().startswith("# Budgets\n")
 
 
-def test_each_image_has_a_budget_for_each_compiler() -> None:
+def test_images_have_a_budget_for_every_compiler() -> None:
     compilers: dict[str, set[str]] = {}
     for what, compiler in read(BUDGET).rows:
         compilers.setdefault(what, set()).add(compiler)
@@ -115,14 +112,14 @@ def test_each_image_has_a_budget_for_each_compiler() -> None:
 @pytest.mark.parametrize(
     "text", ["", "| what | compiler |\n| - | - |\n| a |\n", HEAD + "| a | gcc 12 | 90 | | | |\n"]
 )
-def test_a_table_that_cannot_be_read_is_an_error(text: str, tmp_path: Path) -> None:
+def test_unreadable_budget_table_is_an_error(text: str, tmp_path: Path) -> None:
     (tmp_path / "size.md").write_text(text)
 
     with pytest.raises(ChoiceError, match=r"cannot read .*size\.md"):
         read(tmp_path / "size.md")
 
 
-def test_the_worst_stack_is_that_of_the_deepest_way() -> None:
+def test_worst_stack_is_that_of_the_deepest_call_path() -> None:
     assert worst_stack(graph(GRAPH), ["top"]) == (16 + 8 + 32, ["top", "a.c:small", "memset"])
 
 
@@ -133,11 +130,11 @@ def test_the_worst_stack_is_that_of_the_deepest_way() -> None:
         ('edge: { sourcename: "top" targetname: "__indirect_call" label: "" }', "through a pointer"),
     ],
 )
-def test_a_stack_that_cannot_be_known_is_refused(line: str, reason: str) -> None:
+def test_recursion_and_indirect_calls_are_refused(line: str, reason: str) -> None:
     with pytest.raises(VerifyError, match=reason):
         worst_stack(graph(GRAPH + line), ["top"])
 
 
-def test_a_stack_that_grows_as_it_runs_is_refused() -> None:
+def test_dynamic_stack_is_refused() -> None:
     with pytest.raises(VerifyError, match="dynamic"):
         graph(GRAPH.replace("(static)", "(dynamic)"))

@@ -52,7 +52,7 @@ def fill(board: EmulatedBoard, kind: str) -> None:
 
 @pytest.mark.parametrize("kind", ["blank", "full", "roomy"])
 @pytest.mark.parametrize(("name", "link"), IMAGES)
-def test_every_image_starts_and_erases_no_page_twice(name, link, kind):
+def test_images_start_and_erase_no_page_twice(name, link, kind):
     image = BUILD / name / f"octet-{name}-{link}.elf"
     board = EmulatedBoard(CHIPS[name], image, serial=link == "slcan")
     fill(board, kind)
@@ -66,7 +66,7 @@ def test_every_image_starts_and_erases_no_page_twice(name, link, kind):
 
 
 @pytest.mark.parametrize(("name", "link"), IMAGES)
-def test_every_vector_of_the_chip_leads_to_the_handler_of_crashes(name, link):
+def test_interrupt_vectors_lead_to_the_crash_handler(name, link):
     image = load_segments(BUILD / name / f"octet-{name}-{link}.elf")[0][1]
     _, _, _, hard_fault, *_ = vectors = struct.unpack_from(f"<{16 + INTERRUPTS[name]}I", image)
 

@@ -34,7 +34,7 @@ def test_systick_counts_down_and_wraps(clock, divided, counts):
     assert (read(systick, 0x0) >> 16, read(systick, 0x0) >> 16) == (1, 0)
 
 
-def test_a_systick_at_rest_stays(clock):
+def test_stopped_systick_does_not_count(clock):
     systick = SysTick(clock)
 
     clock.execute(100)
@@ -42,12 +42,12 @@ def test_a_systick_at_rest_stays(clock):
     assert (read(systick, 0x8), read(systick, 0x0)) == (0, 0)
 
 
-def test_the_interrupt_of_systick_is_not_modelled(clock):
+def test_systick_interrupt_is_not_modelled(clock):
     with pytest.raises(BoardError, match="interrupt"):
         write(SysTick(clock), 0x0, 3)
 
 
-def test_a_watchdog_bites_when_its_time_is_over(clock):
+def test_watchdog_resets_when_it_is_not_fed_in_time(clock):
     bites = []
     watchdog = Watchdog(clock, 32_000, lambda: bites.append(clock.now))
     clock.skip(100 * SECOND)
@@ -67,7 +67,7 @@ def test_a_watchdog_bites_when_its_time_is_over(clock):
 
 
 @pytest.mark.parametrize("register", [0x4, 0x8])
-def test_a_watchdog_that_is_locked_is_not_set_up(clock, register):
+def test_locked_watchdog_cannot_be_set_up(clock, register):
     watchdog = Watchdog(clock, 32_000, lambda: None)
 
     with pytest.raises(BoardError, match="locked"):
@@ -76,7 +76,7 @@ def test_a_watchdog_that_is_locked_is_not_set_up(clock, register):
     assert read(watchdog, 0x8) == 0xFFF
 
 
-def test_a_watchdog_tells_its_period(clock):
+def test_watchdog_reports_its_period(clock):
     watchdog = Watchdog(clock, 32_000, lambda: None)
     write(watchdog, 0x0, 0x5555)
     write(watchdog, 0x4, 3)
@@ -88,7 +88,7 @@ def test_a_watchdog_tells_its_period(clock):
 
 
 @pytest.mark.parametrize("make", [GpioF1, GpioF4, GpioG4])
-def test_a_pin_is_set_and_cleared(make):
+def test_bsrr_sets_and_clears_a_pin(make):
     port = make("GPIOC")
     bsrr = next(offset for offset, register in port.registers.items() if register.name == "BSRR")
 
@@ -99,7 +99,7 @@ def test_a_pin_is_set_and_cleared(make):
     assert (high, port.level(13), port.level(12)) == (True, False, False)
 
 
-def test_a_reset_needs_its_key():
+def test_system_reset_needs_its_key():
     resets, moved = [], []
     scb = SystemControl(0, lambda: resets.append(1), moved.append)
     write(scb, 0x08, 0x08005100)
@@ -111,7 +111,7 @@ def test_a_reset_needs_its_key():
     assert (resets, moved) == ([1], [0x08005100])
 
 
-def test_a_core_that_faults_in_its_fault_handler_locks_up(clock):
+def test_fault_in_the_fault_handler_locks_up_the_core(clock):
     core = Core(clock, vectors=0x20000000)
     core.add_ram(0x20000000, PAGE)  # all handlers are at 0, where nothing is
     core.reset()
@@ -120,7 +120,7 @@ def test_a_core_that_faults_in_its_fault_handler_locks_up(clock):
         core.run()
 
 
-def test_a_ram_holds_noise_after_a_loss_of_power():
+def test_ram_holds_noise_after_a_power_cut():
     board = Hardware(STM32F103, Faults(), lambda _frame: None, lambda _cause: None)
     board.flash_image([(0x08000000, bytes(8))])
     read_ram = partial(board.core._uc.mem_read, *STM32F103.ram[0])
@@ -134,7 +134,7 @@ def test_a_ram_holds_noise_after_a_loss_of_power():
     assert read_ram() == noise
 
 
-def test_the_causes_of_faults_are_cleared_by_writing_ones():
+def test_fault_status_is_cleared_by_writing_ones():
     scb = SystemControl(0, lambda: None, lambda _address: None)
     scb.note_fault(1 << 9 | 1 << 12, 0x60000000)
 
@@ -143,7 +143,7 @@ def test_the_causes_of_faults_are_cleared_by_writing_ones():
     assert (read(scb, 0x28), read(scb, 0x2C), read(scb, 0x38)) == (1 << 15 | 1 << 12, 1 << 30, 0x60000000)
 
 
-def test_what_is_no_image_for_arm_is_named(tmp_path):
+def test_invalid_arm_image_is_reported(tmp_path):
     other = tmp_path / "robot.elf"
 
     with pytest.raises(OctetError, match="cannot read the image"):
@@ -155,7 +155,7 @@ def test_what_is_no_image_for_arm_is_named(tmp_path):
         load_segments(PROGRAM)
 
 
-def test_models_that_are_not_built_are_named_with_how_to_build_them(monkeypatch, tmp_path):
+def test_missing_models_are_reported_with_the_setup_command(monkeypatch, tmp_path):
     monkeypatch.setattr("host_sim.emulator.c_models.LIBRARY", tmp_path / "none.so")
     c_models.cache_clear()
 

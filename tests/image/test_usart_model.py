@@ -25,7 +25,7 @@ class Port:
         return read(self.usart, 0x00)
 
 
-def test_bytes_come_one_by_one_at_the_lines_speed():
+def test_bytes_arrive_at_the_speed_of_the_line():
     port = Port()
     port.usart.feed(b"ab")
 
@@ -39,7 +39,7 @@ def test_bytes_come_one_by_one_at_the_lines_speed():
     assert port.status() == 0xC0
 
 
-def test_a_byte_that_is_not_taken_costs_the_next():
+def test_unread_byte_causes_an_overrun():
     port = Port()
     port.usart.feed(b"abc")
 
@@ -50,7 +50,7 @@ def test_a_byte_that_is_not_taken_costs_the_next():
     assert (status & 8, byte, port.status() & 8, read(port.usart, 0x04)) == (8, ord("a"), 0, ord("c"))
 
 
-def test_two_bytes_can_be_on_their_way_out():
+def test_transmitter_holds_two_bytes():
     port = Port()
     write(port.usart, 0x04, ord("x"))
     one = port.status()
@@ -72,7 +72,7 @@ def fifo_port(heard, setup=1 << 29 | 0xD):
     return usart
 
 
-def test_a_fifo_keeps_eight_bytes_and_tells_of_a_ninth_until_that_is_cleared():
+def test_fifo_keeps_eight_bytes_and_flags_an_overrun():
     usart = fifo_port([])
     usart.feed(b"abcdefghi")
 
@@ -84,7 +84,7 @@ def test_a_fifo_keeps_eight_bytes_and_tells_of_a_ninth_until_that_is_cleared():
     assert (status & 0x28, taken, read(usart, 0x1C) & 0x28) == (0x28, b"abcdefgh", 0)
 
 
-def test_nine_bytes_can_be_on_their_way_out_with_a_fifo_and_two_without():
+def test_transmitter_holds_nine_bytes_with_a_fifo():
     heard = []
     for setup, count in ((1 << 29 | 0xD, 9), (0xD, 2)):
         usart = fifo_port(heard, setup)
@@ -98,7 +98,7 @@ def test_nine_bytes_can_be_on_their_way_out_with_a_fifo_and_two_without():
     assert bytes(heard) == b"x" * 11
 
 
-def test_what_a_port_with_fifo_cannot_do_is_an_error():
+def test_invalid_fifo_setup_is_refused():
     usart = fifo_port([])
 
     with pytest.raises(BoardError, match="FIFOEN was changed while UE"):
@@ -107,7 +107,7 @@ def test_what_a_port_with_fifo_cannot_do_is_an_error():
         write(usart, 0x2C, 1)
 
 
-def test_without_its_receiver_bytes_are_lost():
+def test_bytes_are_lost_without_the_receiver():
     port = Port()
     write(port.usart, 0x0C, 0)
 
@@ -117,7 +117,7 @@ def test_without_its_receiver_bytes_are_lost():
     assert port.status() == 0xC0
 
 
-def test_another_speed_than_the_lines_is_an_error():
+def test_wrong_baud_rate_or_interrupts_are_refused():
     usart = Usart(Clock(1), lambda: 8_000_000, lambda _byte: None)
     write(usart, 0x08, 625)
 
@@ -127,7 +127,7 @@ def test_another_speed_than_the_lines_is_an_error():
         write(usart, 0x0C, 1 << 5)
 
 
-def test_a_byte_needs_a_transmitter_to_be_sent():
+def test_write_without_a_transmitter_is_refused():
     port = Port()
     for setup in (3 << 2, 1 << 13 | 1 << 2):
         write(port.usart, 0x0C, setup)
@@ -135,7 +135,7 @@ def test_a_byte_needs_a_transmitter_to_be_sent():
             write(port.usart, 0x04, ord("x"))
 
 
-def test_a_clock_that_changes_later_spoils_the_speed():
+def test_clock_change_makes_the_baud_rate_wrong():
     hz = [8_000_000]
     usart = Usart(Clock(1), lambda: hz[0], lambda _byte: None)
     write(usart, 0x08, 69)
@@ -147,12 +147,12 @@ def test_a_clock_that_changes_later_spoils_the_speed():
 
 
 @pytest.mark.parametrize(("offset", "value"), [(0x0C, 1 << 12), (0x0C, 1 << 10), (0x10, 2 << 12), (0x14, 1 << 3)])
-def test_another_form_of_a_byte_than_the_lines_is_an_error(offset, value):
+def test_unsupported_byte_format_is_refused(offset, value):
     with pytest.raises(BoardError, match="not modelled"):
         write(Port().usart, offset, value | (1 << 13 | 3 << 2) * (offset == 0x0C))
 
 
-def test_a_line_that_is_no_frame_is_dropped():
+def test_malformed_slcan_lines_are_dropped():
     heard = []
     line = SlcanLine(heard.append)
 
@@ -172,7 +172,7 @@ def controller(clock, heard, timing):
     return can
 
 
-def test_what_the_model_of_can_refuses_is_an_error_at_once_or_when_time_passes(clock):
+def test_can_model_errors_are_raised_at_once_or_with_time(clock):
     can = controller(clock, [], 9 << 16 | 2 << 20 | 6)
 
     with pytest.raises(BoardError, match="428571 bit/s"):

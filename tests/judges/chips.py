@@ -1,4 +1,4 @@
-"""What of the chips is compared with ST's SVD files: chips.toml, and svd.txt, which svd_table.py makes."""
+"""What of the chips is compared with ST's SVD files: chips.toml, and svd.txt, which svd_judge.py makes."""
 
 import re
 from collections.abc import Iterator, Mapping

@@ -17,11 +17,10 @@ from host_sim.protocol.generated import Reason, Side
 from host_sim.sim.pico import command_line
 from host_sim.sim.run_config import RunConfig
 from tests.image.support import Talk
-from tests.judges.pico_board import PicoBoard, flash_of
-from tests.judges.test_lockstep import PROTOCOL, SENSES, differences, exchanges, first
-from tests.judges.test_starts import page
-from tests.judges.test_starts import record as stored
-from tests.runs.equality import REFERENCE, first_difference, record
+from tests.judges.labwired_board import PicoBoard, flash_of
+from tests.judges.test_starts import PROTOCOL, SENSES, differences, exchanges, first, page
+from tests.judges.test_starts import store_record as stored
+from tests.runs.support import REFERENCE, first_difference, record
 
 __all__ = ["exchanges"]
 
@@ -191,14 +190,14 @@ def test_power_that_goes_at_any_operation_of_the_flash_loses_nothing(start, oper
     assert memory_after_power_up(talk) == (0, Side.RIGHT, *[0] * 6)
 
 
-def test_without_node_it_is_said_in_a_sentence(monkeypatch):
+def test_missing_node_is_reported_in_a_sentence(monkeypatch):
     monkeypatch.setenv("PATH", "/nowhere")
 
     with pytest.raises(UsageError, match="runs in Node, which is not installed: run tools/setup pico"):
         command_line(image_path("pico", "slcan").with_suffix(".bin"))
 
 
-def test_without_rp2040js_it_is_said_in_a_sentence(monkeypatch, tmp_path):
+def test_missing_rp2040js_is_reported_in_a_sentence(monkeypatch, tmp_path):
     monkeypatch.setattr("host_sim.sim.pico.BUILD", tmp_path)
 
     with pytest.raises(UsageError, match="runs in rp2040js, which is not installed: run tools/setup pico"):

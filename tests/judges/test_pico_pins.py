@@ -3,27 +3,30 @@
 Its edges of PWM are those at the pins; its encoders turn at the pins, and PIO counts them; its ADC reads samples.
 """
 
+import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from statistics import mean
 
 import pytest
 
 from host_sim.protocol.codec import Protocol
-from host_sim.protocol.generated import ODOMETER_SPAN, Opcode
+from host_sim.protocol.generated import ODOMETER_SPAN, Opcode, Reason
 from host_sim.sim.make import make
 from host_sim.sim.pico_pins import PicoOnPins
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from tests.judges.pico_board import SECTOR, flash_of
+from tests.judges.labwired_board import SECTOR, flash_of
 from tests.judges.test_starts import page
-from tests.judges.test_starts import record as stored
+from tests.judges.test_starts import store_record as stored
 
 COUNT = SECTOR // 16 - 1
 FULL = page(COUNT) + page(0) + b"".join(stored(COUNT + 1 + n, bytes((0, 2, *[0] * 6))) for n in range(COUNT))
 """A store whose two sectors are full, so that the next record needs the first one erased."""
 ROOM = page(1) + stored(1, bytes((0, 2, *[0] * 6)))
 PINS = RunConfig(seed=2, environments=1, robot="emulated", board="pico", body="pins", limit_s=20)
-WORST_TICK_US, PAGE_US = 500, 400
+WORST_TICK_US, PAGE_US = 250, 400
+NEAR = 1200
 Start = Callable[..., PicoOnPins]
 
 
@@ -61,7 +64,7 @@ def duties(board: PicoOnPins) -> list[int]:
     return list(board.robot.figures()["duty"])
 
 
-def test_it_drives_the_way_of_the_same_firmware_in_a_simulated_kit():
+def test_pico_drives_the_path_of_a_simulated_kit():
     """In the first 2 s: later, a sensor's noise falls otherwise."""
     ways = []
     for config in (PINS, RunConfig(seed=2, environments=1, body="kit")):
@@ -75,7 +78,49 @@ def test_it_drives_the_way_of_the_same_firmware_in_a_simulated_kit():
     assert abs(pico.x_mm - kit.x_mm) + abs(pico.y_mm - kit.y_mm) < 10
 
 
-def test_a_tick_takes_half_a_millisecond_and_no_beat_is_missed():
+def actions_of(config: RunConfig, ticks: int) -> dict[int, list[tuple[int, float]]]:
+    """For each reason, how many ticks each action took, and how far it turned in degrees."""
+    found: dict[int, list[tuple[int, float]]] = {}
+    with make(config) as simulation:
+        simulation.enter(1)
+        begun, last, heading = 0, None, simulation.arena.bodies[0].pose.heading_rad
+        for tick in range(ticks):
+            simulation.step()
+            (drive,) = simulation.drives
+            if last is not None and drive.action != last.action:
+                now = simulation.arena.bodies[0].pose.heading_rad
+                turned = math.degrees(math.remainder(now - heading, math.tau))
+                found.setdefault(last.reason, []).append((tick - begun, abs(turned)))
+                begun, heading = tick, now
+            last = drive
+    return found
+
+
+def test_its_actions_take_the_time_and_reach_the_angle_of_those_of_a_simulated_kit():
+    """So that whole runs differ by chance only: a sensor's noise falls otherwise, and they part."""
+    pico, kit = (actions_of(config, 1500) for config in (PINS, RunConfig(seed=2, environments=1, body="kit")))
+    for reason, most in ((Reason.WANDER, 0.05), (Reason.LOOK_AROUND, 0.1)):
+        ticks = [mean(ticks for ticks, _ in actions[reason]) for actions in (pico, kit)]
+        assert ticks[0] == pytest.approx(ticks[1], rel=most)
+    for actions in (pico, kit):
+        assert mean(turned for _, turned in actions[Reason.REMEMBERED]) == pytest.approx(10, abs=1)
+
+
+def test_a_sensor_triggers_at_the_light_of_a_wall_at_60_mm_and_releases_at_a_tenth_less():
+    with make(PINS) as simulation:
+        simulation.enter(1)
+        parts, felt, changes = board_of(simulation).robot, 0, 0
+        for _ in range(600):
+            simulation.step()
+            near = [NEAR - NEAR // 10 * (felt >> i & 1) for i in range(len(parts.light))]
+            expected = sum((parts.light[i] >= near[i]) << i for i in (1, 2, 3))
+            changes += expected != felt
+            felt = simulation.senses[0].feel
+            assert felt == expected
+    assert changes > 5
+
+
+def test_a_tick_takes_a_quarter_of_a_millisecond_besides_what_the_flash_takes_for_a_page():
     with make(PINS) as simulation:
         simulation.enter(1)
         board = board_of(simulation)
@@ -174,7 +219,7 @@ def feel_of(board: PicoOnPins) -> int:
     return decoded.signals["feel"]
 
 
-def test_it_has_three_sensors_and_takes_the_room_s_light_for_no_wall(start):
+def test_pico_has_three_sensors_and_ignores_room_light(start):
     board = start()
     board.robot.ambient = 2500
     assert feel_of(board) == 0

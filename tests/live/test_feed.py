@@ -1,20 +1,22 @@
 """What pages are told of a run: what is new and only that, trails, each lesson once, and what robots answer."""
 
 import json
+from typing import Any
 
 import pytest
 
 from host_sim.client.commands import write_cells
 from host_sim.live.feed import PageFeed, points
 from host_sim.live.paced_run import PacedRun
-from host_sim.live.page_commands import FULL_SPEED, Question, page_command_from
+from host_sim.live.page_commands import FULL_SPEED, NewSeed, Question, page_command_from
 from host_sim.live.page_talk import PageTalk
 from host_sim.protocol.generated import ROW, Reason
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import RobotTrack
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
-from tests.live.support import play
+from host_sim.world.edits import Edit
+from tests.live.support import order, play
 
 
 def test_a_page_is_told_what_is_new_and_only_that(live):
@@ -23,7 +25,7 @@ def test_a_page_is_told_what_is_new_and_only_that(live):
     assert feed.next() is not None
     assert feed.next() is None
     run.simulation.step()
-    assert "environment" not in feed.next()
+    assert "environment" not in json.loads(feed.next())
 
 
 def test_a_page_sees_crates_move():
@@ -71,6 +73,35 @@ def test_a_page_is_told_each_lesson_once_though_earlier_ones_are_forgotten():
 
         assert history.forgotten == 1
         assert [lesson["cell"] for lesson in json.loads(feed.next())["lessons"]] == [6]
+
+
+def test_each_event_of_each_robot_is_told_once(live):
+    run = live(robots=2, speed=FULL_SPEED)
+    feed, late = PageFeed(run), PageFeed(run)
+    trajectory = run.recorder.trajectory
+    told: list[list[list[Any]]] = [[], []]
+    for step in range(1500):
+        if run.simulation.over:
+            run.simulation.enter(2)
+        if step == 200:
+            run.simulation.edit(Edit("body", what="stuck-on:front", robot=1))
+        run.layout += step == 200
+        run.simulation.step()
+        for robot, events in enumerate(json.loads(feed.next())["events"]):
+            told[robot] += events
+
+    assert told == json.loads(late.next())["events"] == [list(map(list, trajectory.events(i))) for i in (0, 1)]
+    assert {kind for _, kind in told[0] + told[1]} >= {"environment", "change", "trial", "lesson", "eat"}
+
+
+def test_starting_over_in_the_first_environment_is_an_event(live):
+    run = live()
+    run.simulation.step(1)
+    order(run, NewSeed(7))
+    run.simulation.step(1)
+
+    kinds = [kind for _, kind in run.recorder.trajectory.events()]
+    assert kinds.count("environment") == 2
 
 
 FIRST = 100

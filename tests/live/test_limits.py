@@ -10,6 +10,8 @@ from host_sim.live.listener import Listener
 from host_sim.live.server import LiveServer
 from tests.runs.support import DEADLINE_S
 
+PAGE = ""
+
 
 def test_a_request_for_a_websocket_that_does_not_become_one_is_not_exempt(live, monkeypatch):
     monkeypatch.setattr(connections, "LIFETIME_S", 0.2)
@@ -19,7 +21,7 @@ def test_a_request_for_a_websocket_that_does_not_become_one_is_not_exempt(live, 
     request = f"GET /live?token={listener.token} HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\n\r\n"
 
     async def answer() -> bytes:
-        async with LiveServer(live(), listener).serving():
+        async with LiveServer(live(), listener, PAGE).serving():
             reader, writer = await asyncio.open_connection("127.0.0.1", listener.port)
             writer.write(request.encode())
             said = b""
@@ -58,7 +60,7 @@ def test_a_frame_without_a_mask_closes_the_websocket(live):
     run = live()
 
     async def answer() -> bytes:
-        async with LiveServer(run, listener).serving():
+        async with LiveServer(run, listener, PAGE).serving():
             reader, writer = await asyncio.open_connection("127.0.0.1", listener.port)
             writer.write(request.encode())
             await asyncio.wait_for(reader.readuntil(b"\r\n\r\n"), DEADLINE_S)
@@ -75,12 +77,11 @@ def test_a_frame_without_a_mask_closes_the_websocket(live):
 
 def test_where_no_place_is_left_the_page_that_has_been_idle_for_longest_goes(live, monkeypatch):
     monkeypatch.setattr(server, "PAGES_MAX", 2)
-    monkeypatch.setattr(server, "IDLE_S", 0.1)
     listener = Listener(None, 0)
     home = f"http://127.0.0.1:{listener.port}"
 
     async def open_three() -> list[bool]:
-        async with LiveServer(live(), listener).serving(), aiohttp.ClientSession() as session:
+        async with LiveServer(live(), listener, PAGE).serving(), aiohttp.ClientSession() as session:
 
             async def page() -> aiohttp.ClientWebSocketResponse:
                 return await session.ws_connect(f"{home}/live?token={listener.token}", headers={"Origin": home})
@@ -88,10 +89,10 @@ def test_where_no_place_is_left_the_page_that_has_been_idle_for_longest_goes(liv
             first, second = await page(), await page()
             with pytest.raises(aiohttp.WSServerHandshakeError, match="503"):
                 await page()
-            await asyncio.sleep(2 * server.IDLE_S)
-            await first.send_str('{"do": "pause"}')
-            while "playing" not in await first.receive_str():
+            await first.send_str('{"do": "nothing that a page can do"}')
+            while "not understood" not in await first.receive_str():
                 pass
+            monkeypatch.setattr(server, "IDLE_S", 0.0)
             third = await page()
             while (await second.receive()).type is aiohttp.WSMsgType.TEXT:
                 pass
@@ -106,7 +107,7 @@ def test_an_origin_is_compared_whole(live, origin):
     home = f"http://127.0.0.1:{listener.port}"
 
     async def connect() -> None:
-        async with LiveServer(live(), listener).serving(), aiohttp.ClientSession() as session:
+        async with LiveServer(live(), listener, PAGE).serving(), aiohttp.ClientSession() as session:
             headers = {"Origin": origin.format(home=home)}
             await session.ws_connect(f"{home}/live?token={listener.token}", headers=headers)
 

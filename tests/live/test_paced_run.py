@@ -1,14 +1,20 @@
-"""A run keeps its pace, waits for who watches, obeys between two ticks, and goes from environment to environment."""
+"""A run keeps its pace, waits for who watches, obeys between two ticks, and goes from environment to environment.
+
+A run that people have meddled with is the same again: for the same orders at the same ticks, and from its log.
+"""
 
 import asyncio
 import json
 import time
 from dataclasses import replace
 from itertools import count
+from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
+from host_sim.client.commands import stop
 from host_sim.live import paced_run
 from host_sim.live.feed import PageFeed
 from host_sim.live.paced_run import COMMANDS_MAX, PacedRun
@@ -20,16 +26,21 @@ from host_sim.live.page_commands import (
     NewSeed,
     NextEnvironment,
     OneDecision,
+    PageCommand,
     Play,
     WriteCell,
 )
 from host_sim.protocol.codec import Frame
 from host_sim.protocol.generated import Reason
+from host_sim.recording.phrases import news_of
+from host_sim.recording.resimulation import resimulate
+from host_sim.recording.world_file import world_path, write_world
+from host_sim.report.replay_page import run_data
 from host_sim.world.edits import Edit
 from tests.live.support import Live, order, play
 
 
-def test_it_keeps_the_time_of_the_wall(live):
+def test_paced_run_keeps_wall_clock_time(live):
     run = live(speed=4.0)
     began = time.monotonic()
     play(run, lambda: run.simulation.tick >= 100)
@@ -90,7 +101,7 @@ def test_a_frozen_robot_learns_nothing(live):
     assert run.recorder.histories[0].frozen
 
 
-def test_it_waits_for_someone_to_watch(live):
+def test_paced_run_waits_for_a_viewer(live):
     run = live(speed=FULL_SPEED, waits=True)
     order(run)
     run.offer(Play(True), print)
@@ -123,7 +134,7 @@ def test_many_slow_orders_do_not_hold_up_the_pages(live, monkeypatch):
     assert len(run._commands) == 97
 
 
-def test_what_cannot_be_done_is_complained_of_and_not_recorded(live):
+def test_impossible_order_is_reported_and_not_recorded(live):
     run = live()
     robot = run.simulation.arena.body.pose
     assert order(run, Edit("add_bar", a=robot[:2], b=(0.0, 0.0))) == ["the robot stands there"]
@@ -187,7 +198,7 @@ def test_after_the_last_environment_it_waits_for_a_new_seed(live):
     assert run.simulation.record.begun[-1][:2] == (2, 1)
 
 
-def test_it_ends_by_itself_where_nobody_stays(live):
+def test_paced_run_ends_without_viewers(live):
     run = live(speed=FULL_SPEED, stays=False)
     to_the_end(run)
     asyncio.run(run.play())
@@ -256,3 +267,61 @@ def test_next_does_not_end_the_run(live):
     assert complaints == ["this is the last environment: start over to see more"] * 2
     assert not run.done
     assert run.simulation.record.begun[-1].number == 5
+
+
+def meddled_with(run: PacedRun, *orders: list[PageCommand]) -> str:
+    """Runs 137 ticks before each of these groups of orders, and ends the run; returns the SHA-256 of its log."""
+    for group in orders:
+        for _ in range(137):
+            run.simulation.step()
+        order(run, *group)
+    stop(run.simulation.clients[0])
+    return run.simulation.clients[0].log.close()
+
+
+def from_log(run: PacedRun, log: Path) -> dict[str, Any]:
+    """What a page shows of a run that has ended, from its log alone."""
+    write_world(run.simulation.record, world_path(log))
+    return run_data(resimulate(log).trajectory, "")
+
+
+def test_equal_orders_at_equal_ticks_give_equal_runs(live):
+    orders = (
+        [Edit("add_bar", a=(1000.0, 200.0), b=(1000.0, 900.0)), WriteCell(2, 1)],
+        [Edit("lift")],
+        [Edit("put", at=(2000.0, 2700.0), heading=500), Edit("move_food", 0, at=(300.0, 300.0))],
+        [NextEnvironment(), Freeze(True)],
+        [NewSeed(4)],
+    )
+
+    assert meddled_with(live("once"), *orders) == meddled_with(live("again"), *orders)
+
+
+def test_an_environment_that_ended_without_a_tick_began_all_the_same(live, tmp_path):
+    run = live("skipped")
+    meddled_with(run, [Edit("body", what="odometer:left:150%")], [NewSeed(4), NextEnvironment()], [])
+
+    run.recorder.trajectory.news = news_of(run.simulation.record)
+    assert from_log(run, tmp_path / "skipped.log") == run_data(run.recorder.trajectory, "")
+
+
+def test_the_memory_that_a_robot_reports_with_its_start_is_the_one_it_starts_with(live, tmp_path):
+    run = live("fixed", fixed=True)
+    meddled_with(run, [WriteCell(3, 2)], [NewSeed(4)], [NewSeed(5, keep=True), WriteCell(2, 2)], [])
+
+    assert from_log(run, tmp_path / "fixed.log") == run_data(run.recorder.trajectory, "")
+
+
+def test_what_a_person_wrote_between_two_ticks_is_the_same_from_the_log(live, tmp_path):
+    run = live("changed")
+    meddled_with(
+        run,
+        [WriteCell(3, 1), WriteCell(3, 2), WriteCell(5, 1)],
+        [EraseMemory(), WriteCell(3, 1), Freeze(True)],
+        [WriteCell(6, 2), NewSeed(4), WriteCell(2, 1), WriteCell(2, 2)],
+        [WriteCell(1, 1), NewSeed(5, keep=True)],
+        [WriteCell(4, 1)],
+    )
+
+    assert len(run.recorder.histories[0].lessons) > 8
+    assert from_log(run, tmp_path / "changed.log") == run_data(run.recorder.trajectory, "")

@@ -12,7 +12,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import closing, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
@@ -89,8 +89,10 @@ def _is_found_in_c(fault: Fault) -> bool:
     mutate = runpy.run_path(os.fspath(ROOT / "tools/mutate"))
     told = mutate["output"]("ctest", "--test-dir", mutate["BUILD"], "--show-only=json-v1")
     names = [test["name"] for test in json.loads(told)["tests"]]
-    with closing(mutate["Source"](ROOT / fault.file, [it for it in names if it.startswith(fault.tests)])) as source:
-        return not source.survives(fault.text)
+    tests = mutate["tests_of"](ROOT / fault.file, [it for it in names if it.startswith(fault.tests)])
+    if not tests:
+        raise ValueError(f"there is no test {fault.tests}")
+    return not mutate["lives"](tests, fault.text)
 
 
 def missed(chosen: Sequence[tuple[int, Fault]]) -> list[str]:

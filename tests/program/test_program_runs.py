@@ -105,7 +105,7 @@ def test_a_file_that_cannot_be_a_program_is_refused(tmp_path):
     "other",
     [["--robot", "qemu"], ["--fast"], ["--robot-command", "true", "--bus", "fd"], ["--robots", "40"], ["--gdb"]],
 )
-def test_what_does_not_go_with_a_program_is_refused(other, capsys):
+def test_option_that_excludes_a_program_is_refused(other, capsys):
     assert main(["run", "--profile", str(ARTICLE), *other]) == 2
     assert capsys.readouterr().err.count("\n") == 1
 

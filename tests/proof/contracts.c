@@ -1,5 +1,5 @@
 /* The robot's contracts: each function brings it into any state that fits what it says, and gives it any input of a kind.
- * What may not be written then is in test_contracts.py. */
+ * What may not be written then is in test_proof.py. */
 #include "firmware/behaviours/behaviour.h"
 #include "tests/proof/any/robot.h"
 

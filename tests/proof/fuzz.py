@@ -22,8 +22,7 @@ from typing import NamedTuple
 from tests.proof import c_fuzzer
 from tests.proof.c_fuzzer import Compiler
 from tests.proof.parts import FUZZED, GENERATED, HERE, ROOT
-from tests.proof.reader_fuzzer import ReaderFuzzer, harm, lasting
-from tests.proof.readers import READERS
+from tests.proof.readers import READERS, ReaderFuzzer, harm, lasting
 
 FOLDER = ROOT / "out/fuzz"
 TARGETS = (*FUZZED, *READERS)

@@ -1,11 +1,14 @@
 """A little fuzzing of each part in C; `python -m tests.proof.fuzz` does more."""
 
+from itertools import count
+
 import pytest
 
-from tests.proof import c_fuzzer, fuzz
+from host_sim.base.errors import OctetError
+from tests.proof import c_fuzzer, fuzz, readers
 from tests.proof.c_fuzzer import Compiler
 from tests.proof.parts import FUZZED, HERE, PARTS
-from tests.proof.readers import Reader
+from tests.proof.readers import READERS, Reader, ReaderFuzzer, harm
 
 FEW = "-runs=20000"
 FEWER = "-runs=5000"
@@ -128,3 +131,62 @@ def test_harm_is_shown_with_the_command_that_repeats_it(tmp_path, capsys, monkey
     shown = capsys.readouterr().out
     assert f"ZeroDivisionError: division by zero\nto repeat: python -m tests.proof.fuzz --repeat {find}\n" in shown
     assert fuzz.main("--repeat", str(find)) == 1
+
+
+FEW_BYTES = 100
+FEWER_BYTES = 20
+SLOW = ("dbc", "words")
+"""These two are read together."""
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_what_is_damaged_is_read_or_refused_in_one_line(tmp_path, name):
+    most = FEWER_BYTES if name in SLOW else FEW_BYTES
+
+    done = ReaderFuzzer(READERS[name], tmp_path, seed=1).run(lambda tried: tried < most)
+
+    assert done.words == ""
+    assert done.tried == most
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_the_samples_themselves_are_read(tmp_path, name):
+    for sample in READERS[name].samples:
+        READERS[name].read(sample, tmp_path)
+
+
+def chokes(data, _folder):
+    if b"NaN" in data:
+        raise ZeroDivisionError("not a number")
+    if b"{" in data:
+        raise OctetError("two\nlines")
+    if b"true" in data:
+        while True:
+            pass
+
+
+def fuzz_a_little(reader, folder, seed):
+    return ReaderFuzzer(reader, folder, seed).run(lambda tried: tried < 1000)
+
+
+@pytest.mark.parametrize("trouble", ["ZeroDivisionError: not a number", "not one line", "no end within"])
+def test_what_can_go_wrong_is_found_and_kept(tmp_path, monkeypatch, trouble):
+    monkeypatch.setattr(readers, "TIMEOUT_S", 0.2)
+    reader = Reader([b"a = 1\n"], chokes)
+    seeds = count()
+
+    done = next(
+        done for seed in seeds if trouble in (done := fuzz_a_little(reader, tmp_path / f"{seed}", seed)).words
+    )
+
+    assert trouble in harm(reader, done.find.read_bytes(), tmp_path)
+
+
+def test_inputs_that_take_new_ways_are_kept_for_the_next_call(tmp_path):
+    reader = READERS["order"]
+    first = ReaderFuzzer(reader, tmp_path, seed=1).run(lambda tried: tried < FEW_BYTES)
+
+    again = ReaderFuzzer(reader, tmp_path, seed=1).run(lambda _: False)
+
+    assert first.corpus > 1
+    assert again.steps == first.steps

@@ -1,11 +1,15 @@
-"""The Python side of the wire, by itself; that it agrees with the C side is test_wire_golden.py's."""
+"""The Python side of the wire, by itself; that it agrees with the C side is test_wire_golden.py's.
+
+The two halves of a memory on the wire, and frames of any node.
+"""
 
 import cantools
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from host_sim.protocol.codec import DBC, Frame, MessageLayout, Protocol, crc8, node_of
+from host_sim.protocol.codec import DBC, DecodedFrame, Frame, MemoryReport, MessageLayout, Protocol, crc8, node_of
+from host_sim.protocol.every_node import IDS, Heard, hear
 from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, RANGE_NONE, Drive, Opcode, Ranges, Reason, Senses
 
 PROTOCOL = Protocol()
@@ -144,7 +148,7 @@ def test_a_distance_that_nothing_is_within_is_sent_as_none():
     assert list(signals.values())[-5:] == [RANGE_NONE, 1, 2, 3, 60]
 
 
-def test_what_is_no_whole_frame_of_the_node_says_nothing():
+def test_damaged_or_foreign_frame_decodes_to_nothing():
     senses = Protocol(2).encode_senses(NOTHING_SENSED, 1)
 
     assert PROTOCOL.decode(senses) is None
@@ -157,10 +161,60 @@ def test_an_identifier_tells_the_node():
     assert node_of(Protocol(5).id_of("SENSES")) == 5
 
 
-def test_what_is_no_whole_drive_of_the_node_moves_nothing():
+def test_damaged_or_foreign_drive_moves_no_wheel():
     drive = Protocol(2).encode("DRIVE", {signal.name: 0 for signal in MESSAGES["DRIVE"].signals})
 
     assert Protocol(2).decode_drive(drive) is not None
     assert PROTOCOL.decode_drive(drive) is None
     assert Protocol(2).decode_drive(Frame(drive.id, drive.data[:7])) is None
     assert Protocol(2).decode_drive(Frame(drive.id, bytes(8))) is None
+
+
+def half(number: int, counter: int = 1) -> DecodedFrame:
+    cells = {f"cell_{4 * number + i}": 10 * number + i for i in range(4)}
+    return DecodedFrame("MEMORY", {"half": number, "counter": counter, **cells})
+
+
+WHOLE = (0, 1, 2, 3, 10, 11, 12, 13)
+
+
+def test_halves_are_joined_in_whichever_order_they_come():
+    report = MemoryReport()
+
+    assert [report.join(half(0)), report.join(half(1))] == [None, WHOLE]
+    assert [report.join(half(1)), report.join(half(0))] == [None, WHOLE]
+
+
+def test_halves_of_two_reports_are_not_joined():
+    report = MemoryReport()
+
+    assert [report.join(half(0, counter=1)), report.join(half(1, counter=2))] == [None, None]
+    assert report.join(half(0, counter=2)) == WHOLE
+
+
+def test_a_half_that_there_is_not_is_left_out():
+    report = MemoryReport()
+    report.join(half(0))
+
+    assert report.join(half(2)) is None
+    assert report.join(half(1)) == WHOLE
+
+
+SENSES = Protocol(3).encode_senses(Senses(7, 4, False, False, 0, 1, 2), 5)
+
+
+def test_a_frame_is_heard_as_that_of_its_node():
+    heard = hear(SENSES)
+
+    assert (heard.node, heard.name) == (3, "SENSES")
+    assert (heard.signals["tick"], heard.signals["feel"]) == (7, 4)
+
+
+def test_a_damaged_frame_is_its_nodes_and_says_nothing():
+    assert hear(Frame(SENSES.id, bytes(8))) == Heard(3, "SENSES", None)
+
+
+def test_an_identifier_of_no_message_is_nobodys():
+    unknown = next(number for number in range(0x800) if number not in IDS)
+
+    assert hear(Frame(unknown, b"")) is None

@@ -58,7 +58,7 @@ def test_a_run_keeps_to_the_protocol(short):
     assert (found.commands, found.drives > 50) == (3, True)
 
 
-def test_what_the_robot_does_is_its_own_affair(short):
+def test_conversation_check_ignores_the_decisions_of_a_robot(short):
     edited(short.log, "DRIVE", -2, faster)  # the last one of the run, which HEALTH does not cover
 
     assert octet("replay", short.log).returncode == 1
@@ -76,7 +76,7 @@ def test_what_the_robot_does_is_its_own_affair(short):
         ("DRIVE", faster, "HEALTH holds something else"),
     ],
 )
-def test_what_is_against_it_is_said_with_its_time(short, name, edit, problem):
+def test_protocol_violation_is_reported_with_its_time(short, name, edit, problem):
     edited(short.log, name, 1, edit)
 
     done = octet("replay", short.log, "--protocol")

@@ -290,7 +290,7 @@ def test_compressed_logs_are_read(tmp_path, pack):
         (b"Dear robot,\n", "not a frame, or cut short"),
     ],
 )
-def test_what_octet_does_not_read_is_answered_with_what_it_reads(tmp_path, content, said):
+def test_unreadable_format_is_answered_with_the_readable_ones(tmp_path, content, said):
     with pytest.raises(UsageError, match=f"{said}.*\\.blf .*can_logconvert writes them"):
         read(tmp_path / "a.pcap", content)
 
@@ -359,6 +359,6 @@ def test_damage_within_a_blf_file_is_one_line(tmp_path, caplog):
     assert caplog.messages == ["Unknown object header version (9)"]
 
 
-def test_what_is_not_text_is_said_to_be_none(tmp_path):
+def test_binary_file_is_reported_as_not_text(tmp_path):
     with pytest.raises(UsageError, match="not text"):
         read(tmp_path / "a.log", bytes(range(256)))

@@ -12,9 +12,8 @@ import pytest
 from host_sim.base.errors import UsageError
 from host_sim.base.files import write_bytes
 from host_sim.protocol.generated import MemoryKind
-from host_sim.recording import memory_lock as module
-from host_sim.recording.memory_file import MemorySaver, load_memory
-from host_sim.recording.memory_lock import memory_lock
+from host_sim.recording import memory_file as module
+from host_sim.recording.memory_file import MemorySaver, load_memory, memory_lock
 from host_sim.recording.run_folder import run_folder
 from host_sim.world.memory_kinds import translated
 
@@ -112,7 +111,7 @@ def test_of_one_run_the_first_memory_that_knew_more_is_kept(path, reported):
     assert len(reported) == 1
 
 
-def test_what_was_learned_in_this_run_is_forgotten_without_a_word(path, reported):
+def test_forgetting_what_this_run_learned_is_not_reported(path, reported):
     saver = MemorySaver(path, SOME, reported.append)
     saver.save(MORE)
     saver.save(SOME)
@@ -188,7 +187,7 @@ def test_it_is_free_again_after_a_run_and_nothing_is_left(path):
 
 
 def test_it_is_free_again_when_the_process_is_killed(path):
-    hold = "import sys, pathlib; from host_sim.recording.memory_lock import memory_lock\n"
+    hold = "import sys, pathlib; from host_sim.recording.memory_file import memory_lock\n"
     hold += "with memory_lock(pathlib.Path(sys.argv[1])): print('held', flush=True); sys.stdin.read()"
     command = [sys.executable, "-c", hold, path]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as holder:
@@ -200,7 +199,7 @@ def test_it_is_free_again_when_the_process_is_killed(path):
     assert_is_free(path)
 
 
-def test_what_a_killed_run_has_left_locks_nothing(path):
+def test_stale_lock_file_of_a_killed_run_locks_nothing(path):
     path.with_name(".robot.mem.lock").touch()
 
     assert_is_free(path)

@@ -93,7 +93,7 @@ def meddle(simulation: Simulation, run_recorder: RunRecorder) -> None:
     run_recorder.histories[0].frozen = simulation.tick >= 300
 
 
-def test_what_robots_pushed_is_where_it_was_in_each_tick(tmp_path, monkeypatch):
+def test_pushed_crates_have_their_place_in_each_tick(tmp_path, monkeypatch):
     """In the last tick of an environment, too: nobody sees what that pushes."""
 
     def push(crates: Crates, _drives: object) -> Iterator[Edit]:
@@ -107,7 +107,7 @@ def test_what_robots_pushed_is_where_it_was_in_each_tick(tmp_path, monkeypatch):
     assert_equal(resimulate(run.log).trajectory, run.trajectory)
 
 
-def test_what_people_did_happens_again(tmp_path):
+def test_edits_by_hand_are_replayed(tmp_path):
     run = record_run(tmp_path, seed=3, environments=2, limit_s=12.0, meddle=meddle)
 
     trajectory = resimulate(run.log).trajectory
@@ -120,7 +120,7 @@ def test_what_people_did_happens_again(tmp_path):
     assert {"node": 1, "tick": 250, "cell": 1, "side": 2, "by_hand": 1} in trajectory.tracks[0].lessons
 
 
-def test_what_people_did_live_happens_again(tmp_path):
+def test_live_edits_are_replayed(tmp_path):
     bar = Bar((500.0, 2500.0), (900.0, 2700.0))
     orders = {
         100: [Edit("add_bar", **bar._asdict()), Edit("lift"), NextEnvironment()],

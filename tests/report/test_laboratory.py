@@ -86,7 +86,7 @@ def test_a_page_is_without_it_where_the_firmware_was_not_built_for_pages(run_of,
     assert "wasm" not in laboratory_in(page)
 
 
-def test_what_must_be_built_for_it_is_named(run_of, tmp_path, monkeypatch):
+def test_missing_build_for_what_if_is_named(run_of, tmp_path, monkeypatch):
     monkeypatch.setattr(octet_page_module, "PAGE_WASM", tmp_path / "missing.wasm")
 
     done = octet("replay", run_of(), "--html", tmp_path / "page.html", "--what-if")

@@ -55,7 +55,8 @@ def run(*panels: Panel, memories: Sequence[Sequence[int]] = (EMPTY_MEMORY,)) -> 
     tracks = [RobotTrack(node, memories=[(0, list(memory))]) for node, memory in enumerate(memories, 1)]
     trajectory = Trajectory(PARAMS, 6, tracks, environments=len(panels))
     for number, (trails, eaten, scene) in enumerate(panels, 1):
-        trajectory.scenes.append((trajectory.ticks, EnvironmentScene(**{**scene, "number": number})))
+        new = {"number": number, "first_tick": trajectory.ticks}
+        trajectory.scenes.append((trajectory.ticks, EnvironmentScene(**{**scene, **new})))
         trajectory.meals.append((trajectory.ticks, list(eaten)))
         for track, trail in zip(tracks, trails, strict=True):
             for x, y, reason in trail:
@@ -107,7 +108,7 @@ def test_all_pictures_are_equally_wide_and_grow_by_the_row() -> None:
     assert shapes[3] < shapes[4] == shapes[6] < shapes[7] == shapes[9] < shapes[10]
 
 
-def test_what_a_picture_leaves_out_is_said() -> None:
+def test_picture_names_what_it_leaves_out() -> None:
     assert omissions(9, 8) == []
     assert omissions(20, 9) == ["the last 9 of 20 environments", "the memories of the first 8 of 9 robots"]
 
@@ -227,7 +228,7 @@ def test_ten_thousand_robots_fit_into_a_picture_of_moderate_size(tmp_path):
     assert (tmp_path / "fleet.png").stat().st_size < 400_000
 
 
-def test_nobody_having_finished_is_a_picture_too(tmp_path):
+def test_picture_is_drawn_if_no_robot_finished(tmp_path):
     assert pixels(drawn(tmp_path, [result(1, finished=False)]), ORANGE) > 1000
 
 

@@ -10,12 +10,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from host_sim.base.errors import PageNotBuiltError
 from host_sim.cli.main import main
+from host_sim.cli.outputs import Outputs
+from host_sim.cli.run_options import RunOptions
+from host_sim.client.frame_log import FrameLog
 from host_sim.recording.resimulation import resimulate
+from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.state_types import State
 from host_sim.recording.trajectory import Trajectory, at
-from host_sim.report import page_bundle
+from host_sim.report import page_bundle, replay_page
+from host_sim.report.octet_page import octet_page
 from host_sim.report.replay_page import pack, page, run_data, write_page
+from host_sim.sim.make import make
 from host_sim.talk import languages
 from tests.recording.support import record_run
 from tests.runs.support import data_in
@@ -66,6 +73,24 @@ def test_the_page_has_the_state_of_every_tick(kept, tmp_path):
     assert run["scenes"] == [[tick, scene] for tick, scene in kept.trajectory.scenes]
 
 
+def test_recording_is_packed_once_for_its_pages_and_its_file(tmp_path, monkeypatch):
+    packed = []
+    monkeypatch.setattr(replay_page, "pack", lambda columns: packed.append(len(list(columns))) or "")
+    options = RunOptions(bus="none", environments=1, out=tmp_path, quiet=True)
+    log = FrameLog(options.log)
+    with make(options, log) as simulation:
+        outputs = Outputs(options, simulation, RunRecorder.of(simulation, 10), log)
+        simulation.enter(1)
+        simulation.step()
+        outputs.recording()
+        simulation.step()
+
+        outputs.recording()
+        outputs.write()
+
+    assert len(packed) == 2
+
+
 def test_ten_robot_minutes_are_less_than_a_megabyte(tmp_path):
     trajectory = record_run(tmp_path, seed=1, environments=5, limit_s=120.0).trajectory
     assert trajectory.ticks >= 25_000
@@ -108,45 +133,43 @@ def test_nothing_in_a_run_ends_the_script_that_holds_it(kept):
     assert run_in(text)["title"] == title
 
 
-def test_modules_come_once_each_after_what_they_need(tmp_path, monkeypatch):
+def test_a_page_is_its_template_with_its_style_and_its_program(tmp_path, monkeypatch):
     for module in (languages, page_bundle):
         monkeypatch.setattr(module, "WEB", tmp_path)
+    monkeypatch.setattr(page_bundle, "PAGE_SCRIPTS", tmp_path)
     (tmp_path / "common").mkdir()
     (tmp_path / "common/style.html").write_text('<link rel="stylesheet" href="s.css">\n')
     (tmp_path / "page.html").write_text('  <!-- common/style.html -->\n<script type="module" src="a.js"></script>')
-    (tmp_path / "s.css").write_text("p { margin: 0 }\n")
-    (tmp_path / "a.js").write_text('import { b } from "./b.js";\nimport { C, d } from "./c.js";\nb(C, d);\n')
-    (tmp_path / "b.js").write_text('import { C } from "./c.js";\nexport const b = C;\n')
-    (tmp_path / "c.js").write_text('export class C {}\nexport async function d() { return "</script>"; }\n')
+    (tmp_path / "s.css").write_text("/* Says nothing. */\np { margin: 0 }\n")
+    (tmp_path / "a.js").write_text('say("</script>");')
 
-    text = page_bundle.page_of("page.html")
-    script = text.partition('<script type="module">')[2].partition("</script>")[0]
+    text = page_bundle.page_of(languages.template("page.html"))
 
-    assert "<style>\np{margin:0}</style>" in text
-    assert page_bundle.modules_of("a.js") == ["c.js", "b.js", "a.js"]
-    assert re.findall(r"\$\[(.+)\] = ", script) == ["0", "1", "2"]
-    assert "const { C, d } = $[0];" in script
-    assert "return { C, d };" in script
-    assert (text.count("</script>"), script.count("</script>")) == (1, 0)
-    assert not re.search(r"^(import|export) ", script, re.MULTILINE)
+    assert text == '<style>\np{margin:0}</style>\n<script type="module">\nsay("<\\/script>");</script>'
 
 
-def test_a_module_in_a_folder_finds_what_it_imports_from_there(tmp_path, monkeypatch):
-    monkeypatch.setattr(page_bundle, "WEB", tmp_path)
-    (tmp_path / "parts").mkdir()
-    (tmp_path / "a.js").write_text('import { b } from "./parts/b.js";\nb();\n')
-    (tmp_path / "parts/b.js").write_text(
-        'import { c } from "./c.js";\nimport { d } from "../d.js";\nexport const b = c + d;\n'
-    )
-    (tmp_path / "parts/c.js").write_text('import { d } from "../d.js";\nexport const c = d;\n')
-    (tmp_path / "d.js").write_text("export const d = 1;\n")
+@pytest.fixture
+def no_scripts(tmp_path, monkeypatch):
+    """The programs of the pages are not built."""
+    monkeypatch.setattr(page_bundle, "PAGE_SCRIPTS", tmp_path)
 
-    text = page_bundle.bundle("a.js")
 
-    assert page_bundle.modules_of("a.js") == ["d.js", "parts/c.js", "parts/b.js", "a.js"]
-    assert re.findall(r"^\$\[(.+)\] = ", text, re.MULTILINE) == ["0", "1", "2", "3"]
-    assert text.count("const { d } = $[0];") == 2
-    assert "const { c } = $[1];" in text
+@pytest.mark.usefixtures("no_scripts")
+def test_a_run_without_the_program_of_its_page_leaves_the_page_out(tmp_path, capsys):
+    out = tmp_path / "out"
+
+    assert main(["run", "--bus", "none", "--environments", "1", "--limit-s", "2", "--out", str(out)]) == 0
+
+    assert "left out  replay.html: cannot read" in capsys.readouterr().out
+    assert (out / "run.log").exists()
+    assert not (out / "replay.html").exists()
+
+
+@pytest.mark.usefixtures("no_scripts")
+def test_a_page_whose_program_is_not_built_says_how_to_get_it():
+
+    with pytest.raises(PageNotBuiltError, match=r"cannot read .*octet\.js: .*; build it with tools/setup$"):
+        octet_page({"why": "nothing"})
 
 
 @given(st.lists(st.lists(st.integers(-(2**29), 2**29), min_size=3, max_size=3), min_size=1, max_size=5))
@@ -172,7 +195,7 @@ def test_a_page_that_cannot_be_written_is_one_line(short, tmp_path, capsys, name
 
 
 def test_a_page_that_is_written_as_a_file_may_load_nothing():
-    text = page_bundle.page_of("octet.html")
+    text = page_bundle.page_of(languages.template("octet.html"))
 
     policy = re.search(r'<meta http-equiv="Content-Security-Policy" content="([^"]*)">', text)
     assert policy is not None

@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-from host_sim.recording.memory_lock import memory_lock
+from host_sim.recording.memory_file import memory_lock
 from host_sim.sim import access
 from tests.runs.support import ROBOT, ROOT, octet, octet_process
 

@@ -1,5 +1,11 @@
-"""Runs with bodies that are not ideal, and with distances on the wire: the same wherever, and from the log."""
+"""Runs with bodies that are not ideal, and with distances on the wire: the same wherever, and from the log.
 
+Runs in the world whose obstacles can be pushed: the same wherever, and from the log, with pymunk only.
+
+A motor that dies is noticed however late the wheels answer, and sound wheels that answer late are believed.
+"""
+
+import json
 from dataclasses import replace
 
 import pytest
@@ -12,11 +18,15 @@ from host_sim.protocol.generated import NOTHING_NEAR, RANGE_NONE
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.replay import replay
 from host_sim.recording.resimulation import resimulate
+from host_sim.recording.world_file import read_world
 from host_sim.sim.fleet import run_fleet
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.body_kinds import KIT, body_kind, draw_body
-from tests.runs.support import octet
+from host_sim.world.crates import Crates
+from host_sim.world.edits import Edit
+from tests.runs.dead_motors import DELAYS_TICKS, LAGS_MS, SEEDS, figures, lines
+from tests.runs.support import ROOT, octet, unpacked
 
 BRIEF = ("--environments", "2", "--limit-s", "8", "--seed", "3", "--body", KIT)
 
@@ -67,8 +77,8 @@ def test_a_file_takes_the_rest_from_its_base(tmp_path):
     [("ideal", None), ("kit", 24), ("docs/bodies/sharp_body.toml", 24), ("docs/bodies/late_body.toml", None)],
 )
 def test_a_kit_and_what_is_based_on_it_bring_their_settings_unless_a_run_says_otherwise(body, step_mm):
-    assert RunConfig(body=body).told.get("step_mm") == step_mm
-    assert RunConfig(body=body, settings={"step_mm": 12}).told["step_mm"] == 12
+    assert RunConfig(body=body).robot_settings.get("step_mm") == step_mm
+    assert RunConfig(body=body, settings={"step_mm": 12}).robot_settings["step_mm"] == 12
 
 
 @pytest.mark.parametrize(
@@ -197,3 +207,71 @@ def test_what_is_known_of_a_robot_that_is_asked_how_it_is_stays():
         assert client.wants_ranges
         assert client.ranges == NOTHING_NEAR
         simulation.step()
+
+
+BLIND = [word for sensor in ("front", "front-left", "front-right") for word in ("--change", f"stuck-off:{sensor}@0s")]
+SHORT_RUN = ("--world", "crates", "--environments", "2", "--limit-s", "20", "--seed", "2", *BLIND)
+
+
+def test_a_run_is_the_same_over_another_bus_and_repeated_from_its_log(run):
+    done = run(*SHORT_RUN, "--bus", "none")
+
+    assert (done.code, done.errors) == (0, "")
+    assert done.log == run(*SHORT_RUN, "--bus", "fd").log
+    pushes = [edit for _, edit in read_world(done.out / "run.world.json").edits if edit.do == "push_bar"]
+    repeated = resimulate(done.out / "run.log")
+    assert len(pushes) > 10
+    assert repeated.trajectory.ticks == 2000
+    assert octet("replay", str(done.out / "run.log")).returncode == 0
+
+
+def test_pushes_are_no_news_and_their_page_says_why_it_cannot_ask_what_if(run):
+    done = run(*SHORT_RUN, "--bus", "none")
+    page = unpacked((done.out / "replay.html").read_text())
+
+    assert "What if? cannot repeat this run: pymunk moved its crates." in page
+    assert not any("push" in sentence for _, sentence in resimulate(done.out / "run.log").trajectory.news)
+    assert json.loads((done.out / "summary.json").read_text())["world"] == "crates"
+
+
+@pytest.mark.parametrize("ends", [((-1.0, 500.0), (200.0, 500.0)), ((500.0, 500.0), (550.0, 550.0))], ids=str)
+def test_a_crate_that_cannot_be_where_it_is_pushed_stays_where_it_was(monkeypatch, ends):
+    """A person can put one halfway into a wall, or make it so short that rounding is too much for it."""
+    monkeypatch.setattr(Crates, "push", lambda *_: [Edit("push_bar", 0, a=ends[0], b=ends[1])])
+    with make(RunConfig(world="crates", environments=1, limit_s=0.2)) as simulation:
+        simulation.enter(1)
+        before = simulation.arena.obstacles.bars
+        while not simulation.over:
+            simulation.step()
+
+    assert simulation.tick == 10
+    assert simulation.arena.obstacles.bars == before
+    assert simulation.record.edits == []
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("--physics", "fast"), ("--robots", "2", "--worlds", "own"), ("--robots", "40")],
+    ids=" ".join,
+)
+def test_what_cannot_push_is_refused_in_a_line(tmp_path, words):
+    done = octet("run", "--world", "crates", *words, "--out", str(tmp_path / "out"))
+
+    assert done.returncode == 2
+    assert done.stderr == "octet: only pymunk can push what --world crates has: no --physics fast, and no fleet\n"
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("delay_ticks", DELAYS_TICKS)
+@pytest.mark.parametrize("lag_ms", LAGS_MS)
+def test_a_dead_motor_is_noticed_within_three_seconds_and_no_sound_one_is_denied(lag_ms, delay_ticks):
+    of = figures(lag_ms, delay_ticks, 3)
+
+    assert (of.unnoticed, of.denied) == (0, 0)
+
+
+def test_the_page_has_what_the_table_prints():
+    page = (ROOT / "docs/faults.md").read_text().splitlines()
+
+    for line in lines(SEEDS, LAGS_MS[:2]):
+        assert line in page

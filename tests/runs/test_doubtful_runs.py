@@ -5,8 +5,7 @@ import time
 
 import pytest
 
-from tests.runs.forged import OPCODES, PACES, SAID, forge_on_vcan
-from tests.runs.support import DEADLINE_S, start_octet, wait_until
+from tests.runs.support import DEADLINE_S, OPCODES, PACES, SAID, forge_on_vcan, start_octet, wait_until
 
 GOOD = bytes((0, 1, 0, 0, 2, 0, 2, 0))
 LONG = ("--environments", "1", "--limit-s", "20", "--bus", "none")
@@ -141,7 +140,7 @@ def test_a_forged_command_is_kept_with_its_time(run):
 
 @pytest.mark.faulty
 def test_no_more_are_kept_than_there_is_room_for(run, monkeypatch):
-    monkeypatch.setattr("host_sim.client.incidents.REFUSED_MAX", 5)
+    monkeypatch.setattr("host_sim.client.robot_client.REFUSED_MAX", 5)
 
     done = run(*SHORT, "--fault", "corrupt:10%/from")
 

@@ -50,7 +50,7 @@ def assert_whole(out: Path, seed: int) -> None:
 def test_a_run_that_is_interrupted_leaves_one_whole_run(tmp_path, number):
     assert octet("run", *SHORT, "--quiet", "--out", tmp_path).returncode == 0
     process = start_octet("run", *LONG, "--quiet", "--out", tmp_path)
-    wait_for_lines(tmp_path / "run.log", 4000)
+    wait_for_lines(process, tmp_path / "run.log", 4000)
 
     process.send_signal(number)
     _, errors = process.communicate(timeout=DEADLINE_S)
@@ -65,7 +65,7 @@ def test_a_run_that_is_interrupted_leaves_one_whole_run(tmp_path, number):
 def test_a_watched_run_that_is_interrupted_leaves_one_whole_run(tmp_path, number):
     assert octet("run", *SHORT, "--quiet", "--out", tmp_path).returncode == 0
     process = start_octet("run", "--watch", "--port", "0", *BUSY_HOST, *LONG, "--out", tmp_path)
-    wait_for_lines(tmp_path / "run.log", 4000)
+    wait_for_lines(process, tmp_path / "run.log", 4000)
 
     process.send_signal(number)
     _, errors = process.communicate(timeout=DEADLINE_S)
@@ -78,7 +78,7 @@ def test_a_robot_that_is_killed_leaves_one_whole_run_and_is_named(tmp_path):
     assert octet("run", *SHORT, "--quiet", "--out", tmp_path).returncode == 0
     process = start_octet("run", *LONG, "--quiet", "--out", tmp_path)
     robot = robot_of(process)
-    wait_for_lines(tmp_path / "run.log", 4000)
+    wait_for_lines(process, tmp_path / "run.log", 4000)
 
     os.kill(robot, signal.SIGKILL)
     _, errors = process.communicate(timeout=DEADLINE_S)
@@ -88,6 +88,13 @@ def test_a_robot_that_is_killed_leaves_one_whole_run_and_is_named(tmp_path):
     assert errors.count("\n") == 1
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(FILES)
     assert json.loads((tmp_path / "summary.json").read_text())["seed"] == 8
+
+
+def test_waiting_for_frames_of_an_ended_run_fails_with_what_it_printed(tmp_path):
+    process = start_octet("run", "--seed", "many", "--out", tmp_path)
+
+    with pytest.raises(AssertionError, match="--seed"):
+        wait_for_lines(process, tmp_path / "run.log", 1)
 
 
 HUNG_S = 8.0
@@ -106,7 +113,7 @@ def queued_s(process: subprocess.Popen) -> float:
 def test_a_run_whose_robot_hangs_ends_soon(tmp_path, options):
     process = start_octet("run", "--environments", "1000", "--bus", "fd", *options, "--out", tmp_path)
     robot = robot_of(process)
-    wait_for_lines(tmp_path / "run.log", 4000)
+    wait_for_lines(process, tmp_path / "run.log", 4000)
     os.kill(robot, signal.SIGSTOP)
 
     began = time.monotonic() - queued_s(process)

@@ -12,7 +12,7 @@ import pytest
 
 from tests.runs.support import BUSY_HOST, octet, robot_of, start_octet, wait_for_lines, wait_until
 from tests.runs.test_slcan import drives_in
-from tests.tools.processes import alive
+from tests.tools.project import alive
 
 LONG = ("--environments", "20", "--bus", "fd", "--quiet")
 
@@ -22,7 +22,7 @@ def long_run(tmp_path):
     """A run that goes on for long enough to be disturbed, and its robot's process."""
     process = start_octet("run", "--out", tmp_path, *LONG)
     robot = robot_of(process)
-    wait_for_lines(tmp_path / "run.log", 4000)
+    wait_for_lines(process, tmp_path / "run.log", 4000)
     yield process, robot
     process.kill()
     process.communicate()

@@ -122,7 +122,7 @@ REFUSED = {
     "a compressed log": (("--compress-log",), "leave --compress-log out"),
     "a behaviour of one's own that is not there": (("--profile", "no.c"), "there is no file no.c"),
     "an unchecked behaviour": (("--fast",), "leave --fast out"),
-    "a debugger": (("--gdb",), "--gdb stops one robot"),
+    "a debugger": (("--gdb",), "--gdb debugs one robot"),
     "changes": (("--change", "plant@5s"), "leave --change out"),
     "faults": (("--fault", "drop:1%"), "leave --fault out"),
     "people who watch": (("--watch",), "a fleet cannot be watched"),

@@ -38,7 +38,7 @@ def test_a_bus_that_goes_down_and_comes_back_changes_nothing(run, tmp_path):
     words = ("--environments", "1", "--seed", "3", "--limit-s", "60")
     process = start_octet("run", "--out", tmp_path / "shaken", *words, "--bus", "socketcan:vcan8")
     for lines, pause_s in ((500, 0.01), (1000, 0.3)):
-        wait_for_lines(tmp_path / "shaken/run.log", lines)
+        wait_for_lines(process, tmp_path / "shaken/run.log", lines)
         with halted(process):
             subprocess.run(["ip", "link", "set", "vcan8", "down"], check=True)
         time.sleep(pause_s)
@@ -55,7 +55,7 @@ def test_a_bus_that_goes_down_and_comes_back_changes_nothing(run, tmp_path):
 
 def test_a_second_robot_with_the_same_number_ends_the_run(tmp_path, second_robot):
     process = start_octet("run", "--out", tmp_path, *LONG, *VCAN)
-    wait_for_lines(tmp_path / "run.log", 1000)
+    wait_for_lines(process, tmp_path / "run.log", 1000)
 
     second_robot()
 
@@ -67,7 +67,7 @@ def test_a_second_robot_with_the_same_number_ends_the_run(tmp_path, second_robot
 
 def test_a_second_simulator_keeps_off_a_robot_that_is_driven(tmp_path):
     first = start_octet("run", "--out", tmp_path / "first", *LONG, *VCAN)
-    wait_for_lines(tmp_path / "first/run.log", 1000)
+    wait_for_lines(first, tmp_path / "first/run.log", 1000)
 
     second = octet("run", "--out", tmp_path / "second", *LONG, *VCAN, "--robot", "external", "--owner", "2")
 
@@ -81,7 +81,7 @@ def test_a_second_simulator_keeps_off_a_robot_that_is_driven(tmp_path):
 def test_a_forged_stop_ends_the_run(tmp_path):
     frame = Protocol().encode("COMMAND", {"counter": 9, "opcode": Opcode.STOP, "owner": 9})
     process = start_octet("run", "--out", tmp_path, *LONG, *VCAN)
-    wait_for_lines(tmp_path / "run.log", 1000)
+    wait_for_lines(process, tmp_path / "run.log", 1000)
 
     subprocess.run(["cansend", "vcan0", f"{frame.id:03X}#{frame.data.hex()}"], check=True)
 

@@ -85,7 +85,7 @@ def test_auto_takes_vcan_where_there_is_one_and_says_so(run):
 def test_a_robot_that_is_killed_ends_the_run_with_one_line(tmp_path):
     process = start_octet("run", "--out", tmp_path, "--environments", "20", "--quiet", *VCAN)
     robot = robot_of(process)
-    wait_for_lines(tmp_path / "run.log", 1000)
+    wait_for_lines(process, tmp_path / "run.log", 1000)
 
     subprocess.run(["kill", "-KILL", str(robot)], check=True)
 
@@ -125,7 +125,7 @@ def test_an_interface_that_vanishes_ends_the_run_with_one_line(tmp_path):
     subprocess.run(["ip", "link", "set", "vcan9", "up"], check=True)
     words = ("--environments", "20", "--quiet", "--bus", "socketcan:vcan9", "--reconnect-s", "0.5")
     process = start_octet("run", "--out", tmp_path, *words)
-    wait_for_lines(tmp_path / "run.log", 1000)
+    wait_for_lines(process, tmp_path / "run.log", 1000)
 
     subprocess.run(["ip", "link", "del", "vcan9"], check=True)
 

@@ -1,4 +1,4 @@
-/* logged_lines.h: how much stands in a log. */
+/* logged_lines.h: the number of lines of a log. */
 #ifndef OCTET_LOGGED_LINES_H
 #define OCTET_LOGGED_LINES_H
 

@@ -1,4 +1,7 @@
-"""Ticks that were exchanged elsewhere leave a client as if it had exchanged them itself."""
+"""Ticks that were exchanged elsewhere leave a client as if it had exchanged them itself.
+
+When changes are due.
+"""
 
 from host_sim.client.commands import stop
 from host_sim.client.pacing import BegunTick, Lockstep
@@ -6,8 +9,9 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import heard_more
 from host_sim.protocol.codec import COUNTERS, Frame, crc8
 from host_sim.sim.block_catch_up import Ticks, routine_reports, take_last_reports, take_routine_reports, take_ticks
-from tests.client.meddled_link import LEARNED, MeddledLink, learned
-from tests.client.support import ODOMETERS, PROTOCOL, drive_for, senses
+from host_sim.sim.simulation import ChangeSchedule
+from host_sim.world.changes import Change
+from tests.client.support import LEARNED, ODOMETERS, PROTOCOL, MeddledLink, drive_for, learned, senses
 
 GARBAGE = Frame(0x7FF, b"")
 
@@ -37,7 +41,7 @@ def test_ticks_count_as_sent_and_the_next_one_goes_on_from_there():
     link.put(sensed)
     drive = next(frame for frame in link.waiting if PROTOCOL.decode_drive(frame))
     link.waiting.clear()
-    told = client.inbox.told
+    told = client.inbox.held_check
 
     take_ticks(client, Ticks(1, drive, [heard_more(told.heard, sensed.data, told.drive)]))
 
@@ -69,7 +73,7 @@ def test_the_last_reports_are_taken_over_and_known_from_then_on():
     assert is_known(client, heartbeat)
 
 
-def test_where_there_were_no_reports_nothing_is_settled():
+def test_block_without_reports_settles_no_check():
     client = learned(MeddledLink())
     client.unsettled = LEARNED
 
@@ -104,9 +108,67 @@ def test_the_second_half_of_a_memory_may_come_in_a_later_tick():
     assert client.reports.memories == memories + 1
 
 
-def test_what_would_be_looked_at_is_no_routine():
+def test_report_that_needs_attention_is_not_routine():
     client = learned(MeddledLink())
     client.reports.heartbeat = {**client.reports.heartbeat, "state": 0}
     client.inbox.take(next_one(next_one(last_of(client, "MEMORY"))))
 
     assert {kind.split()[0] for kind, _ in routine_reports(client)} == {"FAULTS", "HEALTH"}
+
+
+def schedule(*texts: str) -> ChangeSchedule:
+    return ChangeSchedule([Change.parse(text) for text in texts], 0.02)
+
+
+def due(coming: ChangeSchedule, tick: int) -> list[str]:
+    return [str(change) for change in coming.due(tick)]
+
+
+def test_a_change_is_due_once_from_its_tick_on():
+    coming = schedule("plant@2s")
+    coming.enter(1, 0)
+
+    assert [due(coming, tick) for tick in (99, 100, 101)] == [[], ["plant@2s"], []]
+
+
+def test_seconds_count_from_the_start_of_the_run_also_in_a_later_environment():
+    coming = schedule("plant@2s")
+    coming.enter(1, 0)
+    coming.enter(2, 60)
+
+    assert coming.next_tick == 100
+
+
+def test_an_environment_counts_from_its_own_start():
+    coming = schedule("grow@env2+2s", "plant@env2")
+    coming.enter(1, 0)
+    assert coming.next_tick > 1_000_000
+    coming.enter(2, 60)
+
+    assert due(coming, 60) == ["plant@env2"]
+    assert coming.next_tick == 160
+
+
+def test_change_after_the_end_of_its_environment_is_dropped():
+    coming = schedule("plant@env1+2s")
+    coming.enter(1, 0)
+    coming.enter(2, 60)
+
+    assert due(coming, 1000) == []
+
+
+def test_changes_of_one_tick_keep_their_order():
+    coming = schedule("grow@2s", "plant@2s", "mirror@1s")
+    coming.enter(1, 0)
+
+    assert due(coming, 500) == ["mirror@1s", "grow@2s", "plant@2s"]
+
+
+def test_a_run_that_begins_anew_meets_everything_again():
+    coming = schedule("plant@2s", "mirror@env1")
+    coming.enter(1, 0)
+    assert len(due(coming, 200)) == 2
+    coming.enter(1, 300)
+
+    assert due(coming, 300) == ["mirror@env1"]
+    assert coming.next_tick == 400

@@ -96,14 +96,14 @@ def test_robots_that_learn_no_more_have_their_memories_and_seeds():
 
 
 @pytest.mark.parametrize("world", ["corridors", "small"])
-def test_they_do_so_in_other_worlds(world):
+def test_fleet_equals_single_runs_in_other_worlds(world):
     config = RunConfig(seed=1, robots=4, environments=2, limit_s=20.0, world=world)
 
     assert in_order(list(run_fleet(config))) == in_order(results_with_frames(config))
 
 
 @pytest.mark.parametrize(("profile", "seed"), [("article", 1), ("adaptive", 2), ("searcher", 3)])
-def test_they_hear_each_other_as_on_a_bus(profile, seed):
+def test_fleet_robots_share_memories_as_on_a_bus(profile, seed):
     config = RunConfig(seed=seed, robots=5, environments=3, limit_s=60.0, profile=profile, settings={"share": 1})
 
     results = in_order(list(run_fleet(config)))

@@ -1,14 +1,24 @@
-"""A robot in this process answers at once; robots without a bus hear each other's memories."""
+"""A robot in this process answers at once; robots without a bus hear each other's memories.
 
+One tick in Python: a short way through few files, so that a reader can follow it; told as a number that wraps.
+"""
+
+import sys
 from collections import deque
 from pathlib import Path
+from types import FrameType
 
 import pytest
 
+import host_sim
 from host_sim.base.errors import OctetError
 from host_sim.protocol.codec import Frame, Protocol
-from host_sim.protocol.generated import Opcode, Senses
+from host_sim.protocol.generated import TICK_SPAN, Opcode, Senses
+from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.in_process_link import InProcessLink, Program, Relay, RelayedLink
+from host_sim.sim.make import make
+from host_sim.sim.run_config import RunConfig
+from host_sim.sim.simulation import Simulation
 
 KNOWS = (0, 1, 0, 0, 2, 0, 0, 0)
 
@@ -33,7 +43,7 @@ def test_a_drive_answers_the_senses_and_nothing_else_is_to_come():
     assert link.receive(0.0) is None
 
 
-def test_what_was_taken_can_be_put_back_before_what_c_code_has_got():
+def test_frames_put_back_come_before_those_that_wait_in_c():
     link, protocol = InProcessLink(memory=KNOWS), Protocol()
     stop(link, protocol)
     said = link.taken()
@@ -147,7 +157,7 @@ def test_each_robot_hears_the_others_in_order_before_the_next_frame_for_itself()
     assert robots[2].heard == [*said, senses[1], senses[1]]
 
 
-def test_what_is_no_memory_stays_with_the_simulator():
+def test_relay_passes_only_memories_to_other_robots():
     other = [Frame(Protocol(1).id_of(name), bytes(8)) for name in ("DRIVE", "HEARTBEAT", "ANSWER")]
     relay = Relay([1, 2])
 
@@ -180,3 +190,54 @@ def test_a_robot_has_heard_all_before_its_socket_is_lent():
     assert link.frame_socket() is robot
     assert robot.heard == [memory_of(2)]
     assert RelayedLink(Robot(), relay, 1).frame_socket() is None
+
+
+PACKAGE = str(Path(host_sim.__file__).parent)
+CALLS_MAX, FILES_MAX = 25, 10
+ORDINARY_TICK = 21
+"""In the middle of a turn: no action begins, and no report is due."""
+
+
+@pytest.fixture
+def simulation():
+    with make(RunConfig(environments=1)) as made:
+        made.native = False
+        RunRecorder.of(made, boredom_limit=10)
+        made.enter(1)
+        while made.tick < ORDINARY_TICK:
+            made.step()
+        yield made
+
+
+def calls_of_a_step(simulation: Simulation) -> list[str]:
+    """The file of each function of ours that is called in a step."""
+    files: list[str] = []
+
+    def note(frame: FrameType, event: str, _: object) -> None:
+        if event == "call" and frame.f_code.co_filename.startswith(PACKAGE):
+            files.append(frame.f_code.co_filename)
+
+    sys.setprofile(note)
+    simulation.step()
+    sys.setprofile(None)
+    return files
+
+
+def test_a_tick_takes_few_calls_and_files(simulation):
+    before = simulation.drives[0].action
+
+    files = calls_of_a_step(simulation)
+
+    assert simulation.drives[0].action == before, "this is no ordinary tick"
+    assert 10 < len(files) <= CALLS_MAX
+    assert len(set(files)) <= FILES_MAX
+
+
+def test_the_robot_is_told_the_tick_as_it_fits_the_wire(simulation):
+    told = []
+    for _ in range(TICK_SPAN):
+        simulation.step()
+        told.append(simulation.senses[0].tick)
+
+    first = ORDINARY_TICK
+    assert told == [*range(first, TICK_SPAN), *range(first)]

@@ -18,7 +18,7 @@ from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim import block_catch_up
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
-from tests.sim.meddled_runs import (
+from tests.sim.native_equality import (
     DRIVE,
     LATE_S,
     PROTOCOL,
@@ -85,7 +85,7 @@ def test_a_run_is_the_same(tmp_path):
 
 
 @pytest.mark.parametrize("meddle", QUIET.values(), ids=QUIET)
-def test_what_a_line_may_bring_changes_nothing(tmp_path, meddle):
+def test_disturbed_link_leaves_the_drives_unchanged(tmp_path, meddle):
     undisturbed = outcome(tmp_path, {}, native=False)
 
     result = assert_alike(tmp_path, {40: meddle, 41: meddle, 300: meddle})

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from host_sim.sim.native_loop import NativeLoop
-from host_sim.world.plain_space import PlainSpace
+from host_sim.world.native_world import PlainSpace
 from host_sim.world.world_library import world_library
 from tests.sim import native_equality
 from tests.sim.native_equality import compare_loops

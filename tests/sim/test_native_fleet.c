@@ -49,7 +49,7 @@ void tearDown(void)
         free(robots[i].core);
 }
 
-TEST(a_robot_runs_as_many_ticks_as_asked_for)
+TEST(fleet_runs_a_robot_for_the_given_ticks)
 {
     TEST_ASSERT_EQUAL_size_t(1, fleet_run_alone(robots, 1, 20));
     TEST_ASSERT_EQUAL_UINT32(20, robots[0].tick);
@@ -58,7 +58,7 @@ TEST(a_robot_runs_as_many_ticks_as_asked_for)
     TEST_ASSERT_GREATER_THAN_UINT32(0, robots[0].begun[REASON_WANDER]);
 }
 
-TEST(a_robot_with_company_hears_it_once_a_second_but_not_itself)
+TEST(fleet_robot_hears_its_peers_once_a_second)
 {
     static const uint8_t company[ROBOTS][CELL_COUNT] = {{0, 2, 0, 0, 2, 0, 0, 0}, {0, 1, 0, 1, 2, 0, 2, 0}};
     uint8_t known[CELL_COUNT];
@@ -76,7 +76,7 @@ TEST(a_robot_with_company_hears_it_once_a_second_but_not_itself)
     TEST_ASSERT_EQUAL_UINT32(2 * TICKS, robots[0].known_ticks);
 }
 
-TEST(what_a_robot_knows_from_the_start_it_has_known_for_a_tick)
+TEST(memory_full_at_start_is_known_after_one_tick)
 {
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, fleet_command(&robots[0], OPCODE_START, PROFILE_FIXED, 7, &answer));
     (void)fleet_run_alone(robots, 2, TICKS);
@@ -84,13 +84,13 @@ TEST(what_a_robot_knows_from_the_start_it_has_known_for_a_tick)
     TEST_ASSERT_EQUAL_UINT32(0, robots[1].known_ticks);
 }
 
-TEST(an_environment_ends_when_its_time_is_up)
+TEST(run_ends_at_its_tick_limit)
 {
     TEST_ASSERT_EQUAL_size_t(0, fleet_run_alone(robots, 1, TICKS + 1));
     TEST_ASSERT_EQUAL_UINT32(TICKS, robots[0].ticks);
 }
 
-TEST(an_environment_ends_when_the_food_is_eaten)
+TEST(run_ends_when_all_food_is_eaten)
 {
     food[0] = (struct food){1200.0, 1500.0, false};
     TEST_ASSERT_EQUAL_size_t(0, fleet_run_alone(robots, 1, TICKS));
@@ -100,7 +100,7 @@ TEST(an_environment_ends_when_the_food_is_eaten)
     TEST_ASSERT_TRUE(robots[0].ticks < TICKS);
 }
 
-TEST(robots_of_one_world_go_on_together)
+TEST(robots_of_a_world_run_together)
 {
     TEST_ASSERT_EQUAL_size_t(ROBOTS, fleet_run_together(robots, ROBOTS, 20));
     TEST_ASSERT_EQUAL_UINT32(20, robots[0].tick);
@@ -109,14 +109,14 @@ TEST(robots_of_one_world_go_on_together)
     TEST_ASSERT_EQUAL_UINT32(TICKS, robots[1].ticks);
 }
 
-TEST(a_command_that_the_core_refuses_says_why)
+TEST(command_returns_the_result_of_the_core)
 {
     TEST_ASSERT_EQUAL_INT(RESULT_UNKNOWN_PROFILE, fleet_command(robots, OPCODE_START, 200, 1, &answer));
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, fleet_command(robots, OPCODE_START, PROFILE_DISTANCE, 1, &answer));
     TEST_ASSERT_EQUAL_UINT32(ANSWER_WANTS_RANGES, answer);
 }
 
-TEST(a_memory_is_the_cores)
+TEST(fleet_returns_the_memory_of_the_core)
 {
     uint8_t cells[CELL_COUNT];
 
@@ -125,7 +125,7 @@ TEST(a_memory_is_the_cores)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0, 1, 1, 1, 2, 1, 2, 1}), cells, CELL_COUNT);
 }
 
-TEST(the_patterns_at_which_a_robot_is_blocked_are_noted_in_the_order_in_which_it_first_was)
+TEST(patterns_are_recorded_in_order_of_first_encounter)
 {
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, fleet_command(&robots[0], OPCODE_START, PROFILE_NEVER, 7, &answer));
     (void)fleet_run_alone(robots, 1, TICKS);

@@ -1,9 +1,95 @@
-/* Whose turn it is, what is logged, and what ends a block of ticks. */
-#include "loop_rig.h"
+#include "logged_lines.h"
+#include "octet.h"
+
+#include "tests/test.h"
+#include "host_sim/sim/native/loop.h"
+#include "tests/world/native/fake_space.h"
 
 #include <string.h>
 
-TEST(a_block_runs_as_many_ticks_as_asked_for)
+/* The loop over ticks, with fake robots in a fake space: turns, the log, and what ends a block. */
+
+enum { ROBOTS = 2, TICKS = 8, SENSES = 0x101, DRIVE = 0x041, FAULTS = 0x781, MEMORY = 0x681 };
+
+/* A fake robot, whose answers a test sets. */
+struct octet {
+    enum reason reason;
+    uint8_t action;
+    bool eat;
+    bool silent;
+    uint8_t faults;        /* reported each tick; 0: no report */
+    bool sends_memory;     /* each tick */
+    unsigned memories;     /* received from others, */
+    struct frame memory;   /* and the last of them */
+    struct frame heard;
+    struct frame answers[3];
+};
+
+static struct octet octets[ROBOTS];
+static struct loop_robot robots[ROBOTS];
+static struct world world;
+static struct loop loop;
+static int16_t rows[ROBOTS][TICKS * ROW_COUNT];
+static double poses[ROBOTS][TICKS * LOOP_POSE];
+static char text[TICKS * ROBOTS * 20 * LOG_LINE_MAX];   /* the log */
+
+/* The robot's answer to that tick. */
+static struct frame drive_of(const struct octet *octet, uint8_t tick)
+{
+    struct octet_drive_t message = {.tick = tick, .reason = (uint8_t)octet->reason, .left = 200, .right = 200,
+        .eat = octet->eat, .action = octet->action};
+    struct frame frame = {.id = DRIVE + (uint32_t)(octet - octets), .len = OCTET_DRIVE_LENGTH};
+
+    (void)octet_drive_pack(frame.data, &message, sizeof frame.data);
+    return frame;
+}
+
+static size_t exchange(struct octet *octet, const struct frame *in)
+{
+    struct octet_senses_t senses;
+    size_t count = 0;
+
+    if (in->id >= MEMORY && in->id < MEMORY + ROBOTS) {
+        octet->memory = *in;
+        octet->memories++;
+        return 0;
+    }
+    octet->heard = *in;
+    (void)octet_senses_unpack(&senses, in->data, in->len);
+    if (octet->faults)
+        octet->answers[count++] = (struct frame){.id = FAULTS, .len = 8, .data = {0, 0, octet->faults}};
+    if (octet->sends_memory)
+        octet->answers[count++] = (struct frame){.id = MEMORY + (uint32_t)(octet - octets), .len = 6};
+    if (!octet->silent)
+        octet->answers[count++] = drive_of(octet, senses.tick);
+    return count;
+}
+
+static const struct frame *answers(const struct octet *octet)
+{
+    return octet->answers;
+}
+
+void setUp(void)
+{
+    fake_open(&world, ROBOTS, 1);
+    world.food[0].eaten = true;
+    memset(octets, 0, sizeof octets);
+    memset(robots, 0, sizeof robots);
+    loop = (struct loop){.exchange = exchange, .answers = answers, .world = &world, .robot_count = ROBOTS,
+        .robots = robots, .log = {.text = text}, .log_size = sizeof text};
+    for (unsigned i = 0; i < ROBOTS; i++) {
+        octets[i].reason = REASON_WANDER;
+        octets[i].action = 1;
+        robots[i].octet = &octets[i];
+        robots[i].senses_id = SENSES + i;
+        robots[i].drive_id = DRIVE + i;
+        robots[i].rows = rows[i];
+        robots[i].poses = poses[i];
+    }
+}
+
+TEST(block_runs_the_given_number_of_ticks)
 {
     loop.tick = 255;
     loop_run(&loop, 3);
@@ -14,7 +100,7 @@ TEST(a_block_runs_as_many_ticks_as_asked_for)
     TEST_ASSERT_EQUAL_UINT32(3, robots[1].received);
 }
 
-TEST(all_robots_hear_their_senses_before_any_answer_is_read)
+TEST(senses_are_sent_to_all_robots_before_answers_are_read)
 {
     static const char *const ids[] = {"101", "102", "041", "042"};
 
@@ -25,9 +111,9 @@ TEST(all_robots_hear_their_senses_before_any_answer_is_read)
     TEST_ASSERT_EQUAL_HEX32(SENSES + 1, octets[1].heard.id);
 }
 
-TEST(a_memory_is_heard_by_the_others)
+TEST(memory_frame_is_delivered_to_the_other_robots)
 {
-    octets[0].tells_memory = true;
+    octets[0].sends_memory = true;
     octets[0].faults = 1;
     loop_run(&loop, 1);
     TEST_ASSERT_EQUAL_UINT(0, octets[0].memories);
@@ -37,7 +123,7 @@ TEST(a_memory_is_heard_by_the_others)
     TEST_ASSERT_EQUAL_UINT(3, octets[1].memories);
 }
 
-TEST(without_a_text_nothing_is_logged)
+TEST(loop_without_a_log_buffer_logs_nothing)
 {
     loop.log.text = NULL;
     loop.log_size = 0;
@@ -46,7 +132,7 @@ TEST(without_a_text_nothing_is_logged)
     TEST_ASSERT_EQUAL_size_t(0, loop.log.used);
 }
 
-TEST(a_meal_ends_a_block)
+TEST(block_ends_when_food_is_eaten)
 {
     world.food[0] = (struct food){1110.0, 1000.0, false};
     octets[0].eat = true;
@@ -56,7 +142,7 @@ TEST(a_meal_ends_a_block)
     TEST_ASSERT_EQUAL_UINT32(0, robots[1].food_eaten);
 }
 
-TEST(news_ends_a_block)
+TEST(block_ends_when_a_report_changes)
 {
     octets[1].faults = 1;
     loop_run(&loop, TICKS);
@@ -67,7 +153,7 @@ TEST(news_ends_a_block)
     TEST_ASSERT_EQUAL_UINT32(TICKS, loop.ticks);
 }
 
-TEST(a_silent_robots_tick_does_not_count)
+TEST(tick_without_an_answer_is_handed_over)
 {
     octets[1].silent = true;
     loop_run(&loop, TICKS);
@@ -84,7 +170,7 @@ static bool ask(struct loop *of, size_t robot)
     return octets[robot].reason == REASON_STOP;
 }
 
-TEST(a_robot_that_has_stopped_by_itself_is_asked_and_goes_on_at_rest)
+TEST(loop_queries_a_robot_that_stopped_by_itself)
 {
     octets[1].reason = REASON_STOP;
     loop.ask = ask;
@@ -94,7 +180,7 @@ TEST(a_robot_that_has_stopped_by_itself_is_asked_and_goes_on_at_rest)
     TEST_ASSERT_FALSE(robots[0].halted);
 }
 
-static bool ask_at_length(struct loop *of, size_t robot)
+static bool ask_and_fill_log(struct loop *of, size_t robot)
 {
     const struct frame report = {.id = FAULTS, .len = 8};
 
@@ -103,10 +189,10 @@ static bool ask_at_length(struct loop *of, size_t robot)
     return ask(of, robot);
 }
 
-TEST(a_log_without_room_for_being_asked_ends_the_block)
+TEST(block_ends_before_a_question_overflows_the_log)
 {
     octets[1].reason = REASON_STOP;
-    loop.ask = ask_at_length;
+    loop.ask = ask_and_fill_log;
     loop.log_size = (size_t)ROBOTS * (1 + LOOP_FRAMES_MAX + LOOP_ASK_LINES) * LOG_LINE_MAX;
     loop_run(&loop, 1);
     TEST_ASSERT_EQUAL_UINT32(1, loop.ticks);
@@ -116,7 +202,7 @@ TEST(a_log_without_room_for_being_asked_ends_the_block)
     TEST_ASSERT_FALSE(loop.handed_over);
 }
 
-TEST(a_robot_that_rests_for_another_reason_hands_its_tick_over)
+TEST(silent_robot_hands_its_tick_over)
 {
     octets[1].silent = true;
     loop.ask = ask;
@@ -125,7 +211,7 @@ TEST(a_robot_that_rests_for_another_reason_hands_its_tick_over)
     TEST_ASSERT_FALSE(robots[1].halted);
 }
 
-TEST(a_drive_for_other_senses_is_refused_and_not_logged)
+TEST(drive_for_other_senses_is_refused_and_not_logged)
 {
     struct frame old = drive_of(&octets[0], 77);
 
@@ -136,7 +222,7 @@ TEST(a_drive_for_other_senses_is_refused_and_not_logged)
     TEST_ASSERT_EQUAL_INT(4, logged_lines(&loop.log));
 }
 
-TEST(what_waited_is_logged_once_after_the_senses)
+TEST(waiting_frame_is_logged_once_after_the_senses)
 {
     struct frame report = {.id = FAULTS, .len = 8};
 
@@ -149,14 +235,14 @@ TEST(what_waited_is_logged_once_after_the_senses)
     TEST_ASSERT_EQUAL_INT(4, logged_lines(&loop.log));
 }
 
-TEST(turns_may_be_taken_in_another_way)
+TEST(loop_calls_the_given_function_for_its_turns)
 {
     loop.take_turns = turns_in_process;
     loop_run(&loop, 1);
     TEST_ASSERT_EQUAL_UINT32(1, loop.ticks);
 }
 
-TEST(a_block_ends_before_the_log_overflows)
+TEST(block_ends_before_the_log_overflows)
 {
     loop.log_size = (ROBOTS * (1 + LOOP_FRAMES_MAX) + 1) * LOG_LINE_MAX;
     loop_run(&loop, TICKS);
@@ -164,7 +250,7 @@ TEST(a_block_ends_before_the_log_overflows)
     TEST_ASSERT_TRUE(loop.log.used <= loop.log_size);
 }
 
-/* What a loop keeps of its ticks: poses, rows and actions. */
+/* Recorded ticks: poses, rows and counts of actions. */
 
 TEST(ticks_are_recorded)
 {
@@ -190,7 +276,7 @@ TEST(actions_are_counted_when_they_begin)
     TEST_ASSERT_EQUAL_UINT32(1, robots[0].begun[REASON_LOOK_AROUND]);
 }
 
-TEST(a_tick_that_was_done_elsewhere_is_recorded_like_all)
+TEST(loop_records_a_tick_that_python_has_run)
 {
     int16_t *row = rows[0] + 2 * ROW_COUNT;
 

@@ -19,7 +19,7 @@ from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.sim.world_record import EpisodeResult
 from host_sim.world.edits import Edit
-from tests.sim.meddled_runs import learned
+from tests.sim.native_equality import learned
 
 READABLE, IN_C = "in Python", "in C"
 

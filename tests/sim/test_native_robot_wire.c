@@ -1,20 +1,63 @@
-#include "host_sim/sim/native/robot_wire.h"
+#include "octet.h"
+
 #include "tests/test.h"
 #include "hal/flash_store/crc32.h"
 #include "hal/protocol/e2e.h"
-#include "octet.h"
+#include "host_sim/sim/native/log_lines.h"
+#include "host_sim/sim/native/robot_wire.h"
+
+#include <string.h>
+
+static char text[4 * LOG_LINE_MAX];
+static struct log_lines lines;
+
+BEFORE_EACH(log_lines)
+{
+    memset(text, 0, sizeof text);
+    lines = (struct log_lines){.text = text};
+}
+
+TEST(log_line_has_the_format_of_candump)
+{
+    struct frame frame = {0x101, 8, {0x00, 0x12, 0xAB, 0xCD, 0xEF, 0xFF, 0x09, 0x90}};
+
+    log_lines_stamp(&lines, 1020000);
+    log_lines_add(&lines, &frame);
+    TEST_ASSERT_EQUAL_STRING("(0000000001.020000) octet 101#0012ABCDEFFF0990\n", text);
+    TEST_ASSERT_EQUAL_size_t(strlen(text), lines.used);
+    TEST_ASSERT_TRUE(strlen(text) <= LOG_LINE_MAX);
+}
+
+TEST(log_line_pads_identifiers_and_has_short_data)
+{
+    struct frame frames[2] = {{0x021, 2, {0x12, 0x34}}, {0x001, 0, {0}}};
+
+    log_lines_stamp(&lines, 0);
+    log_lines_add(&lines, &frames[0]);
+    log_lines_add(&lines, &frames[1]);
+    TEST_ASSERT_EQUAL_STRING("(0000000000.000000) octet 021#1234\n(0000000000.000000) octet 001#\n", text);
+}
+
+TEST(log_line_has_every_digit_of_the_time)
+{
+    struct frame frame = {0x7C1, 0, {0}};
+
+    log_lines_stamp(&lines, 1234567890987654u);
+    log_lines_add(&lines, &frame);
+    TEST_ASSERT_EQUAL_STRING("(1234567890.987654) octet 7C1#\n", text);
+}
 
 enum { SENSES = 0x103, DRIVE = 0x043, HEARTBEAT = 0x6A3, FAULTS = 0x783, HEALTH = 0x7C3 };
 
 static struct loop_robot robot;
 
-void setUp(void)
+BEFORE_EACH(robot_wire)
 {
     robot = (struct loop_robot){.senses_id = SENSES, .drive_id = DRIVE, .heartbeat_id = HEARTBEAT,
         .health_id = HEALTH};
 }
 
-static struct octet_senses_t told(const struct senses *senses, struct frame *frame)
+static struct octet_senses_t sensed(const struct senses *senses, struct frame *frame)
 {
     struct octet_senses_t message;
 
@@ -23,12 +66,12 @@ static struct octet_senses_t told(const struct senses *senses, struct frame *fra
     return message;
 }
 
-TEST(senses_are_told_whole)
+TEST(senses_frame_has_every_signal)
 {
     struct senses senses = {.tick = 200, .feel = 21, .bump = true, .look = true, .beacon_mm = 5000,
         .odometer_left = 4095, .odometer_right = 1};
     struct frame frame;
-    struct octet_senses_t message = told(&senses, &frame);
+    struct octet_senses_t message = sensed(&senses, &frame);
 
     TEST_ASSERT_EQUAL_HEX32(SENSES, frame.id);
     TEST_ASSERT_TRUE(e2e_is_whole(&frame, OCTET_SENSES_LENGTH));
@@ -41,17 +84,17 @@ TEST(senses_are_told_whole)
     TEST_ASSERT_EQUAL_UINT16(1, message.odometer_right);
 }
 
-TEST(senses_count_themselves)
+TEST(senses_counter_advances_with_each_frame)
 {
     struct senses senses = {.tick = 1};
     struct frame frame;
 
     robot.senses_counter = 13;
-    TEST_ASSERT_EQUAL_UINT8(14, told(&senses, &frame).counter);
-    TEST_ASSERT_EQUAL_UINT8(0, told(&senses, &frame).counter);
+    TEST_ASSERT_EQUAL_UINT8(14, sensed(&senses, &frame).counter);
+    TEST_ASSERT_EQUAL_UINT8(0, sensed(&senses, &frame).counter);
 }
 
-static bool drives(uint8_t tick, enum reason reason, struct drive *drive)
+static bool decode_drive(uint8_t tick, enum reason reason, struct drive *drive)
 {
     struct octet_drive_t message = {.tick = tick, .reason = (uint8_t)reason, .left = -2047, .right = 2047,
         .repeat_count = 255, .eat = 1, .action = 127};
@@ -61,11 +104,11 @@ static bool drives(uint8_t tick, enum reason reason, struct drive *drive)
     return robot_wire_drive(&frame, 7, drive);
 }
 
-TEST(a_drive_is_read_whole)
+TEST(drive_frame_is_decoded_completely)
 {
     struct drive drive;
 
-    TEST_ASSERT_TRUE(drives(7, REASON_EAT, &drive));
+    TEST_ASSERT_TRUE(decode_drive(7, REASON_EAT, &drive));
     TEST_ASSERT_EQUAL_UINT8(7, drive.tick);
     TEST_ASSERT_EQUAL_INT(REASON_EAT, drive.reason);
     TEST_ASSERT_EQUAL_INT16(-2047, drive.left_mm_s);
@@ -75,20 +118,20 @@ TEST(a_drive_is_read_whole)
     TEST_ASSERT_TRUE(drive.eat);
 }
 
-TEST(a_drive_of_another_tick_or_at_rest_is_no_answer)
+TEST(drive_of_another_tick_or_at_rest_is_no_answer)
 {
     struct drive drive;
 
-    TEST_ASSERT_FALSE(drives(6, REASON_WANDER, &drive));
-    TEST_ASSERT_FALSE(drives(7, REASON_STOP, &drive));
-    TEST_ASSERT_FALSE(drives(7, REASON_SILENCE, &drive));
+    TEST_ASSERT_FALSE(decode_drive(6, REASON_WANDER, &drive));
+    TEST_ASSERT_FALSE(decode_drive(7, REASON_STOP, &drive));
+    TEST_ASSERT_FALSE(decode_drive(7, REASON_SILENCE, &drive));
 }
 
-TEST(a_drive_for_a_reason_that_there_is_not_is_no_answer)
+TEST(drive_with_an_unknown_reason_is_no_answer)
 {
     struct drive drive;
 
-    TEST_ASSERT_FALSE(drives(7, (enum reason)(REASON_PROGRAM + 1), &drive));
+    TEST_ASSERT_FALSE(decode_drive(7, (enum reason)(REASON_PROGRAM + 1), &drive));
 }
 
 static bool is_news(uint32_t id, uint8_t page, uint8_t counter, uint8_t content)
@@ -100,7 +143,7 @@ static bool is_news(uint32_t id, uint8_t page, uint8_t counter, uint8_t content)
     return robot.has_news;
 }
 
-TEST(a_report_is_news_when_it_says_something_else)
+TEST(report_counts_as_a_change_when_its_content_differs)
 {
     TEST_ASSERT_TRUE(is_news(FAULTS, 0, 1, 0));
     TEST_ASSERT_FALSE(is_news(FAULTS, 0, 2, 0));
@@ -110,7 +153,7 @@ TEST(a_report_is_news_when_it_says_something_else)
     TEST_ASSERT_EQUAL_size_t(5, robot.report_count);
 }
 
-TEST(each_page_is_a_report_of_its_own)
+TEST(pages_are_tracked_separately)
 {
     TEST_ASSERT_TRUE(is_news(FAULTS, 0, 1, 0));
     TEST_ASSERT_TRUE(is_news(FAULTS, 1, 1, 1));
@@ -119,14 +162,14 @@ TEST(each_page_is_a_report_of_its_own)
     TEST_ASSERT_FALSE(is_news(FAULTS, 1, 2, 1));
 }
 
-TEST(a_heartbeat_is_no_news)
+TEST(heartbeat_counts_as_no_change)
 {
     TEST_ASSERT_FALSE(is_news(HEARTBEAT, 1, 1, 1));
     TEST_ASSERT_FALSE(is_news(HEARTBEAT, 1, 2, 2));
     TEST_ASSERT_EQUAL_size_t(2, robot.report_count);
 }
 
-TEST(when_there_are_too_many_kinds_all_are_news)
+TEST(report_of_an_untracked_kind_always_counts_as_a_change)
 {
     for (unsigned i = 0; i < LOOP_KINDS_MAX; i++)
         TEST_ASSERT_TRUE(is_news(FAULTS + i, 0, 1, 0));
@@ -136,7 +179,7 @@ TEST(when_there_are_too_many_kinds_all_are_news)
     TEST_ASSERT_EQUAL_size_t(LOOP_FRAMES_MAX, robot.report_count);
 }
 
-TEST(of_too_many_reports_the_last_are_kept)
+TEST(report_list_keeps_the_last_reports)
 {
     for (unsigned i = 0; i < LOOP_FRAMES_MAX + 3; i++)
         (void)is_news(FAULTS, 0, 1, (uint8_t)i);
@@ -161,23 +204,23 @@ static bool goes_on(uint32_t id, uint8_t page, uint8_t counter, uint8_t content)
     return robot_wire_goes_on(&robot, &frame);
 }
 
-static void know(struct frame frame)
+static void add_known(struct frame frame)
 {
     robot.known[robot.known_count++] = frame;
 }
 
-TEST(a_report_goes_on_when_it_says_the_same_with_the_next_counter)
+TEST(report_continues_with_same_content_and_next_counter)
 {
-    know(report_of(FAULTS, 1, 13, 7));
+    add_known(report_of(FAULTS, 1, 13, 7));
     robot.received = 4;
     TEST_ASSERT_TRUE(goes_on(FAULTS, 1, 14, 7));
     TEST_ASSERT_EQUAL_UINT32(5, robot.told[0]);
     TEST_ASSERT_TRUE(goes_on(FAULTS, 1, 0, 7));
 }
 
-TEST(what_came_before_or_says_something_new_does_not_go_on)
+TEST(repeated_skipped_or_changed_report_does_not_continue)
 {
-    know(report_of(FAULTS, 1, 3, 7));
+    add_known(report_of(FAULTS, 1, 3, 7));
     TEST_ASSERT_FALSE(goes_on(FAULTS, 1, 3, 7));
     TEST_ASSERT_FALSE(goes_on(FAULTS, 1, 5, 7));
     TEST_ASSERT_FALSE(goes_on(FAULTS, 1, 4, 8));
@@ -187,11 +230,11 @@ TEST(what_came_before_or_says_something_new_does_not_go_on)
     TEST_ASSERT_TRUE(goes_on(FAULTS, 1, 4, 7));
 }
 
-TEST(what_is_damaged_does_not_go_on)
+TEST(damaged_report_does_not_continue)
 {
     struct frame damaged = report_of(FAULTS, 0, 2, 0), shorter = damaged;
 
-    know(report_of(FAULTS, 0, 1, 0));
+    add_known(report_of(FAULTS, 0, 1, 0));
     damaged.data[0] ^= 1;
     shorter.len = 7;
     TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &damaged));
@@ -208,20 +251,20 @@ static struct frame heartbeat(uint8_t counter, uint8_t owner, uint16_t uptime)
     return frame;
 }
 
-TEST(a_heartbeat_goes_on_with_the_time)
+TEST(heartbeat_continues_with_advancing_uptime)
 {
     struct frame next = heartbeat(2, 1, 501), taken = heartbeat(3, 2, 502);
 
-    know(heartbeat(1, 1, 500));
+    add_known(heartbeat(1, 1, 500));
     TEST_ASSERT_TRUE(robot_wire_goes_on(&robot, &next));
     TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &taken));
 }
 
-TEST(a_heartbeat_of_another_state_does_not_go_on)
+TEST(heartbeat_with_another_state_does_not_continue)
 {
     struct frame stopped = heartbeat(2, 1, 501);
 
-    know(heartbeat(1, 1, 500));
+    add_known(heartbeat(1, 1, 500));
     stopped.data[1] = 2;
     e2e_protect(&stopped);
     TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &stopped));
@@ -237,7 +280,7 @@ static struct frame health(uint8_t counter, uint8_t rx_errors, uint32_t held)
     return frame;
 }
 
-TEST(a_health_is_no_news_only_because_of_what_it_holds)
+TEST(health_that_differs_only_in_its_check_value_is_no_change)
 {
     const struct frame reports[] = {health(1, 0, 5), health(2, 0, 6), health(3, 1, 6)};
     const bool news[] = {true, false, true};
@@ -259,37 +302,37 @@ static uint32_t with_answer(uint32_t heard, const struct frame *senses)
     return crc32_more(crc32_more(heard ^ 0xA0040302u, senses->data + 1, 4), tail, 3);
 }
 
-/* CRC-32 over the senses that a robot has answered, and over its answers: each of them, in order. */
-TEST(a_health_goes_on_when_it_holds_the_commands_all_senses_and_all_drives_before)
+/* The CRC-32 is over all senses that a robot has answered and over its answers, in order. */
+TEST(health_continues_with_the_crc_of_all_frames_before)
 {
     const struct senses first = {.tick = 1, .feel = 3}, second = {.tick = 2};
     struct frame one, two, held, wrong, before;
     uint32_t heard;
 
     robot.commands = 0xABCD1234;
-    (void)told(&first, &one);
+    (void)sensed(&first, &one);
     robot.senses = one;
     robot_wire_hear_answer(&robot, &answer);
-    (void)told(&second, &two);
+    (void)sensed(&second, &two);
     robot.senses = two;
     heard = with_answer(crc32_more(0, one.data + 1, 7), &two);
     held = health(2, 0, robot.commands ^ heard);
     wrong = health(2, 0, robot.commands ^ heard ^ 0x8000u);
     before = health(2, 0, robot.commands);
-    know(health(1, 0, robot.commands));
+    add_known(health(1, 0, robot.commands));
     TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &wrong));
     TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &before));
     TEST_ASSERT_TRUE(robot_wire_goes_on(&robot, &held));
 }
 
-TEST(the_last_checks_over_senses_are_kept)
+TEST(recent_crcs_over_senses_are_kept)
 {
     const struct senses senses = {.tick = 1};
     uint32_t heard = 0;
     struct frame frame;
 
     for (unsigned i = 0; i < 3 * LOOP_HEARD; i++) {
-        (void)told(&senses, &frame);
+        (void)sensed(&senses, &frame);
         robot.senses = frame;
         heard = i == 0 ? crc32_more(0, frame.data + 1, 7) : with_answer(heard, &frame);
         robot_wire_hear_answer(&robot, &answer);
@@ -297,11 +340,11 @@ TEST(the_last_checks_over_senses_are_kept)
     TEST_ASSERT_EQUAL_HEX32(heard, robot.heard[(robot.heard_count - 1) % LOOP_HEARD]);
 }
 
-TEST(a_heartbeat_of_no_length_does_not_go_on)
+TEST(heartbeat_that_is_too_short_does_not_continue)
 {
     struct frame nothing = {.id = HEARTBEAT, .len = 2, .data = {0, 0x12}};
 
     e2e_protect(&nothing);
-    know((struct frame){.id = HEARTBEAT, .len = 2, .data = {0, 0x11}});
+    add_known((struct frame){.id = HEARTBEAT, .len = 2, .data = {0, 0x11}});
     TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &nothing));
 }

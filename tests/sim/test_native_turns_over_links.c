@@ -9,7 +9,7 @@
 
 enum { ROBOTS = 2, SENSES = 0x101, DRIVE = 0x041, FAULTS = 0x781, TICK = 9, COUNTER = 4, WAIT_MS = 3, FASTEST = 500 };
 
-/* A bus on which comes what the test says. */
+/* A fake link, whose frames a test sets. */
 struct link {
     int sent;                  /* what link_send is to return */
     struct frame out;          /* the last that was sent */
@@ -49,7 +49,7 @@ static struct frame drive(size_t robot, uint8_t tick, uint8_t counter, enum reas
     return frame;
 }
 
-static struct frame usual(size_t robot)
+static struct frame valid_drive(size_t robot)
 {
     return drive(robot, TICK, COUNTER + 1, REASON_WANDER);
 }
@@ -62,7 +62,7 @@ static struct frame faults(uint8_t counter)
     return frame;
 }
 
-static void comes(size_t robot, size_t place, struct frame frame)
+static void queue_frame(size_t robot, size_t place, struct frame frame)
 {
     links[robot].in[place] = frame;
     links[robot].results[place] = 1;
@@ -79,11 +79,11 @@ void setUp(void)
         robots[i] = (struct loop_robot){.link = &links[i], .senses_id = SENSES + i, .drive_id = DRIVE + i,
             .senses_counter = COUNTER};
         turns[i].senses.tick = TICK;
-        comes(i, 0, usual(i));
+        queue_frame(i, 0, valid_drive(i));
     }
 }
 
-TEST(usual_turns_are_taken)
+TEST(valid_answers_are_taken_in_c)
 {
     TEST_ASSERT_TRUE(turns_over_links(&loop, turns));
     TEST_ASSERT_EQUAL_size_t(ROBOTS, loop.sent);
@@ -97,19 +97,19 @@ TEST(usual_turns_are_taken)
     TEST_ASSERT_EQUAL_INT(4, logged_lines(&loop.log));
 }
 
-TEST(a_report_that_goes_on_is_taken)
+TEST(continuing_report_is_taken_in_c)
 {
     robots[0].known[0] = faults(1);
     robots[0].known_count = 1;
-    comes(0, 0, faults(2));
-    comes(0, 1, usual(0));
+    queue_frame(0, 0, faults(2));
+    queue_frame(0, 1, valid_drive(0));
     TEST_ASSERT_TRUE(turns_over_links(&loop, turns));
     TEST_ASSERT_EQUAL_UINT32(2, robots[0].received);
     TEST_ASSERT_EQUAL_UINT32(1, robots[0].told[0]);
     TEST_ASSERT_EQUAL_INT(5, logged_lines(&loop.log));
 }
 
-static void handed_over(size_t sent, size_t answered, int received)
+static void assert_handed_over(size_t sent, size_t answered, int received)
 {
     TEST_ASSERT_FALSE(turns_over_links(&loop, turns));
     TEST_ASSERT_EQUAL_size_t(sent, loop.sent);
@@ -117,53 +117,53 @@ static void handed_over(size_t sent, size_t answered, int received)
     TEST_ASSERT_EQUAL_INT(received, loop.received);
 }
 
-TEST(what_is_not_sent_is_handed_over)
+TEST(failed_send_is_handed_over)
 {
     links[1].sent = LINK_E_FULL;
-    handed_over(1, 0, 0);
+    assert_handed_over(1, 0, 0);
     TEST_ASSERT_EQUAL_INT(1, logged_lines(&loop.log));
 }
 
 TEST(silence_and_errors_are_handed_over)
 {
     links[1].results[0] = 0;
-    handed_over(ROBOTS, 1, 0);
+    assert_handed_over(ROBOTS, 1, 0);
     setUp();
     links[0].results[0] = LINK_E_CLOSED;
-    handed_over(ROBOTS, 0, LINK_E_CLOSED);
+    assert_handed_over(ROBOTS, 0, LINK_E_CLOSED);
     TEST_ASSERT_EQUAL_INT(ROBOTS, logged_lines(&loop.log));
 }
 
-static void unusual(struct frame frame)
+static void assert_frame_handed_over(struct frame frame)
 {
     setUp();
-    comes(1, 0, frame);
-    handed_over(ROBOTS, 1, 1);
+    queue_frame(1, 0, frame);
+    assert_handed_over(ROBOTS, 1, 1);
     TEST_ASSERT_EQUAL_HEX32(frame.id, loop.in_hand.id);
     TEST_ASSERT_EQUAL_UINT8_ARRAY(frame.data, loop.in_hand.data, sizeof frame.data);
     TEST_ASSERT_EQUAL_UINT32(0, robots[1].received);
     TEST_ASSERT_EQUAL_INT(3, logged_lines(&loop.log));
 }
 
-TEST(whatever_is_not_the_fresh_answer_is_handed_over)
+TEST(unexpected_answer_is_handed_over)
 {
-    struct frame damaged = usual(1), shorter = usual(1), extended = usual(1);
+    struct frame damaged = valid_drive(1), shorter = valid_drive(1), extended = valid_drive(1);
 
     damaged.data[5] ^= 0x10;
     shorter.len = 7;
     extended.id |= FRAME_EXTENDED;
-    unusual(damaged);
-    unusual(shorter);
-    unusual(extended);
-    unusual(usual(0));
-    unusual(faults(1));
-    unusual(drive(1, TICK - 1, COUNTER + 1, REASON_WANDER));
-    unusual(drive(1, TICK, COUNTER, REASON_WANDER));
-    unusual(drive(1, TICK, COUNTER + 1, REASON_STOP));
-    unusual(drive(1, TICK, COUNTER + 1, REASON_SILENCE));
+    assert_frame_handed_over(damaged);
+    assert_frame_handed_over(shorter);
+    assert_frame_handed_over(extended);
+    assert_frame_handed_over(valid_drive(0));
+    assert_frame_handed_over(faults(1));
+    assert_frame_handed_over(drive(1, TICK - 1, COUNTER + 1, REASON_WANDER));
+    assert_frame_handed_over(drive(1, TICK, COUNTER, REASON_WANDER));
+    assert_frame_handed_over(drive(1, TICK, COUNTER + 1, REASON_STOP));
+    assert_frame_handed_over(drive(1, TICK, COUNTER + 1, REASON_SILENCE));
 }
 
-static struct frame rushing(int16_t left, int16_t right)
+static struct frame drive_at_speed(int16_t left, int16_t right)
 {
     struct octet_drive_t message = {.counter = COUNTER + 1, .tick = TICK, .reason = REASON_WANDER, .left = left, .right = right};
     struct frame frame = {.id = DRIVE + 1, .len = OCTET_DRIVE_LENGTH};
@@ -173,22 +173,22 @@ static struct frame rushing(int16_t left, int16_t right)
     return frame;
 }
 
-TEST(what_is_faster_than_any_body_is_handed_over)
+TEST(drive_beyond_the_fastest_speed_is_handed_over)
 {
-    unusual(rushing(FASTEST + 1, 0));
-    unusual(rushing(0, -FASTEST - 1));
+    assert_frame_handed_over(drive_at_speed(FASTEST + 1, 0));
+    assert_frame_handed_over(drive_at_speed(0, -FASTEST - 1));
     setUp();
-    comes(1, 0, rushing(FASTEST, -FASTEST));
+    queue_frame(1, 0, drive_at_speed(FASTEST, -FASTEST));
     TEST_ASSERT_TRUE(turns_over_links(&loop, turns));
 }
 
-TEST(a_flood_of_reports_is_handed_over)
+TEST(too_many_reports_are_handed_over)
 {
     robots[0].known[0] = faults(0);
     robots[0].known_count = 1;
     for (unsigned i = 0; i < LOOP_FRAMES_MAX; i++)
-        comes(0, i, faults((uint8_t)((i + 1) % E2E_COUNTERS)));
-    comes(0, LOOP_FRAMES_MAX, usual(0));
-    handed_over(ROBOTS, 0, 0);
+        queue_frame(0, i, faults((uint8_t)((i + 1) % E2E_COUNTERS)));
+    queue_frame(0, LOOP_FRAMES_MAX, valid_drive(0));
+    assert_handed_over(ROBOTS, 0, 0);
     TEST_ASSERT_EQUAL_size_t(LOOP_FRAMES_MAX, links[0].taken);
 }

@@ -133,12 +133,12 @@ def test_there_are_forty_wrong_behaviours():
 
 def test_the_tick_and_the_senses_of_a_mistake_are_named(tmp_path, how):
     code = "if (pattern_of(senses->feel) == 2) { volatile int z = 0; z = 1 / z; }"
-    file = written(tmp_path, source(code))
+    file = written(tmp_path, source(code), "at tick 7, mine.c")
 
-    with pytest.raises(
-        BrainError, match=r"mine\.c:\d+:\d+: a division by zero, at tick \d\d+, .* with front blocked"
-    ):
+    told = r"at tick 7, mine\.c:\d+:\d+: a division by zero, at tick (\d\d+), .* with front blocked"
+    with pytest.raises(BrainError, match=told) as mistake:
         run(RunConfig(profile=file, limit_s=60.0, **how))
+    assert mistake.value.tick == int(re.search(told, str(mistake.value))[1])
 
 
 FILES = {
@@ -245,7 +245,7 @@ def test_a_robot_without_the_file_refuses_the_profile():
         ["--fast", "--bus", "fd"],
     ],
 )
-def test_what_does_not_go_with_a_behaviour_of_one_s_own_is_refused(words, capsys):
+def test_option_that_excludes_an_own_behaviour_is_refused(words, capsys):
     assert main(["run", "--profile", str(TEMPLATE), *words]) == 2
     assert capsys.readouterr().err.count("\n") == 1
 
@@ -313,8 +313,7 @@ def test_a_replay_says_that_a_file_has_changed_and_names_the_debugger(tmp_path, 
 
     told = capsys.readouterr()
     assert f"{file} differs from mine.c (SHA-256 " in told.err
-    assert f" debug {log} --node 1 --at " in told.out
-    assert told.out.endswith(f" --profile {file}\n")
+    assert f" debug {log} --profile {file} --node 1 --at " in told.out
 
 
 def test_opening_a_log_compiles_what_came_with_it_on_request_only(tmp_path, monkeypatch):

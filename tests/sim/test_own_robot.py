@@ -43,7 +43,7 @@ def test_several_robots_of_ones_own_have_numbers_of_their_own(pids):
     assert len(known()) == 2
 
 
-def test_one_that_is_killed_is_started_again_and_the_result_is_doubtful(pids):
+def test_killed_robot_is_restarted_and_the_result_doubtful(pids):
     command, known = pids
     with make(RunConfig(bus="fd", robot_command=command, limit_s=10.0, reconnect_s=10.0)) as simulation:
         simulation.enter(1)
@@ -57,7 +57,7 @@ def test_one_that_is_killed_is_started_again_and_the_result_is_doubtful(pids):
         assert any("restarted" in str(incident) for incident in client.incidents)
 
 
-def test_one_that_does_not_come_back_ends_the_run(tmp_path):
+def test_robot_that_does_not_restart_ends_the_run(tmp_path):
     command = f"sh -c '[ ! -e {tmp_path}/dead ] && exec {EXAMPLE}'"
     with make(RunConfig(bus="fd", robot_command=command, limit_s=10.0, reconnect_s=0.3)) as simulation:
         simulation.enter(1)
@@ -68,7 +68,7 @@ def test_one_that_does_not_come_back_ends_the_run(tmp_path):
             go_on(simulation, 100)
 
 
-def test_one_that_comes_back_dumb_is_lost_like_its_line_and_not_called_wrong_usage(monkeypatch):
+def test_robot_that_restarts_silent_is_reported_as_lost(monkeypatch):
     monkeypatch.setattr(robot_process, "BOOT_S", 0.1)
     robot = robot_process.OwnRobot("sleep 60", 1, was_there=True)
     try:
@@ -100,7 +100,7 @@ def kill_robots():
         (" ", "--robot-command is empty"),
     ],
 )
-def test_what_is_no_robot_is_told_in_a_line(capsys, monkeypatch, tmp_path, command, message):
+def test_command_that_is_no_robot_is_reported_in_one_line(capsys, monkeypatch, tmp_path, command, message):
     monkeypatch.setattr(robot_process, "BOOT_S", 0.3)
 
     code = main(["run", "--robot-command", command, "--quiet", "--out", str(tmp_path / "out")])
@@ -112,13 +112,13 @@ def test_what_is_no_robot_is_told_in_a_line(capsys, monkeypatch, tmp_path, comma
 
 
 @pytest.mark.parametrize("words", [("--bus", "none"), ("--robot", "qemu"), ("--robots", "40")])
-def test_where_it_cannot_be_it_is_refused(capsys, words):
+def test_robot_command_is_refused_where_it_cannot_apply(capsys, words):
     assert main(["run", "--robot-command", EXAMPLE, *words]) == 2
     assert "--robot-command" in capsys.readouterr().err
 
 
 @pytest.mark.vcan
-def test_one_on_vcan_is_started_again_too(pids):
+def test_killed_robot_on_vcan_is_restarted(pids):
     command, known = pids
     with make(RunConfig(bus="socketcan:vcan0", robot_command=command, limit_s=10.0)) as simulation:
         simulation.enter(1)

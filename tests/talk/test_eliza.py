@@ -3,9 +3,8 @@
 import pytest
 
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.talk.eliza import Eliza, Known, words_of
+from host_sim.talk.eliza import Eliza, Known, slip_hash, words_of
 from host_sim.talk.script import read_script
-from host_sim.talk.slip_hash import slip_hash
 
 ENDS = """
 (MEMORY MY (0 YOUR 0 = FIRST 3) (0 YOUR 0 = SECOND 3) (0 YOUR 0 = THIRD 3) (0 YOUR 0 = FOURTH 3))

@@ -83,3 +83,12 @@ def test_a_board_that_is_refused_is_not_built(root: Path, tmp_path: Path) -> Non
         check=False,
     )
     assert (done.returncode, done.stderr.count("\n"), header.exists()) == (2, 1, False)
+
+
+@pytest.mark.parametrize("option", ["--c", "--drawings"])
+def test_an_output_that_cannot_be_written_is_refused_in_one_line(option: str) -> None:
+    command = [sys.executable, ROOT / "tools/pins", "blue_pill", option, ROOT / "README.md/a"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert f"cannot write {ROOT / 'README.md'}" in done.stderr

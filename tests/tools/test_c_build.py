@@ -1,8 +1,13 @@
-"""C tests as they are built: one that tests nothing fails; a warning stops a developer's build, and no other."""
+"""C tests as they are built: one that tests nothing fails; a warning stops a developer's build, and no other.
 
+tools/legacy-fpu hides the extended floating-point state from a tracer, and nothing else.
+"""
+
+import errno
 import os
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -63,11 +68,31 @@ def test_set_up_and_tear_down_are_called_where_there_are_any(tmp_path):
     assert passed
 
 
+def test_a_preparation_is_that_of_the_tests_below_it(tmp_path):
+    passed, _ = outcome(
+        tmp_path,
+        """
+        static int up, first, second;
+        void setUp(void) { up++; }
+        TEST(a) { TEST_ASSERT_EQUAL(1, up); TEST_ASSERT_EQUAL(0, first); }
+        BEFORE_EACH(one) { first = up; }
+        TEST(b) { TEST_ASSERT_EQUAL(2, first); prepare_one(); }
+        TEST(c) { TEST_ASSERT_EQUAL(3, first); }
+        BEFORE_EACH(other) { second = up; }
+        TEST(d) { TEST_ASSERT_EQUAL(4, second); TEST_ASSERT_EQUAL(3, first); }
+        """,
+    )
+
+    assert passed
+
+
 @pytest.mark.parametrize(
     "tests",
     [
         pytest.param("TEST(a) { TEST_ASSERT_TRUE(0); }", id="that fails"),
         pytest.param("TEST(a) {}\nTEST(b) { TEST_ASSERT_TRUE(0); }\nTEST(c) {}", id="that fails among others"),
+        pytest.param("BEFORE_EACH(one) { TEST_ASSERT_TRUE(0); }\nTEST(a) {}", id="whose preparation fails"),
+        pytest.param("BEFORE_EACH(one) {}", id="that is only prepared"),
         pytest.param("TEST(a) { TEST_IGNORE(); }", id="that is ignored"),
         pytest.param('TEST(a) { TEST_IGNORE_MESSAGE("later"); }', id="that is ignored for a reason"),
         pytest.param("#include <stdlib.h>\nTEST(a) { exit(0); }\nTEST(b) {}", id="that ends the program"),
@@ -132,3 +157,39 @@ def test_a_manual_build_of_the_tests_has_warnings_as_errors() -> None:
     listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
 
     assert 'OCTET_WERROR="ON"' in listed
+
+
+LEGACY_FPU = Path(__file__).resolve().parents[2] / "tools/legacy-fpu"
+PTRACE_GETREGSET, NT_PRSTATUS, NT_X86_XSTATE = 0x4204, 1, 0x202
+# There is no process 0: the kernel says ESRCH to whatever is asked of it, where the filter does not answer first.
+ASK = """
+import ctypes, sys
+libc = ctypes.CDLL(None, use_errno=True)
+libc.syscall(101, *map(int, sys.argv[1:]), None)
+print(ctypes.get_errno())
+"""
+
+
+def error_of(request: int, kind: int, *launcher: str | Path) -> int:
+    command = [*launcher, sys.executable, "-c", ASK, str(request), "0", str(kind)]
+    return int(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+
+
+@pytest.mark.parametrize(
+    ("request_number", "kind", "error"),
+    [
+        (PTRACE_GETREGSET, NT_X86_XSTATE, errno.EINVAL),
+        (PTRACE_GETREGSET, NT_PRSTATUS, errno.ESRCH),
+        (PTRACE_GETREGSET + 1, NT_X86_XSTATE, errno.ESRCH),
+    ],
+)
+def test_only_reading_the_extended_state_fails(request_number, kind, error):
+    assert error_of(request_number, kind, LEGACY_FPU) == error
+
+
+def test_without_it_the_kernel_answers():
+    assert error_of(PTRACE_GETREGSET, NT_X86_XSTATE) == errno.ESRCH
+
+
+def test_the_exit_code_is_the_command_s():
+    assert subprocess.run([LEGACY_FPU, "sh", "-c", "exit 7"], check=False).returncode == 7

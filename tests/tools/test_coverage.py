@@ -6,13 +6,11 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT))
+from tests.tools.project import script_named
+from tools.verify.command import VerifyError, compare, read
+from tools.verify.coverage import CLANG, COPY, FLAGS, NOT_MEASURED, Gap, measure, measure_python, python_gaps
 
-from tests.tools.project import script_named  # noqa: E402 - found by the line above
-from tools.verify.command import VerifyError  # noqa: E402 - found by the line above
-from tools.verify.coverage.measure import CLANG, COPY, FLAGS, NOT_MEASURED, Gap, measure  # noqa: E402
-from tools.verify.exceptions import compare, read  # noqa: E402
+ROOT = Path(__file__).resolve().parents[2]
 
 # It is told what a, b and c are: "100" for a true and the others false.
 SOURCE = """int main(int argc, char *argv[])
@@ -91,11 +89,11 @@ def test_runs_add_up(built):
     assert missing_after(built, ENOUGH[-1]) == []
 
 
-def test_the_sums_are_those_of_all_conditions(built):
+def test_totals_are_those_of_all_conditions(built):
     missing_after(built, "000", "110")
-    measured = measure(built, built / "build")
+    totals = measure(built, built / "build").totals
 
-    assert (measured.outcomes, measured.seen, measured.conditions, measured.deciding) == (6, 4, 3, 1)
+    assert [(totals[kind]["count"], totals[kind]["covered"]) for kind in ("branches", "mcdc")] == [(6, 4), (3, 1)]
 
 
 def test_a_build_whose_tests_have_not_run_is_an_error(built):
@@ -150,3 +148,51 @@ def test_a_gap_needs_a_reason_and_a_reason_a_gap(tmp_path, text, complaints):
     table.write_text(ROW.format(text, "a canary"))
 
     assert compare([GAP], read(table)) == complaints
+
+
+PYTHON_SOURCE = """def sign(number: int) -> int:
+    if number < 0:
+        number = -1
+    if number == 0:  # pragma: no cover
+        return 0
+    return number
+"""
+TEST = "from package.sign import sign\n\n\ndef test_sign() -> None:\n    assert [sign(n) for n in {}] == {}\n"
+
+
+def measured(folder: Path, numbers: list[int], expected: list[int]) -> tuple[dict, str]:
+    """A package with one function, whose test calls it with some numbers."""
+    for name, text in {"package/sign.py": PYTHON_SOURCE, "test_sign.py": TEST.format(numbers, expected)}.items():
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_text(text)
+    (folder / "measure").mkdir()
+    return measure_python(folder, Path(sys.executable), ["package"], ["test_sign.py"], folder / "measure")
+
+
+def test_all_is_taken_or_has_its_reason():
+    command = [ROOT / "tools" / "coverage", "python", "--gate"]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+
+    assert result.returncode == 0, result.stderr
+    assert "\n0 complaints" in result.stdout
+
+
+def test_tests_that_take_every_branch_leave_no_gap(tmp_path):
+    files, table = measured(tmp_path, [-5, 0, 1], [-1, 0, 1])
+
+    assert python_gaps(tmp_path, files) == []
+    assert table.split("TOTAL")[1].split()[:5] == ["6", "0", "4", "0", "100%"]
+
+
+def test_a_branch_or_a_line_that_no_test_takes_is_a_gap_even_if_a_comment_excuses_it(tmp_path):
+    files, _ = measured(tmp_path, [-5], [-1])
+
+    assert [str(gap) for gap in python_gaps(tmp_path, files)] == [
+        "package/sign.py:2: never from: if number < 0: on to: if number == 0:  # pragma: no cover",
+        "package/sign.py:5: never reached: return 0",
+    ]
+
+
+def test_a_failing_test_is_reported(tmp_path):
+    with pytest.raises(VerifyError, match="coverage run failed"):
+        measured(tmp_path, [1], [2])

@@ -12,11 +12,9 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tools.flashing import FlashError  # noqa: E402 - found by the line above
-from tools.flashing.drive import find_drive, write_to_drive  # noqa: E402
 from tools.flashing.images import Image, all_boards, build, choose_board, identify  # noqa: E402
-from tools.flashing.probes import Probe, choose_probe, find_probes  # noqa: E402
-from tools.flashing.programs import CHIP_IDS, Plan, check_chip, make_plan, write  # noqa: E402
-from tools.flashing.troubles import explain  # noqa: E402
+from tools.flashing.probes import Probe, choose_probe, find_drive, find_probes, write_to_drive  # noqa: E402
+from tools.flashing.programs import CHIP_IDS, Plan, check_chip, explain, make_plan, write  # noqa: E402
 
 BOARDS = all_boards()
 STLINK, OTHER = Probe("stlink", "A1"), Probe("cmsis-dap", "B2")
@@ -57,7 +55,7 @@ def test_every_board_has_a_chip_and_its_links() -> None:
         "feather_stm32f405": ("stm32f405", "bxcan", "slcan"),
         "nucleo_g431rb": ("stm32g431", "fdcan", "slcan", "pins", "mute", "body"),
         "olimex_stm32_h405": ("stm32f405", "bxcan", "slcan"),
-        "pico": ("rp2040", "slcan", "pins"),
+        "pico": ("rp2040", "slcan", "pins", "check"),
     }
 
 

@@ -9,7 +9,7 @@ import cantools
 import pytest
 
 from host_sim.protocol import generated
-from tools.robot_words import to_javascript, to_python, to_typedefs
+from tools.robot_words import to_python, to_types, to_typescript
 from tools.robot_words.description import DescriptionError
 from tools.robot_words.model import layout_hash, read
 
@@ -183,22 +183,22 @@ def test_what_was_generated_is_what_the_files_say_today():
     robot = read(DBC, WORDS)
 
     assert (ROOT / "host_sim/protocol/generated.py").read_text() == to_python.module(robot)
-    assert (ROOT / "host_sim/web/generated.js").read_text() == to_javascript.module(robot)
-    assert (ROOT / "host_sim/web/generated_types.js").read_text() == to_typedefs.module()
+    assert (ROOT / "host_sim/web/generated.ts").read_text() == to_typescript.module(robot)
+    assert (ROOT / "host_sim/web/generated_types.ts").read_text() == to_types.module()
 
 
-def test_a_typedef_is_the_python_type():
-    lines = to_typedefs.module().splitlines()
+def test_a_type_of_the_page_is_the_python_type():
+    lines = to_types.module().splitlines()
 
     for line in (
-        *("{number} beacon", "{Trial | null} trial", "{number[][]} bars", "{number[][]} [plants]"),
-        *("{[number, number]} bar_length_mm", "{[number, number][]} food_bands_mm"),
+        *("beacon: number", "trial: Trial | null", "bars: number[][]", "plants?: number[][]"),
+        *("bar_length_mm: [number, number]", "food_bands_mm: [number, number][]"),
     ):
-        assert f" * @property {line}" in lines
+        assert f"  {line};" in lines
 
 
-def test_each_export_to_javascript_is_one_line():
-    lines = to_javascript.module(read(DBC, WORDS)).splitlines()
+def test_each_export_to_typescript_is_one_line():
+    lines = to_typescript.module(read(DBC, WORDS)).splitlines()
 
     assert all(line.startswith(("export const ", "/*")) or line == "" for line in lines)
     assert "export const SIDE = { NOTHING: 0, LEFT: 1, RIGHT: 2 };" in lines

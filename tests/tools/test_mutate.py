@@ -1,4 +1,7 @@
-"""Mutants: in the source whose turn it is, the tests kill enough of them; without its tests they do not."""
+"""Mutants: in the source whose turn it is, the tests kill enough of them; without its tests they do not.
+
+A sample of the faults that are planted in a copy of the tree: tests find them.
+"""
 
 import re
 import runpy
@@ -8,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from host_sim.base.toml_file import parse_toml
+from tests.planted.__main__ import Fault, copy_of_the_tree, faults, is_found
 
 ROOT = Path(__file__).resolve().parents[2]
 MUTATE = runpy.run_path(str(ROOT / "tools/mutate"))
@@ -33,7 +37,7 @@ def test_enough_mutants_of_the_source_whose_turn_it_is_are_killed():
 
 
 def test_mutants_that_no_test_kills_are_printed_and_fail():
-    code, said = mutate("--test=can_body_sending", "hal/flash_store/crc32.c")
+    code, said = mutate("--test=can_body", "hal/flash_store/crc32.c")
 
     assert code == 1
     assert re.search(r"^hal/flash_store/crc32.c:\d+: .", said, re.MULTILINE)
@@ -45,6 +49,10 @@ def test_a_source_without_a_test_fails():
     name = "hal/port/cortex_m/startup.c"
 
     assert mutate(name) == (1, f"{name}: no C test is built from it\n{name}: at least 95 % must be killed\n")
+
+
+def test_a_source_that_is_only_in_a_program_is_tested_too():
+    assert len(MUTATE["tests_of"](ROOT / "firmware/main.c", ["main"])) == 1
 
 
 def test_a_source_must_reach_its_row_of_the_table():
@@ -73,10 +81,10 @@ def test_the_commit_chooses_the_turn_and_each_source_has_one():
     assert turns == ["a.c", "b.c", "a.c"]
 
 
-@pytest.mark.parametrize("name", TABLE)
-def test_each_row_of_the_table_is_a_percentage_of_a_source(name):
-    assert (ROOT / name).is_file()
-    assert 0 < TABLE[name] <= 100
+def test_each_source_has_a_row_that_reaches_the_bar():
+    sources = {str(file.relative_to(ROOT)) for folder in MUTATE["FOLDERS"] for file in (ROOT / folder).rglob("*.c")}
+
+    assert {name for name, percent in TABLE.items() if MUTATE["BAR"] <= percent <= 100} == sources
 
 
 def test_each_line_of_code_has_mutants_even_beside_a_comment(tmp_path):
@@ -92,3 +100,21 @@ def test_each_line_of_code_has_mutants_even_beside_a_comment(tmp_path):
 @pytest.mark.parametrize("folder", MUTATE["FOLDERS"])
 def test_each_folder_is_there(folder):
     assert list((ROOT / folder).glob("*.c"))
+
+
+SAMPLE = 2
+"""Number of faults of a run; the commit chooses them."""
+
+
+def chosen() -> list[Fault]:
+    """Those whose tests need neither a browser nor what studies need."""
+    every = [fault for fault in faults() if not fault.tests.startswith(("tests/web", "tests/lab/study"))]
+    head = subprocess.check_output(["git", "-C", ROOT, "rev-parse", "HEAD"], text=True)
+    return [every[(int(head, 16) + i * len(every) // SAMPLE) % len(every)] for i in range(SAMPLE)]
+
+
+@pytest.mark.parametrize("fault", chosen(), ids=lambda fault: fault.file)
+def test_a_planted_fault_is_found_and_the_tree_as_it_is_passes(fault):
+    with copy_of_the_tree() as tree:
+        assert is_found(fault, tree)
+        assert not is_found(fault._replace(new=fault.old), tree)

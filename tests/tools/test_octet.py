@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from host_sim.protocol import generated, words
-from host_sim.transport.bus_faults import FAULTS
+from host_sim.transport.faulty_link import FAULTS
 from host_sim.transport.rule import FAULT_NAMES
 from tools.robot_words.model import read
 
@@ -25,6 +25,7 @@ STAGES = {
     "run --robot=qemu --seed 2": "images",
     "run --robot emulated --board blue_pill": "images emulator",
     "run --robot emulated --board pico": "pico",
+    "page --pico octet.html": "page pico",
     "run --robot emulated --board pico --body pins": "pico emulator",
     "watch --robot=emulated": "images emulator",
     "watch --listen": "run classroom",
@@ -83,7 +84,7 @@ HELP = (
 def sources(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The sources as they come from git."""
     folder = tmp_path_factory.mktemp("bare") / "a tree"
-    made = shutil.ignore_patterns("__pycache__", "generated.py", "generated.js")
+    made = shutil.ignore_patterns("__pycache__", "generated.py", "generated.ts")
     for name in ("docs", "hal", "host_sim", "tools"):
         shutil.copytree(ROOT / name, folder / name, ignore=made)
     (folder / "out").mkdir()
@@ -131,10 +132,10 @@ def test_a_mistake_is_told_before_anything_is_set_up(words: str, sources: Path) 
 
 @pytest.fixture
 def with_python(sources: Path) -> Path:
-    """The sources, with a stand-in for the venv's Python."""
+    """The sources, with a stand-in for the venv's Python, which runs only tools/launch.py."""
     python = sources / ".venv/bin/python"
     python.parent.mkdir(parents=True, exist_ok=True)
-    python.write_text('#!/bin/sh\necho "$@" $PYTHONDONTWRITEBYTECODE\n')
+    python.write_text('#!/bin/sh\n[ "$1" != -IS ] || exec python3 "$@"\necho "$@" $PYTHONDONTWRITEBYTECODE\n')
     python.chmod(0o755)
     return sources
 
@@ -152,7 +153,7 @@ def test_the_benchmark_needs_what_the_tests_need(with_python: Path) -> None:
     ]
 
 
-def test_where_the_set_up_fails_nothing_is_run(with_python: Path, tmp_path: Path) -> None:
+def test_failed_setup_runs_no_command(with_python: Path, tmp_path: Path) -> None:
     folder = shutil.copytree(with_python, tmp_path / "tree")
     (folder / "tools/setup").write_text("#!/bin/sh\nexit 7\n")
     done = call(folder, "octet run")

@@ -20,12 +20,12 @@ FILES = {
     "tests/world/test_far.py": "from host_sim.world import far\n",
     "tests/world/test_lonely_things.py": "",
     "tests/runs/test_far_runs.py": "import tests.world.test_far\n",
-    "host_sim/web/core/storage.js": "",
+    "host_sim/web/core/storage.ts": "",
     "host_sim/web/core/model.ts": "",
-    "host_sim/web/core/alone.js": "",
-    "host_sim/web/core/app.js": 'import { kept } from "./storage.js";\nimport type { Model } from "./model.ts";\n',
+    "host_sim/web/core/alone.ts": "",
+    "host_sim/web/core/app.ts": 'import { kept } from "./storage.js";\nimport type { Model } from "./model.js";\n',
     "host_sim/web/head.html": '<link rel="stylesheet" href="style.css">\n',
-    "host_sim/web/page.html": '{head.html}<script src="core/app.js"></script>\n',
+    "host_sim/web/page.html": '{head.html}<script src="app.js"></script>\n',
     "host_sim/web/style.css": "",
     "host_sim/web/texts/de.json": "{}",
     "host_sim/report/page.py": 'PAGE, WORDS = "page.html", WEB / "texts"\n',
@@ -77,13 +77,13 @@ def test_a_file_concerns_the_tests_that_name_it_and_not_those_that_name_one_like
     assert found_for(project, "tools/words") == ({"tests/tools/test_words.py"}, 0)
 
 
-@pytest.mark.parametrize("changed", ["core/storage.js", "core/model.ts", "texts/de.json", "style.css"])
+@pytest.mark.parametrize("changed", ["core/storage.ts", "core/model.ts", "texts/de.json", "style.css"])
 def test_what_a_page_is_made_of_concerns_the_tests_of_the_page(project, changed):
     assert found_for(project, f"host_sim/web/{changed}") == ({"tests/web/test_page.py"}, 0)
 
 
 def test_a_file_of_no_page_concerns_no_test_of_a_page(project):
-    assert found_for(project, "host_sim/web/core/alone.js") == (set(), 0)
+    assert found_for(project, "host_sim/web/core/alone.ts") == (set(), 0)
 
 
 def test_a_document_concerns_the_tests_of_the_documents(project):
@@ -95,7 +95,7 @@ def test_a_document_concerns_the_tests_of_the_documents(project):
     [
         ("host_sim/world/alone.py", (), (), True),
         ("host_sim/world/alone.py", ("tests/world/test_alone.py",), (), False),
-        ("host_sim/web/alone.js", (), (), True),
+        ("host_sim/web/alone.ts", (), (), True),
         ("hal/link/alone.c", (), (), True),
         ("hal/link/slcan.c", (), ("hal/link/slcan.c",), False),
         ("tools/words", (), (), True),
@@ -107,14 +107,14 @@ def test_a_changed_file_of_code_without_a_test_is_named(path, tests, of_c, is_na
 
 
 def test_a_changed_file_without_a_test_ends_with_exit_code_1(monkeypatch, capsys):
-    monkeypatch.setattr(quick, "changed_files", lambda _root: ["host_sim/alone.js"])
-    monkeypatch.setattr(quick, "python_tests", lambda _root, _changed: ({"host_sim/alone.js": set()}, 0))
+    monkeypatch.setattr(quick, "changed_files", lambda _root: ["host_sim/alone.ts"])
+    monkeypatch.setattr(quick, "python_tests", lambda _root, _changed: ({"host_sim/alone.ts": set()}, 0))
     monkeypatch.setattr(quick, "run_stages", lambda _stages, _arguments: 0)
 
     code = quick.run(Namespace(allow_missing=[]))
 
     assert code == 1
-    assert "no test is known for host_sim/alone.js\n" in capsys.readouterr().out
+    assert "no test is known for host_sim/alone.ts\n" in capsys.readouterr().out
 
 
 def test_new_and_changed_files_count_as_changed(project):

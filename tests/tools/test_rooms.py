@@ -1,12 +1,16 @@
 """tools/rooms: what came and went in a checkout of its own, with sums counted by hand."""
 
+import re
 import shutil
 import subprocess
+from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+from tests.tools.project import ROOT, script_named
+
 PYTHON = '"""Adds."""\n\nimport sys\n\n\ndef add(a: int) -> int:\n    """As it says."""\n    return a + 1\n'
 C = "/* Adds; twice. */\nint add(int a)\n{\n    if (a)   // never\n        return a + 1;\n    return 2;\n}\n"
 
@@ -36,6 +40,14 @@ def test_a_checkout_without_changes_differs_in_no_room(rooms):
     assert run() == {"product": ["2", "15", "5", "+0", "+0", "+0"], "tests": ["0", "0", "0", "+0", "+0", "+0"]}
 
 
+def test_a_commit_that_does_not_exist_is_refused_in_one_line(rooms):
+    path, _ = rooms
+
+    done = subprocess.run([path / "tools/rooms", "--since", "nonsense"], capture_output=True, text=True, check=False)
+
+    assert (done.returncode, done.stderr) == (2, "tools/rooms: there is no commit nonsense: see git log\n")
+
+
 def test_each_room_counts_files_lines_and_statements(rooms):
     _, run = rooms
 
@@ -55,3 +67,62 @@ def test_new_changed_and_deleted_files_count(rooms):
     assert found["firmware"] == ["0", "0", "0", "-1", "-7", "-3"]
     assert found["host_sim/world"] == ["1", "11", "3", "+0", "+3", "+1"]
     assert found["tests"] == ["1", "2", "2", "+1", "+2", "+2"]
+
+
+COMMANDS = {
+    Path(command[0]).name + "".join(command[1:2]): command
+    for stage in script_named("test").all_stages(())
+    if stage.name in {"lint", "types"}
+    for command in stage.commands
+}
+FAULTS = {
+    "ruffcheck": "import os\n",
+    "ruffformat": "def one() -> int:\n# Too far to the left.\n    return 1\n",
+    "mypy": "def same(it):\n    return it\n",
+    "shellchecktools/setup": '#!/bin/sh\nrm "$1" $2\n',
+}
+FINE = {"shellchecktools/setup": '#!/bin/sh\nrm "$1"\n'}
+
+
+@pytest.fixture
+def folder() -> Iterator[Path]:
+    """A folder to which the settings of this project apply."""
+    with TemporaryDirectory(dir=ROOT / "build") as temporary:
+        yield Path(temporary)
+
+
+def judge(command: tuple[str, ...], path: Path) -> int:
+    """The exit code of a command of a stage for one file in place of all."""
+    options = [word for word in command if not word.startswith("tools/") and word != ".ci/run"]
+    return subprocess.run([*options, path], cwd=ROOT, capture_output=True, check=False).returncode
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_fault_is_found(folder, name):
+    path = folder / "planted.py"
+    path.write_text(FINE.get(name, '"""A module."""\n'))
+    assert judge(COMMANDS[name], path) == 0
+
+    path.write_text(FAULTS[name])
+
+    assert judge(COMMANDS[name], path) == 1
+
+
+@pytest.mark.parametrize("stage", ["extend-include", "files"])
+def test_every_script_in_python_is_checked(stage):
+    named = re.search(rf"^{stage} = \[(.*)\]$", (ROOT / "pyproject.toml").read_text(), re.MULTILINE)
+    scripts = [
+        it
+        for it in (ROOT / "tools").iterdir()
+        if it.is_file() and it.read_bytes().startswith(b"#!/usr/bin/env python3")
+    ]
+
+    assert len(scripts) > 10
+    assert named is not None
+    assert {f'"tools/{it.name}"' for it in scripts if not it.suffix} <= set(named[1].split(", "))
+
+
+def test_every_script_for_a_shell_is_checked():
+    scripts = [it for it in (ROOT / "tools").iterdir() if it.is_file() and b"bash\n" in it.read_bytes()[:25]]
+
+    assert {f"tools/{it.name}" for it in scripts} <= set(COMMANDS["shellchecktools/setup"])

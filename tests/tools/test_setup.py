@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
-from tests.tools.setup_tree import EXTRAS, INSTALLERS, ROOT, STAND_IN, Tree
+from tests.tools.project import EXTRAS, INSTALLERS, ROOT, STAND_IN, Tree
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def tree(tmp_path: Path) -> Tree:
 def test_the_first_call_sets_up_and_names_each_step(tree: Tree) -> None:
     done, calls = tree.setup()
     assert done.returncode == 0
-    assert {"python3", "python", "cmake", "ninja"} == set(calls)
+    assert {"python3", "python", "cmake", "esbuild", "ninja"} == set(calls)
     assert [line.split()[1] for line in done.stderr.splitlines()] == ["installing", "registering", "building"]
 
 
@@ -33,6 +33,14 @@ def test_the_second_call_only_asks_ninja_and_says_nothing(tree: Tree) -> None:
     done, calls = tree.setup()
     assert calls == ["ninja"]
     assert done.stdout + done.stderr == ""
+
+
+def test_a_module_of_the_pages_that_changed_is_bundled_anew(tree: Tree) -> None:
+    tree.setup()
+    (tree.folder / "host_sim/web/page.ts").write_text("export const page = 1;\n")
+
+    assert tree.setup()[1] == ["esbuild", "ninja"]
+    assert tree.setup()[1] == ["ninja"]
 
 
 def test_the_stages_that_read_sources_only_need_no_compiler(tree: Tree) -> None:
@@ -198,7 +206,9 @@ def test_extra_libraries_stand_apart_and_are_installed_once(tree: Tree, name: st
 
 def test_a_cluster_is_for_studies(tree: Tree) -> None:
     tree.setup("cluster")
-    assert tree.installed()[1:] == ["requirements/study.lock", "requirements/cluster.lock"]
+    first, *both = tree.installed()
+    assert first == "requirements/run.lock"
+    assert sorted(both) == ["requirements/cluster.lock", "requirements/study.lock"]
 
 
 def test_exports_whose_installation_was_broken_off_are_installed_again(tree: Tree) -> None:

@@ -148,15 +148,28 @@ def test_each_stage_is_set_up_for_itself_alone(project):
 
 def test_a_stage_of_tools_prove_that_cannot_be_set_up_costs_no_other(project):
     project.program("tools/setup", '[[ " $* " != *" eva "* ]]')
-    for name in ("test_fuzz", "test_readers"):
-        (project.folder / f"tests/proof/{name}.py").parent.mkdir(exist_ok=True)
-        (project.folder / f"tests/proof/{name}.py").write_text(PASSES)
+    test = project.folder / "tests/proof/test_fuzz.py"
+    test.parent.mkdir(exist_ok=True)
+    test.write_text(PASSES)
 
     code, said = project.run("eva", "fuzz", tool="prove")
 
-    assert (code, last(said)) == (1, "2 passed, 1 failed")
+    assert (code, last(said)) == (1, "1 passed, 1 failed")
     assert re.search(r"^eva +not run", said, re.MULTILINE)
     assert project.run("eva", "fuzz", "--allow-missing=eva", tool="prove")[0] == 0
+
+
+def test_while_one_stage_of_tools_prove_takes_long_the_next_ones_run_beside_it(project):
+    ended = project.folder / "ended"
+    notes = f"import pathlib\ndef test_that_notes():\n    pathlib.Path({str(ended)!r}).touch()\n"
+    for folder, text in {"campaign": WAITS.format(note=str(ended)), "study": PASSES, "export": notes}.items():
+        path = project.folder / f"tests/lab/{folder}/test_it.py"
+        path.parent.mkdir(parents=True)
+        path.write_text(text)
+
+    code, said = project.run("campaign", "studies", "formats", tool="prove")
+
+    assert (code, last(said)) == (0, "3 passed, 0 failed")
 
 
 @pytest.mark.parametrize("path", stage_paths.named())

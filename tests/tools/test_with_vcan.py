@@ -12,7 +12,7 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
-from tests.tools.processes import alive, soon
+from tests.tools.project import alive, soon
 
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
 WITH_VCAN = TOOLS / "with-vcan"
@@ -87,7 +87,7 @@ def test_two_at_once_do_not_hear_each_other(tmp_path: Path) -> None:
         assert heard == {f"{name}#AA", f"{name}#BB"}
 
 
-def test_what_it_started_ends_with_it(tmp_path: Path) -> None:
+def test_with_vcan_ends_the_processes_that_it_started(tmp_path: Path) -> None:
     started = tmp_path / "started"
     process = subprocess.Popen([WITH_VCAN, "bash", "-c", f"touch '{started}'; sleep 1000"])
     assert soon(started.exists)
@@ -225,7 +225,7 @@ def test_a_kernel_that_fails_after_the_command_takes_nothing_from_its_exit_code(
     assert ("octet: the command had ended when User-Mode Linux stopped" in done.stderr) == inside
 
 
-def test_nothing_counts_that_a_damaged_kernel_did(tmp_path: Path, way: str) -> None:
+def test_result_of_a_damaged_kernel_does_not_count(tmp_path: Path, way: str) -> None:
     broken = changed(tmp_path, "  wait %1 %2\n", "  wait %1 %2\n  echo '<1>BUG: canary' >/dev/kmsg\n")
 
     done = subprocess.run([broken, "true"], capture_output=True, text=True, check=False)
@@ -275,3 +275,9 @@ def descendants(pid: int) -> list[int]:
     except FileNotFoundError:
         return []  # it has ended meanwhile
     return children + [pid for child in children for pid in descendants(child)]
+
+
+def test_the_quick_way_is_the_way_unless_that_starts_another_kernel(way: str) -> None:
+    quick = subprocess.check_output([WITH_VCAN, "--quick-way"], text=True).strip()
+
+    assert quick == (way if way in ("present", "namespace") else "")

@@ -12,8 +12,7 @@ import pytest
 from host_sim.base.errors import LinkDownError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.bus_link import BusLink
-from host_sim.transport.clock import VirtualClock, WallClock
-from host_sim.transport.link import LineStats
+from host_sim.transport.link import LineStats, VirtualClock, WallClock
 from host_sim.transport.socket_pair_bus import SocketPairBus
 
 _LATE_S = 30.0
@@ -50,7 +49,7 @@ def ends() -> Iterator[tuple[BusLink, BusLink]]:
         link.close()
 
 
-def test_what_is_sent_at_one_end_comes_out_of_the_other(ends):
+def test_frame_sent_at_one_end_arrives_at_the_other(ends):
     ends[0].send(Frame(0x41, b"\1\2"))
 
     assert ends[1].receive(1.0) == Frame(0x41, b"\1\2")
@@ -61,7 +60,7 @@ def returned(frame: Frame, **how: bool) -> can.Message:
     return can.Message(arbitration_id=frame.id, data=frame.data, is_extended_id=False, **how)
 
 
-def test_a_frame_that_the_adapter_marks_as_its_own_is_skipped():
+def test_frame_marked_as_own_by_the_adapter_is_skipped():
     link = BusLink(Bus(returned(FRAME, is_rx=False), returned(FRAME)))
 
     assert link.receive(1.0) == FRAME
@@ -69,7 +68,7 @@ def test_a_frame_that_the_adapter_marks_as_its_own_is_skipped():
         link.receive(1.0)
 
 
-def test_on_socketcan_another_program_of_this_host_is_heard():
+def test_socketcan_link_receives_other_programs_of_this_host():
     """The kernel flags all that any program of this host sends, and python-can then says that it was not received."""
     link = BusLink(Bus(returned(FRAME, is_rx=False)), is_socket=True)
     link._heard = lambda _: returned(FRAME, is_rx=False)
@@ -77,7 +76,7 @@ def test_on_socketcan_another_program_of_this_host_is_heard():
     assert link.receive(1.0) == FRAME
 
 
-def test_a_copy_of_what_was_sent_is_skipped_where_adapters_return_it_unmarked():
+def test_unmarked_echo_is_skipped_if_the_adapter_echoes():
     other = FRAME._replace(data=b"others")
     does = (None, returned(FRAME), returned(other), returned(FRAME))
     careful, trusting = BusLink(Bus(*does), echoes=True), BusLink(Bus(*does))
@@ -89,7 +88,7 @@ def test_a_copy_of_what_was_sent_is_skipped_where_adapters_return_it_unmarked():
     assert trusting.receive(1.0) == FRAME
 
 
-def test_a_wait_is_no_longer_when_the_wall_clock_is_set_back_meanwhile(ends, monkeypatch):
+def test_receive_timeout_ignores_a_wall_clock_set_back(ends, monkeypatch):
     readings = iter([7200.0])
     monkeypatch.setattr("can.bus.time", lambda: next(readings, 3600.0))
     late = Timer(_LATE_S, ends[0].send, [Frame(0x41, b"")])
@@ -101,7 +100,7 @@ def test_a_wait_is_no_longer_when_the_wall_clock_is_set_back_meanwhile(ends, mon
     assert frame is None
 
 
-def test_a_far_end_that_is_closed_is_a_line_that_is_gone(ends):
+def test_closed_far_end_raises_link_down(ends):
     ends[0].close()
 
     with pytest.raises(LinkDownError, match="cannot hear the robot"):
@@ -110,7 +109,7 @@ def test_a_far_end_that_is_closed_is_a_line_that_is_gone(ends):
         ends[1].send(FRAME)
 
 
-def test_a_socket_that_woke_up_for_nothing_is_waited_for_again(ends, monkeypatch):
+def test_receive_continues_after_a_spurious_wakeup(ends, monkeypatch):
     nothing, receive = [None], ends[1]._bus.recv
     monkeypatch.setattr(ends[1]._bus, "recv", lambda timeout: nothing.pop() if nothing else receive(timeout))
     ends[0].send(FRAME)
@@ -119,7 +118,7 @@ def test_a_socket_that_woke_up_for_nothing_is_waited_for_again(ends, monkeypatch
     assert nothing == []
 
 
-def test_the_descriptor_of_the_socket_is_lent(ends):
+def test_fileno_is_that_of_the_socket(ends):
     assert ends[0].fileno() == ends[0]._bus.fileno()
 
 
@@ -127,7 +126,7 @@ def test_the_descriptor_of_the_socket_is_lent(ends):
     "error",
     [can.CanOperationError("full", errno.ENOBUFS), OSError(errno.ENOBUFS, "x"), can.CanOperationError("full")],
 )
-def test_a_frame_for_which_there_is_no_room_is_counted(error):
+def test_frame_without_room_is_counted(error):
     stats = LineStats()
 
     BusLink(Bus(error), stats).send(FRAME)
@@ -136,7 +135,7 @@ def test_a_frame_for_which_there_is_no_room_is_counted(error):
 
 
 @pytest.mark.parametrize("error", [can.CanOperationError("gone", errno.ENODEV), OSError(errno.ENETDOWN, "down")])
-def test_a_line_that_is_gone_is_an_error(error):
+def test_bus_error_raises_link_down(error):
     link = BusLink(Bus(error, error))
 
     with pytest.raises(LinkDownError, match="cannot send"):
@@ -156,7 +155,7 @@ def test_a_line_that_is_gone_is_an_error(error):
         IndexError("noise"),
     ],
 )
-def test_what_is_no_frame_of_ours_has_no_identifier(heard):
+def test_unusable_frame_has_no_identifier(heard):
     assert BusLink(Bus(heard)).receive(0.0) == Frame(-1, b"")
 
 
@@ -171,7 +170,7 @@ class Line:
         return self.frames.pop() if self.frames else None
 
 
-def test_the_wall_clock_waits_for_the_link_and_never_goes_back():
+def test_wall_clock_waits_for_the_link_and_never_goes_back():
     clock, line = WallClock(), Line(FRAME)
 
     before = clock.now()
@@ -181,7 +180,7 @@ def test_the_wall_clock_waits_for_the_link_and_never_goes_back():
     assert before <= clock.now() <= time.monotonic()
 
 
-def test_waiting_in_virtual_time_takes_none_and_a_frame_its_time_on_the_bus():
+def test_virtual_clock_advances_by_frame_time_or_timeout():
     clock, line = VirtualClock(), Line(FRAME)
 
     assert clock.receive(line, 1.5) == FRAME

@@ -23,31 +23,31 @@ def opened(monkeypatch) -> list[dict]:
     return calls
 
 
-def test_an_adapter_is_set_up_with_the_bit_rate(opened):
+def test_adapter_is_opened_with_the_bit_rate(opened):
     open_bus("pcan:PCAN_USBBUS1", bitrate=125_000)
 
     assert opened[0]["bitrate"] == 125_000
 
 
-def test_the_kernel_has_set_the_bit_rate_of_its_own_interfaces(opened):
+def test_socketcan_is_opened_without_a_bit_rate(opened):
     open_bus("socketcan:can0", bitrate=125_000)
 
     assert "bitrate" not in opened[0]
 
 
-def test_an_adapter_of_python_can_for_slcan_is_not_waited_for(opened):
+def test_python_can_slcan_is_opened_without_a_pause(opened):
     open_bus("slcan:/dev/ttyACM0")
 
     assert opened[0]["sleep_after_open"] == 0.0
 
 
 @pytest.mark.parametrize("bus", ["", "vcan0", "socketcan:", ":vcan0"])
-def test_what_is_no_name_of_a_bus_is_said_with_one_that_is(bus):
+def test_malformed_bus_name_is_answered_with_an_example(bus):
     with pytest.raises(UsageError, match="socketcan:vcan0, not"):
         open_bus(bus)
 
 
-def test_options_of_an_interface_follow_a_question_mark(opened):
+def test_interface_options_follow_a_question_mark(opened):
     open_bus("socketcand:can0?host=10.0.0.7&port=29536&tcp_tune=true")
 
     assert opened[0]["interface"], opened[0]["channel"] == ("socketcand", "can0")
@@ -71,7 +71,7 @@ def test_options_of_an_interface_follow_a_question_mark(opened):
         ("nosuch:0", "name an interface that python-can has"),
     ],
 )
-def test_what_an_interface_of_python_can_lacks_is_said(bus, told):
+def test_missing_requirement_of_an_interface_is_reported(bus, told):
     for _ in range(2):  # what python-can logs once, when it is loaded, is not needed
         with pytest.raises(UsageError, match=f"^cannot open the bus {bus}: [^\n]*({told})"):
             open_bus(bus)
@@ -85,7 +85,7 @@ def test_what_an_interface_of_python_can_lacks_is_said(bus, told):
         (TypeError("2 required arguments are missing"), "2 required"),  # an interface that wants more than a channel
     ],
 )
-def test_a_bus_that_cannot_be_opened_is_named_in_one_line(monkeypatch, error, told):
+def test_unopenable_bus_is_reported_in_one_line(monkeypatch, error, told):
     def fail(**_: object) -> None:
         raise error
 
@@ -107,7 +107,7 @@ class Bus:
 
 
 @pytest.mark.parametrize("error", [can.CanOperationError("Network is down", 100), OSError(100, "Network is down")])
-def test_a_bus_that_is_down_is_told_from_one_that_is_not_there(monkeypatch, error):
+def test_bus_that_is_down_raises_link_down(monkeypatch, error):
     def down(**_: object) -> None:
         raise error
 
@@ -117,13 +117,13 @@ def test_a_bus_that_is_down_is_told_from_one_that_is_not_there(monkeypatch, erro
         open_bus("socketcan:can0")
 
 
-def test_what_comes_before_the_filters_are_set_is_forgotten(monkeypatch):
+def test_frames_before_the_filters_are_set_are_discarded(monkeypatch):
     monkeypatch.setattr(can, "Bus", lambda **_: Bus(frames=3))
 
     assert open_bus("socketcan:can0", [0x41]).recv(0.0) is None
 
 
-def test_a_bus_that_goes_down_while_it_is_opened_is_shut_down(monkeypatch):
+def test_bus_that_goes_down_during_open_is_shut_down(monkeypatch):
     class GoingBus(Bus):
         def recv(self, _timeout: float) -> None:
             raise can.CanOperationError("network is down")
@@ -150,14 +150,14 @@ class FailingBus(Bus):
         raise self.error
 
 
-def test_a_frame_is_received_and_silence_is_none():
+def test_receive_returns_a_frame_or_none():
     bus = Bus(frames=1)
 
     assert receive(bus, 0.0) is not None
     assert receive(bus, 0.0) is None
 
 
-def test_text_that_is_no_frame_counts_as_an_error_frame():
+def test_malformed_text_counts_as_an_error_frame():
     message = receive(FailingBus(ValueError("not hexadecimal")), 0.0)
 
     assert message is not None
@@ -165,24 +165,24 @@ def test_text_that_is_no_frame_counts_as_an_error_frame():
 
 
 @pytest.mark.parametrize("error", [can.CanOperationError("network is down"), OSError("no such device")])
-def test_a_bus_that_is_gone_is_said_in_one_line(error):
+def test_failed_receive_is_reported_in_one_line(error):
     with pytest.raises(OctetError, match=f"^the bus is gone: {error}$"):
         receive(FailingBus(error), 0.0)
 
 
-def test_without_filters_nothing_is_forgotten(monkeypatch):
+def test_frames_are_kept_without_filters(monkeypatch):
     monkeypatch.setattr(can, "Bus", lambda **_: Bus(frames=3))
 
     assert open_bus("socketcan:can0").recv(0.0) is not None
 
 
-def test_a_bus_that_never_falls_silent_is_opened_all_the_same(monkeypatch):
+def test_continuously_busy_bus_is_opened(monkeypatch):
     monkeypatch.setattr(can, "Bus", lambda **_: Bus(frames=10**9))
 
     assert open_bus("socketcan:can0", [0x41]).recv(0.0) is not None
 
 
-def test_only_socketcan_is_a_socket_of_whole_frames(monkeypatch):
+def test_only_socketcan_has_a_frame_socket(monkeypatch):
     monkeypatch.setattr(can, "Bus", lambda **_: Bus(frames=0))
 
     on_the_kernel, on_an_adapter = (open_bus_link(bus, [], LineStats()) for bus in ("socketcan:can0", "pcan:X"))
@@ -191,7 +191,7 @@ def test_only_socketcan_is_a_socket_of_whole_frames(monkeypatch):
     assert on_an_adapter.frame_socket() is None
 
 
-def test_a_frame_that_is_put_back_is_received_again_before_the_socket_is_lent(monkeypatch):
+def test_put_back_frame_is_received_before_the_socket_is_lent(monkeypatch):
     monkeypatch.setattr(can, "Bus", lambda **_: Bus(frames=0))
     link = open_bus_link("socketcan:can0", [], LineStats())
 
@@ -205,7 +205,7 @@ def test_a_frame_that_is_put_back_is_received_again_before_the_socket_is_lent(mo
 @pytest.mark.parametrize(
     ("number", "hint"), [(errno.EAFNOSUPPORT, "tools/with-vcan COMMAND"), (errno.ENODEV, "`ip link` lists")]
 )
-def test_what_to_do_is_said_where_it_is_known(monkeypatch, number, hint):
+def test_bus_error_names_its_remedy_where_known(monkeypatch, number, hint):
     def fail(**_: object) -> None:
         raise OSError(number, "so it is")
 
@@ -222,7 +222,7 @@ while frame := bus.recv(16):
     bus.send(frame)"""
 
 
-def test_a_program_finds_its_socket_in_its_environment():
+def test_program_gets_its_socket_through_the_environment():
     link, process = start_on_socket_pair(f'{sys.executable} -c "{ECHO}"', {})
     with closing(link), closing(process):
         link.send(Frame(0x123, b"abc"))
@@ -231,7 +231,7 @@ def test_a_program_finds_its_socket_in_its_environment():
         assert process.status() == "is running"
 
 
-def test_a_program_is_told_more_and_where_another_bus_is(tmp_path):
+def test_program_gets_bus_and_extra_variables_in_its_environment(tmp_path):
     told = tmp_path / "told"
     process = BusProcess(f"sh -c 'env > {told}'", "socketcan:vcan9", {"OCTET_NODE": "3"})
     with closing(process), pytest.raises(LinkDownError):
@@ -240,19 +240,19 @@ def test_a_program_is_told_more_and_where_another_bus_is(tmp_path):
     assert {"CAN_INTERFACE=socketcan", "CAN_CHANNEL=vcan9", "OCTET_NODE=3"} <= set(told.read_text().split("\n"))
 
 
-def test_a_link_tells_how_its_program_ended():
+def test_link_reports_exit_code_and_output_of_its_program():
     link, process = start_on_socket_pair("sh -c 'echo no brakes; exit 3'", {})
     with closing(link), closing(process), pytest.raises(LinkDownError, match=r"ended with exit code 3 .* no brakes"):
         link.receive(10.0)
 
 
-def test_a_program_that_was_killed_printed_nothing():
+def test_link_reports_the_signal_that_killed_its_program():
     link, process = start_on_socket_pair("sh -c 'kill -9 $$'", {})
     with closing(link), closing(process), pytest.raises(LinkDownError, match="by signal 9 and printed nothing"):
         link.receive(10.0)
 
 
-def test_what_a_program_has_started_ends_with_it(tmp_path):
+def test_children_of_a_program_end_with_it(tmp_path):
     ready = tmp_path / "ready"
     os.mkfifo(ready)
     link, process = start_on_socket_pair(f"sh -c '(echo > {ready}; exec sleep 60) & wait'", {})
@@ -267,6 +267,6 @@ CANNOT = {"no-such": "No such file", " ": "it is empty", "'": "quotation"}
 
 
 @pytest.mark.parametrize(("command", "reason"), CANNOT.items())
-def test_what_cannot_be_started_is_told(command, reason):
+def test_unstartable_program_is_reported(command, reason):
     with pytest.raises(UsageError, match=reason):
         start_on_socket_pair(command, {})

@@ -9,8 +9,8 @@ import pytest
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.forgery import forgers
 from host_sim.protocol.generated import NOTHING_SENSED, Opcode
-from host_sim.transport.clock import VirtualClock
 from host_sim.transport.faulty_link import FaultyLink, Schedule
+from host_sim.transport.link import VirtualClock
 from host_sim.transport.rule import Rule
 
 PROTOCOL = Protocol()
@@ -69,31 +69,31 @@ class Flood(Mirror):
         return SENT[0]
 
 
-def test_a_timeout_ends_even_if_frames_that_are_lost_keep_coming():
+def test_receive_times_out_during_endless_lost_frames():
     link = FaultyLink(Flood(), Schedule([Rule.parse("drop:100%/from")], 1, forgers(PROTOCOL)))
 
     assert link.receive(0.001) is None
 
 
-def test_without_a_rule_every_frame_passes_as_it_was():
+def test_frames_pass_unchanged_without_a_rule():
     journey = Journey()
 
     assert (journey.heard, journey.back) == (SENT, SENT)
 
 
-def test_drop_loses_the_frames_that_it_names():
+def test_drop_loses_the_named_frames():
     journey = Journey("drop@3-5/to")
 
     assert journey.heard == SENT[:2] + SENT[5:]
 
 
-def test_a_chance_hits_some_frames_and_both_ways():
+def test_drop_by_chance_hits_both_directions():
     journey = Journey("drop:30%")
 
     assert len(SENT) > len(journey.heard) > len(journey.back) > 0
 
 
-def test_duplicate_lets_a_frame_arrive_again():
+def test_duplicate_repeats_a_frame():
     journey = Journey("duplicate:2@4/to")
 
     assert journey.heard == SENT[:3] + [SENT[3]] * 3 + SENT[4:]
@@ -105,7 +105,7 @@ def test_reorder_lets_later_frames_pass():
     assert journey.heard == [*SENT[:3], SENT[4], SENT[5], SENT[3], *SENT[6:]]
 
 
-def test_a_frame_that_nobody_overtakes_arrives_all_the_same():
+def test_reordered_last_frame_still_arrives():
     journey = Journey("reorder:5@20/to")
 
     assert journey.heard == SENT
@@ -118,7 +118,7 @@ def test_delay_makes_a_frame_late():
     assert late.times[-1] - prompt.times[-1] == pytest.approx(0.05, abs=0.001)
 
 
-def test_a_delay_within_bounds_varies_and_keeps_to_them():
+def test_delay_range_changes_the_order_and_loses_no_frame():
     journey = Journey("delay:5-300ms/to")
 
     assert sorted(journey.heard) == SENT
@@ -138,7 +138,7 @@ def test_truncate_cuts_a_frame_short():
     assert journey.heard[3] == Frame(0x123, SENT[3].data[:3])
 
 
-def test_flood_lets_others_talk():
+def test_flood_adds_foreign_frames():
     journey = Journey("flood:50@4/to")
 
     foreign = [frame for frame in journey.heard if frame not in SENT]
@@ -147,7 +147,7 @@ def test_flood_lets_others_talk():
     assert {len(frame.data) for frame in foreign} == set(range(9))
 
 
-def test_forge_sends_a_command_in_our_name():
+def test_forge_sends_a_command_in_the_name_of_the_client():
     journey = Journey("forge:stop@4/to")
 
     (forged,) = set(journey.heard) - set(SENT)
@@ -176,14 +176,14 @@ EVERYTHING = (
 )
 
 
-def test_the_same_seed_makes_the_same_faults():
+def test_same_seed_injects_the_same_faults():
     first, again, other = Journey(*EVERYTHING), Journey(*EVERYTHING), Journey(*EVERYTHING, seed=2)
 
     assert (first.heard, first.back, first.times) == (again.heard, again.back, again.times)
     assert first.heard != other.heard
 
 
-def test_recorded_faults_happen_again():
+def test_recorded_faults_can_be_replayed():
     first = Journey(*EVERYTHING)
 
     again = Journey(*(Rule.parse(str(rule)) for rule in first.link.schedule.struck))
@@ -192,7 +192,7 @@ def test_recorded_faults_happen_again():
     assert first.link.schedule.count == again.link.schedule.count > 20
 
 
-def test_a_fault_takes_a_few_bytes_to_record():
+def test_recorded_fault_takes_under_50_bytes():
     schedule = Schedule([Rule.parse("drop:50%"), Rule.parse("duplicate:50%")], 1, forgers(PROTOCOL))
     tracemalloc.start()
 
@@ -205,7 +205,7 @@ def test_a_fault_takes_a_few_bytes_to_record():
     assert size < 50 * schedule.count
 
 
-def test_of_very_many_faults_the_first_are_recorded_and_all_are_counted(monkeypatch):
+def test_fault_record_is_limited_and_the_count_is_not(monkeypatch):
     monkeypatch.setattr("host_sim.transport.faulty_link.RECORD_MAX", 5)
 
     link = Journey("drop:60%").link
@@ -213,20 +213,20 @@ def test_of_very_many_faults_the_first_are_recorded_and_all_are_counted(monkeypa
     assert len(link.schedule.struck) == 5 < link.schedule.count
 
 
-def test_a_fault_hits_a_frame_whatever_happened_to_the_others():
+def test_fault_hits_its_frame_whatever_other_rules_do():
     alone, among_others = Journey("corrupt@9/to"), Journey("drop@2/to", "corrupt@9/to")
 
     assert alone.heard[8:] == among_others.heard[7:]
 
 
-def test_a_babbling_node_talks_first_and_the_frame_waits():
+def test_babble_inserts_frames_before_the_frame():
     journey = Journey(Rule.parse("babble:3@1/to"))
 
     assert len(journey.heard) == len(SENT) + 3
     assert [frame for frame in journey.heard if frame in SENT] != []
 
 
-def test_a_link_that_is_closed_closes_what_it_stands_on():
+def test_close_closes_the_underlying_link():
     mirror = Mirror()
     mirror.waiting.append(SENT[0])
 

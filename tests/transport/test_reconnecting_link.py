@@ -51,7 +51,7 @@ def reconnecting(line: Line, stats: LineStats | None = None, patience_s: float =
     return ReconnectingLink("the bus x", line.open, stats or LineStats(), patience_s)
 
 
-def test_frames_pass_over_a_line_that_is_there(line):
+def test_frames_pass_over_a_working_line(line):
     link = reconnecting(line)
     line.waiting.append(FRAME)
 
@@ -61,7 +61,7 @@ def test_frames_pass_over_a_line_that_is_there(line):
     assert link.receive(0.0) == FRAME
 
 
-def test_what_is_sent_while_the_line_is_gone_is_counted(line):
+def test_frames_sent_during_an_outage_are_counted(line):
     stats = LineStats()
     link = reconnecting(line, stats)
     line.is_there = False
@@ -72,7 +72,7 @@ def test_what_is_sent_while_the_line_is_gone_is_counted(line):
     assert (stats.unsent, stats.outages, stats.reason) == (2, 1, "no such device")
 
 
-def test_a_line_that_is_back_is_opened_again(line):
+def test_returned_line_is_reopened(line):
     link = reconnecting(line)
     line.is_there = False
     link.send(FRAME)
@@ -87,7 +87,7 @@ def test_a_line_that_is_back_is_opened_again(line):
     assert link.receive(0.0) == FRAME
 
 
-def test_a_line_that_is_down_at_the_start_is_waited_for(line):
+def test_line_that_is_down_at_the_start_is_retried(line):
     ups = iter([False, False, True])
 
     def open_link() -> Line:
@@ -107,7 +107,7 @@ def test_a_line_that_is_down_at_the_start_is_waited_for(line):
     assert (stats.outages, stats.unsent, line.opened) == (1, 1, 1)
 
 
-def test_a_line_that_stays_away_is_given_up(line):
+def test_lasting_outage_raises_an_error(line):
     link = reconnecting(line, patience_s=0.3)
     line.is_there = False
 
@@ -115,7 +115,7 @@ def test_a_line_that_stays_away_is_given_up(line):
         link.receive(0.0)
 
 
-def test_a_line_that_comes_and_goes_counts_each_time(line):
+def test_repeated_outages_are_counted_separately(line):
     stats = LineStats()
     link = reconnecting(line, stats)
 
@@ -130,7 +130,7 @@ def test_a_line_that_comes_and_goes_counts_each_time(line):
     assert len(line.sent) == 3
 
 
-def test_a_line_that_can_be_opened_and_does_not_work_is_still_the_same_outage(line):
+def test_reopened_line_that_fails_continues_the_same_outage(line):
     stats = LineStats()
     link = reconnecting(line, stats)
     line.is_there = False
@@ -144,7 +144,7 @@ def test_a_line_that_can_be_opened_and_does_not_work_is_still_the_same_outage(li
     assert (stats.outages, stats.unsent) == (1, 2)
 
 
-def test_a_line_that_is_open_and_was_not_tried_yet_is_not_opened_again(line):
+def test_reopened_line_is_not_opened_again_before_a_send(line):
     link = reconnecting(line)
     line.is_there = False
     link.send(FRAME)
@@ -154,7 +154,7 @@ def test_a_line_that_is_open_and_was_not_tried_yet_is_not_opened_again(line):
     assert line.opened == 2
 
 
-def test_a_line_that_is_back_is_not_given_up_because_nothing_was_sent_for_long(line):
+def test_returned_line_outlives_the_patience_without_a_send(line):
     link = reconnecting(line, patience_s=0.2)
     line.is_there = False
     link.send(FRAME)
@@ -167,7 +167,7 @@ def test_a_line_that_is_back_is_not_given_up_because_nothing_was_sent_for_long(l
     assert line.sent == [FRAME]
 
 
-def test_a_line_that_is_gone_can_be_closed(line):
+def test_closed_link_can_be_closed_again_and_sends_nothing(line):
     link = reconnecting(line)
 
     link.close()
@@ -188,7 +188,7 @@ class SocketLine(Line):
         return self
 
 
-def test_a_line_has_a_socket_while_it_is_there(line):
+def test_link_has_a_frame_socket_only_while_the_line_works(line):
     with_socket = SocketLine()
     link = reconnecting(with_socket)
     assert link.frame_socket() is with_socket

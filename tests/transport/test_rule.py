@@ -5,8 +5,7 @@ import pytest
 from host_sim.base.errors import UsageError
 from host_sim.protocol.codec import Protocol
 from host_sim.protocol.forgery import forgers
-from host_sim.transport.bus_faults import FAULTS
-from host_sim.transport.faulty_link import Schedule
+from host_sim.transport.faulty_link import FAULTS, Schedule
 from host_sim.transport.rule import Event, Rule, fewer, in_ranges, narrower, read_rules
 
 TEXTS = [
@@ -26,12 +25,12 @@ TEXTS = [
 
 
 @pytest.mark.parametrize("text", TEXTS)
-def test_a_rule_is_written_as_it_was_read(text):
+def test_rule_is_formatted_as_it_was_parsed(text):
     assert str(Rule.parse(text)) == text
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_each_fault_has_a_default_size(name):
+def test_every_fault_has_a_default_size(name):
     Schedule([Rule.parse(name)], 1, forgers(Protocol()))
 
 
@@ -57,21 +56,21 @@ def test_each_fault_has_a_default_size(name):
         "meteor",
     ],
 )
-def test_what_is_no_fault_is_refused_in_one_line(text):
+def test_malformed_fault_rule_is_refused_in_one_line(text):
     with pytest.raises(UsageError) as refused:
         Schedule([Rule.parse(text)], 1, forgers(Protocol()))
 
     assert "\n" not in str(refused.value)
 
 
-def test_frames_are_counted_from_one_and_up_to_the_last():
+def test_rule_range_counts_from_one_and_includes_its_last_frame():
     rule = Rule.parse("drop@2-3/to")
 
     assert [rule.covers(number, "to") for number in range(1, 5)] == [False, True, True, False]
     assert not rule.covers(2, "from")
 
 
-def test_rules_come_from_the_word_itself_or_from_a_file(tmp_path):
+def test_rules_are_read_from_text_or_a_file(tmp_path):
     file = tmp_path / "faults.txt"
     file.write_text("# both ways\ndrop:30%\n\nforge:stop@17/to\n")
 
@@ -79,7 +78,7 @@ def test_rules_come_from_the_word_itself_or_from_a_file(tmp_path):
     assert read_rules(f"@{file}") == ["drop:30%", "forge:stop@17/to"]
 
 
-def test_a_file_of_rules_that_cannot_be_read_is_told(tmp_path):
+def test_unreadable_rules_file_is_reported(tmp_path):
     (tmp_path / "binary").write_bytes(b"\xff\xfe")
 
     with pytest.raises(UsageError, match="cannot read"):
@@ -89,7 +88,7 @@ def test_a_file_of_rules_that_cannot_be_read_is_told(tmp_path):
 
 
 @pytest.mark.parametrize("word", ["dorp", "d" * 100_000, "!" * 100_000])
-def test_what_is_no_fault_in_a_file_is_told_with_its_line_and_briefly(tmp_path, word):
+def test_malformed_fault_in_a_file_is_reported_with_its_line(tmp_path, word):
     (tmp_path / "faults.txt").write_text(f"drop\n{word}\n")
 
     with pytest.raises(UsageError, match=r"^\S+faults\.txt:2: .{10,400}$"):
@@ -97,17 +96,17 @@ def test_what_is_no_fault_in_a_file_is_told_with_its_line_and_briefly(tmp_path, 
 
 
 @pytest.mark.parametrize("text", ["hang:300@150", "reset@150"])
-def test_an_event_is_written_as_it_was_read(text):
+def test_event_is_formatted_as_it_was_parsed(text):
     assert str(Event.parse(text)) == text
 
 
 @pytest.mark.parametrize("text", ["", "hang", "hang@", "hang:@5", "Hang@5", "hang:300@150s"])
-def test_what_is_no_event_is_refused(text):
+def test_malformed_event_is_refused(text):
     with pytest.raises(UsageError, match="is not an event"):
         Event.parse(text)
 
 
-def test_what_is_not_needed_is_left_out():
+def test_fewer_leaves_out_unneeded_items():
     needed = {3, 11}
 
     *_, (items, result) = fewer(list(range(16)), lambda some: sum(some) if needed <= set(some) else None)
@@ -115,21 +114,21 @@ def test_what_is_not_needed_is_left_out():
     assert (items, result) == ([3, 11], 14)
 
 
-def test_what_is_needed_whole_stays():
+def test_fewer_finds_no_smaller_set_if_all_are_needed():
     assert list(fewer([1, 2], lambda _: None)) == []
 
 
-def test_strikes_at_frame_after_frame_are_one_rule():
+def test_consecutive_faults_are_merged_into_one_rule():
     strikes = [Rule.parse(text) for text in ("drop@5/to", "drop@3/to", "drop@4/to", "drop@4/from", "corrupt:2@9/to")]
 
     assert list(map(str, in_ranges(strikes))) == ["corrupt:2@9/to", "drop@4/from", "drop@3-5/to"]
 
 
-def test_a_rule_is_narrowed_from_both_ends():
+def test_rule_range_is_narrowed_from_both_ends():
     found = narrower(Rule.parse("drop@20-500/to"), lambda rule: rule.first <= 37 and rule.last >= 41)
 
     assert str(found) == "drop@37-41/to"
 
 
-def test_a_rule_for_one_frame_stays():
+def test_rule_for_a_single_frame_is_not_narrowed():
     assert str(narrower(Rule.parse("drop@20/to"), lambda _: True)) == "drop@20/to"

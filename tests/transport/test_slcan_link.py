@@ -26,7 +26,7 @@ def ends() -> Iterator[tuple[SlcanLink, socket.socket]]:
     far.close()
 
 
-def test_a_frame_may_come_in_pieces(ends):
+def test_frame_received_in_pieces_is_decoded(ends):
     link, far = ends
     text = encode(FRAME)
 
@@ -37,7 +37,7 @@ def test_a_frame_may_come_in_pieces(ends):
     assert link.receive(0.5) == FRAME
 
 
-def test_what_an_adapter_acknowledges_is_no_frame(ends):
+def test_adapter_acknowledgements_are_skipped(ends):
     link, far = ends
 
     far.send(b"\r\rz\rZ\r\a" + encode(FRAME))
@@ -47,7 +47,7 @@ def test_what_an_adapter_acknowledges_is_no_frame(ends):
 
 @pytest.mark.parametrize("stamp", [b"", b"7A3F", b"0012D687"])
 @pytest.mark.parametrize("end", [b"\r", b"\r\n", b"\n"])
-def test_lines_may_end_in_any_way_and_have_time_stamps(ends, stamp, end):
+def test_any_line_end_and_timestamp_is_accepted(ends, stamp, end):
     link, far = ends
 
     far.send((encode(FRAME)[:-1] + stamp + end) * 2)
@@ -55,7 +55,7 @@ def test_lines_may_end_in_any_way_and_have_time_stamps(ends, stamp, end):
     assert [link.receive(0.5), link.receive(0.5), link.receive(0.0)] == [FRAME, FRAME, None]
 
 
-def test_frames_that_the_adapter_returns_to_their_sender_are_skipped(ends):
+def test_echoed_frames_are_skipped(ends):
     link, far = ends
     other = Frame(0x321, b"")
 
@@ -65,7 +65,7 @@ def test_frames_that_the_adapter_returns_to_their_sender_are_skipped(ends):
     assert [link.receive(0.5), link.receive(0.5)] == [other, FRAME._replace(data=b"others")]
 
 
-def test_an_adapter_is_opened_again_until_a_frame_comes(monkeypatch):
+def test_opening_commands_repeat_until_a_frame_arrives(monkeypatch):
     near, far = socket.socketpair()
     monkeypatch.setattr(slcan_link, "_REOPEN_S", 0.05)
     link = SlcanLink(near, opening=b"C\rS6\rO\r")
@@ -85,7 +85,7 @@ def test_an_adapter_is_opened_again_until_a_frame_comes(monkeypatch):
     far.close()
 
 
-def test_what_came_is_counted_for_whoever_asks_why_there_was_no_answer():
+def test_line_stats_count_frames_errors_and_garbled_lines():
     near, far = socket.socketpair()
     stats = LineStats()
     link = SlcanLink(near, stats)
@@ -101,7 +101,7 @@ def test_what_came_is_counted_for_whoever_asks_why_there_was_no_answer():
 
 
 @pytest.mark.parametrize("noise", [b"\xff\xfe\r", b"t12\r", b"t1239\r", b"t1233010\r", b"T00000123301\r", b"tXYZ0\r"])
-def test_a_line_that_is_no_frame_costs_no_other(ends, noise):
+def test_malformed_line_does_not_lose_the_next_frame(ends, noise):
     link, far = ends
 
     far.send(noise + encode(FRAME))
@@ -109,7 +109,7 @@ def test_a_line_that_is_no_frame_costs_no_other(ends, noise):
     assert [link.receive(0.5), link.receive(0.5)] == [NO_FRAME, FRAME]
 
 
-def test_only_what_is_no_frame_at_all_is_noise():
+def test_extended_and_remote_frames_are_not_garbled():
     near, far = socket.socketpair()
     stats = LineStats()
     link = SlcanLink(near, stats)
@@ -123,7 +123,7 @@ def test_only_what_is_no_frame_at_all_is_noise():
     far.close()
 
 
-def test_on_a_noisy_line_each_frame_is_sent_several_times():
+def test_noisy_line_gets_repeated_copies_of_a_frame():
     near, far = socket.socketpair()
     stats = LineStats()
     link = SlcanLink(near, stats)
@@ -148,7 +148,7 @@ def test_frames_with_other_identifiers_are_skipped():
     far.close()
 
 
-def test_any_bytes_are_survived(ends):
+def test_random_bytes_do_not_stop_the_link(ends):
     link, far = ends
     far.setblocking(False)
     dice = Random(1)
@@ -163,7 +163,7 @@ def test_any_bytes_are_survived(ends):
     assert FRAME in heard
 
 
-def test_a_stream_of_noise_does_not_hold_up_who_waits(ends):
+def test_receive_times_out_during_a_stream_of_noise(ends):
     link, far = ends
     far.setblocking(False)
     far.send(b"x" * 60_000)
@@ -171,7 +171,7 @@ def test_a_stream_of_noise_does_not_hold_up_who_waits(ends):
     assert link.receive(0.05) is None
 
 
-def test_an_end_that_is_closed_is_an_error(ends):
+def test_closed_far_end_raises_link_down(ends):
     link, far = ends
     far.close()
 
@@ -179,7 +179,7 @@ def test_an_end_that_is_closed_is_an_error(ends):
         link.receive(0.5)
 
 
-def test_what_there_is_no_room_for_is_lost_and_not_waited_for():
+def test_frame_without_room_is_dropped_and_counted():
     read_end, write_end = os.pipe()
     os.set_blocking(write_end, False)
     with os.fdopen(read_end, "rb"), os.fdopen(write_end, "wb", buffering=0) as stream:
@@ -193,7 +193,7 @@ def test_what_there_is_no_room_for_is_lost_and_not_waited_for():
         assert stats.unsent == 1
 
 
-def test_a_line_that_fails_is_gone(ends, monkeypatch):
+def test_failing_line_raises_link_down(ends, monkeypatch):
     link, far = ends
     far.close()
 
@@ -205,7 +205,7 @@ def test_a_line_that_fails_is_gone(ends, monkeypatch):
         link.receive(0.5)
 
 
-def test_a_line_that_woke_up_for_nothing_is_waited_for_again(ends, monkeypatch):
+def test_receive_continues_after_a_spurious_wakeup(ends, monkeypatch):
     link, far = ends
     far.send(encode(FRAME))
     read, reads = os.read, iter([BlockingIOError()])
@@ -220,7 +220,7 @@ def test_a_line_that_woke_up_for_nothing_is_waited_for_again(ends, monkeypatch):
     assert link.receive(0.5) == FRAME
 
 
-def test_room_that_is_gone_when_it_is_written_to_is_waited_for_again(ends, monkeypatch):
+def test_send_retries_when_the_line_is_full_again(ends, monkeypatch):
     link, far = ends
     full, write = [BlockingIOError()], os.write
 
@@ -236,7 +236,7 @@ def test_room_that_is_gone_when_it_is_written_to_is_waited_for_again(ends, monke
     assert far.recv(100) == encode(FRAME)
 
 
-def test_a_link_closes_its_stream(ends):
+def test_close_closes_the_stream(ends):
     link, far = ends
 
     link.close()

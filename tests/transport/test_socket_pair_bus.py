@@ -1,4 +1,7 @@
-"""Back to back: what one end sends, the other receives, in python-can's manners."""
+"""Back to back: what one end sends, the other receives, in python-can's manners.
+
+A link over a socket pair: what one end sends, the other receives, and no wait is unbounded.
+"""
 
 import contextlib
 import select
@@ -12,6 +15,10 @@ from typing import NamedTuple
 import can
 import pytest
 
+from host_sim.base.errors import LinkDownError
+from host_sim.protocol.codec import Frame
+from host_sim.transport.link import LineStats
+from host_sim.transport.socket_pair import ERROR, EXTENDED, REMOTE, SocketPairLink
 from host_sim.transport.socket_pair_bus import SocketPairBus
 
 SOON_S = 2.0
@@ -54,7 +61,7 @@ MESSAGES = {
 
 
 @pytest.mark.parametrize("message", MESSAGES.values(), ids=MESSAGES)
-def test_a_message_arrives_as_it_was_both_ways(pair, message):
+def test_messages_arrive_unchanged_both_ways(pair, message):
     for sender, receiver in (pair, reversed(pair)):
         sender.send(message)
 
@@ -72,7 +79,7 @@ def test_messages_keep_their_order(pair):
     assert [pair.right.recv(SOON_S).arbitration_id for _ in range(100)] == list(range(100))
 
 
-def test_what_is_sent_does_not_come_back(pair):
+def test_link_does_not_receive_its_own_frames(pair):
     pair.left.send(MESSAGES["standard"])
 
     assert pair.left.recv(0.05) is None
@@ -87,7 +94,7 @@ def test_timestamps_are_the_time_of_day_and_rise(pair):
     assert before <= first.timestamp <= second.timestamp <= time.time()
 
 
-def test_only_what_the_filters_let_through_is_received(pair):
+def test_bus_receives_only_messages_that_pass_its_filters(pair):
     pair.right.set_filters([{"can_id": 0x100, "can_mask": 0x7F0, "extended": False}])
     for number in (0x0FF, 0x100, 0x10F, 0x110):
         pair.left.send(can.Message(arbitration_id=number, is_extended_id=False))
@@ -99,20 +106,20 @@ def test_only_what_the_filters_let_through_is_received(pair):
     assert pair.right.recv(0.05) is None
 
 
-def test_select_tells_when_there_is_something_to_receive(pair):
+def test_select_reports_a_readable_bus(pair):
     assert select.select([pair.right], [], [], 0)[0] == []
     pair.left.send(MESSAGES["standard"])
     assert select.select([pair.right], [], [], SOON_S)[0] == [pair.right]
 
 
-def test_a_wait_ends_after_its_time(pair):
+def test_recv_returns_none_after_its_timeout(pair):
     start = time.monotonic()
 
     assert pair.left.recv(0.1) is None
     assert 0.1 <= time.monotonic() - start < SOON_S
 
 
-def test_a_wait_without_a_limit_lasts_until_a_message_comes(pair):
+def test_recv_without_a_timeout_waits_for_a_message(pair):
     later = threading.Timer(0.2, pair.right.send, [MESSAGES["standard"]])
     later.start()
 
@@ -134,12 +141,12 @@ def test_threads_may_share_a_bus():
     right.shutdown()
 
 
-def test_a_bus_can_be_shut_down_twice(pair):
+def test_bus_can_be_shut_down_twice(pair):
     pair.left.shutdown()
     pair.left.shutdown()
 
 
-def test_a_bus_that_was_shut_down_neither_sends_nor_receives(pair):
+def test_bus_after_shutdown_neither_sends_nor_receives(pair):
     pair.left.shutdown()
 
     with pytest.raises(can.CanOperationError):
@@ -149,7 +156,7 @@ def test_a_bus_that_was_shut_down_neither_sends_nor_receives(pair):
 
 
 @pytest.mark.parametrize("channel", [None, "x", -1, 987_654])
-def test_a_channel_that_is_not_an_open_socket_is_refused(channel):
+def test_channel_without_an_open_socket_is_refused(channel):
     with pytest.raises(can.CanInitializationError, match=repr(channel)):
         SocketPairBus(channel)
 
@@ -168,7 +175,7 @@ def fill(bus: can.BusABC) -> None:
         pass
 
 
-def test_a_send_waits_its_time_for_room(raw):
+def test_send_to_a_full_bus_times_out(raw):
     bus, _ = raw
     fill(bus)
     start = time.monotonic()
@@ -179,7 +186,7 @@ def test_a_send_waits_its_time_for_room(raw):
     assert 0.1 <= time.monotonic() - start < SOON_S
 
 
-def test_a_send_without_a_limit_waits_until_there_is_room(raw):
+def test_send_without_a_timeout_waits_for_room(raw):
     bus, far = raw
     fill(bus)
     far.setblocking(False)
@@ -199,7 +206,7 @@ def test_a_send_without_a_limit_waits_until_there_is_room(raw):
 
 
 @pytest.mark.parametrize(("name", "nothing"), [("_try_send", False), ("_try_receive", None)])
-def test_a_wake_up_for_nothing_does_not_end_a_wait(raw, monkeypatch, name, nothing):
+def test_send_and_recv_continue_after_spurious_wakeups(raw, monkeypatch, name, nothing):
     bus, far = raw
     bus.send(MESSAGES["standard"])
     far.send(far.recv(16))
@@ -212,7 +219,7 @@ def test_a_wake_up_for_nothing_does_not_end_a_wait(raw, monkeypatch, name, nothi
     assert at_first == []
 
 
-def test_a_far_end_that_closes_while_a_send_waits_is_an_error_of_the_bus(raw):
+def test_far_end_closing_during_a_send_raises_a_bus_error(raw):
     bus, far = raw
     fill(bus)
     later = threading.Timer(0.2, far.close)
@@ -223,7 +230,7 @@ def test_a_far_end_that_closes_while_a_send_waits_is_an_error_of_the_bus(raw):
     later.join()
 
 
-def test_a_far_end_that_left_messages_unread_is_an_error_of_the_bus(raw):
+def test_far_end_closing_with_unread_messages_raises_a_bus_error(raw):
     bus, far = raw
     bus.send(MESSAGES["standard"])
     later = threading.Timer(0.2, far.close)
@@ -236,7 +243,7 @@ def test_a_far_end_that_left_messages_unread_is_an_error_of_the_bus(raw):
         bus.send(MESSAGES["standard"])
 
 
-def test_what_was_sent_before_the_far_end_closed_still_arrives(raw):
+def test_messages_sent_before_the_far_end_closed_still_arrive(raw):
     bus, far = raw
     far.send(frame(0x123))
     far.close()
@@ -256,7 +263,7 @@ JUNK |= {"a length of 9": frame(0x123, 9), "a length of 255": frame(0x123, 255)}
 
 @pytest.mark.parametrize("junk", JUNK.values(), ids=JUNK)
 @pytest.mark.parametrize("timeout", [0, SOON_S, None])
-def test_what_is_not_a_frame_is_counted_and_skipped(raw, junk, timeout):
+def test_malformed_packets_are_counted_and_skipped(raw, junk, timeout):
     bus, far = raw
     far.send(junk)
     far.send(junk)
@@ -265,3 +272,85 @@ def test_what_is_not_a_frame_is_counted_and_skipped(raw, junk, timeout):
     assert bus.recv(timeout).arbitration_id == 0x123
     assert bus._pair.garbled == 2
     assert bus.recv(0) is None
+
+
+FRAME = Frame(0x41, b"\1\2")
+Ends = tuple[SocketPairLink, SocketPairLink]
+
+
+@pytest.fixture
+def ends() -> Iterator[Ends]:
+    pair = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    links = SocketPairLink(pair[0]), SocketPairLink(pair[1])
+    yield links
+    for link in links:
+        link.close()
+
+
+def test_frame_sent_at_one_end_arrives_at_the_other(ends):
+    ends[0].send(FRAME)
+
+    assert ends[1].receive(1.0) == FRAME
+    assert ends[1].receive(0.0) is None
+
+
+def test_put_back_frame_is_received_before_the_socket_is_lent(ends):
+    ends[0].send(Frame(0x42, b""))
+
+    ends[1].put_back(FRAME)
+
+    assert ends[1].frame_socket() is None
+    assert [ends[1].receive(1.0), ends[1].receive(1.0)] == [FRAME, Frame(0x42, b"")]
+    assert ends[1].frame_socket() is ends[1]
+
+
+@pytest.mark.parametrize("flag", [EXTENDED, REMOTE, ERROR])
+def test_extended_remote_or_error_frame_has_no_identifier(ends, flag):
+    ends[0]._socket.send(struct.pack("=IB3x8s", 0x41 | flag, 1, b"\1"))
+
+    assert ends[1].receive(1.0) == Frame(-1, b"")
+
+
+def test_frames_without_room_are_counted(monkeypatch):
+    monkeypatch.setattr("host_sim.transport.socket_pair._SEND_S", 0.001)
+    near, far = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    stats = LineStats()
+    link = SocketPairLink(near, stats)
+    with far:
+        while not stats.unsent:
+            link.send(FRAME)
+        link.send(FRAME)
+    link.close()
+
+    assert stats.unsent == 2
+
+
+def test_closed_far_end_raises_link_down(ends):
+    ends[0].close()
+
+    with pytest.raises(LinkDownError, match="cannot hear the robot: the far end is closed"):
+        ends[1].receive(1.0)
+    with pytest.raises(LinkDownError, match="cannot send to the robot: the far end is closed"):
+        ends[1].send(FRAME)
+
+
+def test_explain_callback_names_why_the_far_end_closed(ends):
+    def explain() -> None:
+        raise LinkDownError("the robot was killed")
+
+    ends[1].explain = explain
+    ends[0].close()
+
+    with pytest.raises(LinkDownError, match="the robot was killed"):
+        ends[1].receive(0.0)
+
+
+def test_closing_callback_is_called_before_a_socket_closes(ends):
+    open_then = []
+    ends[0].closing = lambda: open_then.append(ends[0].fileno() >= 0)
+
+    ends[0].close()
+
+    assert open_then == [True]
+    with pytest.raises(LinkDownError):
+        ends[0].receive(0.0)

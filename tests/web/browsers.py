@@ -4,7 +4,6 @@ import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-import pytest
 from playwright.sync_api import Browser, Playwright, sync_playwright
 
 CHROMIUM, FIREFOX = "chromium", "firefox"
@@ -15,10 +14,14 @@ _PROGRAMS = {CHROMIUM: "chromium-headless-shell", FIREFOX: "firefox-esr"}
 
 
 def launch(playwright: Playwright, name: str) -> Browser:
-    """One of `BROWSERS`, without a window."""
+    """One of `BROWSERS`, without a window.
+
+    Raises:
+        FileNotFoundError: It is not installed, which fails a test: `tools/setup browsers` installs both.
+    """
     program = shutil.which(_PROGRAMS[name])
     if program is None:
-        pytest.skip(f"{name}: {_PROGRAMS[name]} is missing")
+        raise FileNotFoundError(f"{_PROGRAMS[name]} is missing: run tools/setup browsers")
     if name == CHROMIUM:
         return playwright.chromium.launch(executable_path=program, args=_CHROMIUM_ARGUMENTS)
     # By WebDriver BiDi: without a channel, Playwright speaks a protocol that only its own Firefox knows.

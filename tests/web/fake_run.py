@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from playwright.sync_api import Page, Route, WebSocketRoute
 
-from host_sim.base.paths import WEB
+from host_sim.base.paths import PAGE_SCRIPTS, WEB
 from host_sim.recording.state import measures
 from host_sim.recording.state_types import EnvironmentScene, Measures, State
-from host_sim.report.page_bundle import page_of
+from host_sim.report.octet_page import live_page
 from host_sim.report.replay_page import pack, page
 from host_sim.world.geometry import SimParams
 
@@ -32,9 +32,8 @@ COLUMNS = [
     *("left", "right", "reason", "repeat_count", "action", "pattern", "frozen"),
 ]
 TICKS = 200
-IN_ONE_FILE = page_of("live.html")
-"""The page with its modules: they would be 45 requests."""
-TYPES = {".js": "text/javascript", ".css": "text/css", ".html": "text/html"}
+PAGE = live_page()
+TYPES = {".js": "text/javascript", ".css": "text/css", "": "text/html"}
 
 
 def robot_state(node: int, x: float, y: float, **fields: Any) -> State:
@@ -52,11 +51,9 @@ class FakeRun:
 
     Attributes:
         states: The state of each robot.
-        parts: Files to serve instead of those there are, by name.
     """
 
     states: list[State]
-    parts: Mapping[str, str] = field(default_factory=dict)
     commands: list[dict[str, Any]] = field(default_factory=list)
     _socket: WebSocketRoute | None = None
 
@@ -70,9 +67,8 @@ class FakeRun:
         self._socket.send(json.dumps(self._message(**fields)))
 
     def _answer(self, route: Route) -> None:
-        name = route.request.url.removeprefix(HOME) or "live.html"
-        whole = IN_ONE_FILE if name == "live.html" and not self.parts else None
-        text = whole or self.parts.get(name) or (WEB / name).read_text()
+        name = route.request.url.removeprefix(HOME)
+        text = ((PAGE_SCRIPTS if name.endswith(".js") else WEB) / name).read_text() if name else PAGE
         route.fulfill(body=text, content_type=TYPES[Path(name).suffix])
 
     def _connect(self, socket: WebSocketRoute) -> None:
@@ -86,6 +82,7 @@ class FakeRun:
             "states": self.states,
             "trails": [[state["x"], state["y"], state["reason"]] for state in self.states],
             "lessons": [],
+            "events": [[] for _ in self.states],
             "play": {"playing": False, "speed": 1, "done": False, "rate": 50, "stays": True, "ended": None},
             "health": {"sent": 0, "lost": 0, "refused": 0, "late": 0, "orders_refused": 0},
             "pins": [],

@@ -60,7 +60,7 @@ BLANK = """(side) => {
 }"""
 
 # What lies over the middle or over a corner of an arena, each 30 px inside of it.
-COVERED = """() => [...document.querySelectorAll("#arena, .lane canvas")].flatMap((canvas) => {
+COVERED = """() => [...document.querySelectorAll(".lane canvas")].flatMap((canvas) => {
   const { x, y, width, height } = canvas.getBoundingClientRect();
   return [[30, 30], [width - 30, 30], [30, height - 30], [width - 30, height - 30], [width / 2, height / 2]]
     .map(([right, down]) => document.elementFromPoint(x + right, y + down)).filter((it) => it !== canvas)

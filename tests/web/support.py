@@ -149,7 +149,7 @@ def full_speed(page: Page) -> None:
 
 def place_on_page(page: Page, x: float, y: float) -> tuple[float, float]:
     """Where a place of the arena is on the page."""
-    box = page.locator("#arena, .lane canvas").first.bounding_box()
+    box = page.locator(".lane canvas").first.bounding_box()
     assert box is not None
     per_mm = box["width"] / (4000 + 80)
     return box["x"] + (x + 40) * per_mm, box["y"] + (y + 40) * per_mm

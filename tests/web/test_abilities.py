@@ -14,7 +14,7 @@ from tests.web.sim.page_runs import page_file
 from tests.web.support import wait_for
 
 SIMULATED = "octet.simulator.running === undefined && octet.simulator.queued.size === 0"
-DIRECT, LOOKS_BACK, WHAT_IF = "yes", "after looking back", "in *What if?*"
+DIRECT, WHAT_IF = "yes", "in a copy"
 SOURCES = ("simulated", "recorded", "live")
 
 
@@ -23,9 +23,9 @@ class Ability:
     """Something to be done on a page.
 
     Attributes:
-        control: What is pressed or set, last; it is missing where this cannot be done.
+        control: What is pressed or set, last.
         happened: Becomes something else by it.
-        tab: The tab to open before, where there are tabs.
+        tab: The tab to open before, if any.
         value: What is chosen or typed; none if the control is a button.
     """
 
@@ -34,15 +34,11 @@ class Ability:
     tab: str = ""
     value: str = ""
 
-    def is_there(self, page: Page) -> bool:
-        """Whether the page has the control, or the tab where it is."""
-        return page.locator(self.control).count() > 0
-
     def does(self, page: Page) -> bool:
         """Does it, and waits for what happens."""
         wait_for(page, "octet.scene")  # a copy of a recorded run may be on its way
         before = page.evaluate(f"JSON.stringify({self.happened})")
-        if self.tab and page.locator(self.tab).count():
+        if self.tab:
             page.click(self.tab)
         self._do(page)
         wait_for(page, f"(before) => octet.scene && JSON.stringify({self.happened}) !== before", before)
@@ -68,7 +64,7 @@ MEMORY = "octet.scene.state.memory[1]"
 OTHER_FUTURE = "octet.lane.experiment"
 ABILITIES = {
     "play and pause": Ability("#play", "octet.play?.playing ?? octet.playing"),
-    "go to any time": Ability("#scrub:not([title])", "octet.tick", value="40"),
+    "go to any time": Ability("#scrub", "octet.tick", value="40"),
     "go to the next trial or other event": Ability("#kind", "octet.tick", value="environment"),
     "zoom": Ability("#zoom-in", "document.querySelector('#zoom-out').disabled"),
     "change the memory": Ability("#cells li:nth-child(2) button:enabled", MEMORY),
@@ -80,6 +76,7 @@ ABILITIES = {
     "a program of your own": Ability("#program-run", "octet.lanes.length", "#tab-program"),
     "talk": Ability("#talk-line", "document.querySelector('#talk-said').children.length", "#tab-talk", "Why?"),
     "curves": Ability("#curve", "document.querySelector('#results').rows.length", "#tab-curves", "meals"),
+    "the atlas": Ability("#atlas-map", "octet.lanes.length", "#tab-atlas"),
     "lessons": Ability("#begin-lesson", "octet.course.begun", "#tab-lessons"),
 }
 
@@ -112,49 +109,27 @@ def source(replay: Path, watch, open_page, tmp_path) -> Callable[[str], Page]:
             wait_for(page, SIMULATED)
             return page
         page = open_page(replay.as_uri() if name == "recorded" else watch("--seed", "2").url)
-        wait_for(page, "octet.tick >= 0 || octet.scene.state.tick > 60")
+        wait_for(page, "!octet.live || octet.tick > 60")
         return page
 
     return show
 
 
-def past(page: Page) -> Page:
-    """Drags the slider of a live run back."""
-    with page.expect_navigation():
-        page.locator("#scrub").fill("20")
-        page.locator("#scrub").dispatch_event("change")
-    wait_for(page, "window.octet?.recorded")
-    return page
-
-
 def test_the_table_has_every_ability_and_says_how_each_is_reached():
     assert set(table()) == set(ABILITIES)
-    assert {cell for row in table().values() for cell in row.values()} <= {DIRECT, LOOKS_BACK, WHAT_IF}
+    assert {cell for row in table().values() for cell in row.values()} <= {DIRECT, WHAT_IF}
 
 
 @pytest.mark.parametrize("name", SOURCES)
-def test_what_the_table_calls_direct_can_be_done_on_the_page_itself_and_nothing_else(source, name):
+def test_what_the_table_has_can_be_done_on_the_page_and_where_it_says(source, name):
     page = source(name)
-    direct = {it for it, cells in table().items() if cells[name] == DIRECT}
-
-    assert {it for it, ability in ABILITIES.items() if ability.is_there(page)} == direct
-    assert [it for it in ABILITIES if it in direct and not ABILITIES[it].does(page)] == []
-
-
-def test_what_the_table_has_after_looking_back_can_be_done_there(source):
-    page = past(source("live"))
-
-    for name, cells in table().items():
-        if cells["live"] == LOOKS_BACK:
-            assert ABILITIES[name].does(page)
-
-
-def test_what_the_table_has_in_what_if_can_be_done_there(source):
-    page = source("live")
-    with page.expect_navigation():
-        page.click("#what-if")
-    wait_for(page, f"window.octet?.lanes.length === 2 && {SIMULATED}")
 
     for ability, cells in table().items():
-        if cells["live"] == WHAT_IF:
-            assert ABILITIES[ability].does(page)
+        if name == "live" and not page.evaluate("Boolean(octet.live)"):
+            page.click("#back")
+            wait_for(page, "octet.live")
+        assert ABILITIES[ability].does(page), ability
+        if cells[name] == WHAT_IF:
+            wait_for(page, "octet.lanes.length > 1")
+        elif name == "live" and cells["recorded"] == WHAT_IF:
+            assert page.evaluate("Boolean(octet.live)"), ability  # the run itself was changed

@@ -4,21 +4,22 @@ import itertools
 
 import pytest
 
+from host_sim.lab.campaign.cell import Outcome
 from host_sim.lab.campaign.html_report import page
 from host_sim.lab.campaign.matrix import groups
-from host_sim.lab.campaign.outcome import Outcome
 from host_sim.protocol.generated import Reason
 from host_sim.recording import phrases
 from host_sim.report.drawing import MARKS
 from tests.runs.support import octet
 from tests.web.fake_run import HOME, FakeRun, robot_state
 from tests.web.looks import THREE_SIZES, resize, violations_at
+from tests.web.sim.node import with_modules
 from tests.web.support import full_speed, wait_for, wait_for_text
 
 CHANGES = ("--change", "plant@1s", "--change", "swap-motors@2s", "--change", "grow:900@3s")
 GREEN = """() => {
   const [, x, y, radius] = octet.scene.environment.plants[0];
-  const { canvas, context, scale } = octet.lane?.renderer ?? octet.view.renderer;
+  const { canvas, context, scale } = octet.lane.renderer;
   const at = [x + 0.9 * radius * Math.cos(0.2), y + 0.9 * radius * Math.sin(0.2)].map((mm) => (mm + 40) * scale);
   const [red, green, blue] = context.getImageData(...at, 1, 1).data;
   return green > red && red > blue;
@@ -67,8 +68,8 @@ def test_a_page_that_joins_late_is_told_what_happened(watch, open_page):
     wait_for_text(page, "#news", "The motor plugs were swapped.")
 
 
-SAY = """async (lists) => {
-  const { lessonSentence, sentence } = await import("/core/phrases.js");
+SAY = """(modules, lists) => {
+  const { lessonSentence, sentence } = modules["core/phrases.ts"];
   return [lists[0].map((state) => sentence(state, false)), lists[1].map((lesson) => lessonSentence(lesson))];
 }"""
 LEFT, RIGHT = {"left": -9, "right": 9}, {"left": 9, "right": -9}
@@ -94,15 +95,16 @@ IN_TERMINAL = [[phrases.sentence(it) for it in STATES], [phrases.lesson_sentence
 def test_the_sentences_are_those_of_the_terminal(open_page):
     page = open_page(HOME, prepare=FakeRun([robot_state(1, 800, 700)]).serve)
 
-    assert page.evaluate(SAY, [STATES, LESSONS]) == IN_TERMINAL
+    assert page.evaluate(with_modules(SAY, "core/phrases.ts"), [STATES, LESSONS]) == IN_TERMINAL
 
 
 def test_every_reason_has_its_colours_its_name_and_its_width(open_page):
     page = open_page(HOME, prepare=FakeRun([robot_state(1, 800, 700)]).serve)
 
-    assert page.evaluate("octet.view.renderer.palette.reasons.every((colour) => /^#/.test(colour))")
+    assert page.evaluate("octet.lane.renderer.palette.reasons.every((colour) => /^#/.test(colour))")
     assert page.locator("#legend [data-reason]").count() == len(Reason) == len(MARKS)
-    assert page.evaluate("import('/draw/trail_layer.js').then(({ WIDTH_MM }) => WIDTH_MM.size)") == len(Reason)
+    widths = with_modules('(modules) => modules["draw/trail_layer.ts"].WIDTH_MM.size', "draw/trail_layer.ts")
+    assert page.evaluate(widths) == len(Reason)
 
 
 ENDS = ("", "somebody else stopped node 1: it rests")

@@ -34,7 +34,7 @@ SAID_IN_ENGLISH = {
 
 
 def code() -> str:
-    return "".join(path.read_text() for path in (*WEB.rglob("*.js"), *WEB.rglob("*.html"), Path(module.__file__)))
+    return "".join(path.read_text() for path in (*WEB.rglob("*.ts"), *WEB.rglob("*.html"), Path(module.__file__)))
 
 
 def own(words: dict[str, Any]) -> dict[str, Any]:
@@ -100,7 +100,7 @@ def test_no_text_is_left_in_english():
     words = {place: text for place, text in german.items() if re.search("[a-z]{3}", GAPS.sub("", text))}
     same = {text for place, text in words.items() if english.get(place) == text}
 
-    assert same == {"Arena", "Code", "Link", "Listing", "Name", "Pause", "ideal", "live"}
+    assert same == {"Arena", "Atlas", "Code", "Link", "Listing", "Name", "Pause", "ideal", "live"}
 
 
 @pytest.mark.parametrize("code", [code for code in TEXTS if code != "en"])
@@ -245,10 +245,10 @@ def test_every_text_is_used():
 def said_in_english() -> set[str]:
     """The sentences that may come from the firmware, the worker or a robot's description, with {0} for each gap."""
     said = {*BODY_SENTENCES.values(), *(text for name, text in SENTENCES.items() if "plant" in name)}
-    said |= set(re.findall(r'meaning: "([^"]+)"', (WEB / "generated.js").read_text()))
+    said |= set(re.findall(r'meaning: "([^"]+)"', (WEB / "generated.ts").read_text()))
     for where, how in SAID_IN_ENGLISH.items():
         place = ROOT / where
-        for path in sorted(place.rglob("*.js")) if place.is_dir() else [place]:
+        for path in sorted(place.rglob("*.ts")) if place.is_dir() else [place]:
             said |= {numbered(it.strip('`"')) for it in re.findall(how, path.read_text())}
     return {it for it in said if " " in it} | {*STILL_WORLDS, *PROFILES}
 

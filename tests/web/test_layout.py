@@ -19,28 +19,27 @@ from tests.web.looks import (
     violations,
     violations_at,
 )
+from tests.web.sim.node import with_modules
 from tests.web.support import next_frame, wait_for
 
 SIZES = DESKTOPS + PHONES
 LIVE = (
-    "#floor",
+    "#floors",
     "#play",
     "#scrub",
-    "#decision",
+    "#after",
     "#speed",
     "#doing",
     "#cells",
-    "#freeze",
     "#erase",
     "#lift",
     "#add-bar",
-    "#next",
 )
 REPLAY = ("#floors", "#play", "#scrub", "#doing", "#cells", "#pin", "#before", "#after")
 # How far from the middle of each item, at right angles to a bar, a finger may be: px.
-REACH = """async () => {
-  const { itemAt } = await import("/edit/hit_testing.js");
-  const { scene, renderer } = octet.view;
+REACH = """(modules) => {
+  const { itemAt } = modules["edit/hit_testing.ts"];
+  const { scene, renderer } = octet.lane;
   const [, ax, ay, bx, by] = scene.environment.bars[0];
   const length = Math.hypot(bx - ax, by - ay);
   const [nx, ny] = [(ay - by) / length, (bx - ax) / length];
@@ -94,12 +93,12 @@ def test_the_live_page_has_all_that_matters_in_view(live):
         resize(live, size)
         assert out_of_view(live, LIVE, size) == [], size
         assert live.evaluate("document.documentElement.scrollWidth <= innerWidth"), size
-        arena = live.locator("#floor").bounding_box()
+        arena = live.locator("#floors").bounding_box()
         assert arena["height"] >= min(size[1] * 0.5, size[0] * 0.7), size
 
 
 def test_the_arena_is_what_a_live_page_shows_first(live):
-    assert too_small(live, ARENA, "#arena") == []
+    assert too_small(live, ARENA, ".lane canvas") == []
     assert live.evaluate(NEAR_THE_TOP)
 
 
@@ -169,15 +168,15 @@ def test_fingers_can_hit_everything_on_a_phone(live):
     for size in PHONES:
         resize(live, size)
         assert live.evaluate(TOO_SMALL) == [], size
-        wait_for(live, "octet.view.renderer.size.width === octet.view.renderer.canvas.clientWidth")
-        assert live.evaluate(REACH) == [], size
+        wait_for(live, "octet.lane.renderer.size.width === octet.lane.renderer.canvas.clientWidth")
+        assert live.evaluate(with_modules(REACH, "edit/hit_testing.ts")) == [], size
 
 
 def test_the_arena_stays_in_view_when_an_obstacle_is_added_on_a_phone(live):
     for size in PHONES:
         resize(live, size)
         live.click("#add-bar")
-        assert out_of_view(live, ("#floor",), size) == [], size
+        assert out_of_view(live, ("#floors",), size) == [], size
 
 
 def test_axe_finds_nothing_on_the_live_page(live):

@@ -11,7 +11,7 @@ from tests.web.support import drag, next_frame, pause, place_on_page, wait_for, 
 
 # The colour of the canvas at a place of the arena, and the one that the style sheet has by a name.
 COLOUR_AT = """([x, y]) => {
-  const { canvas, scale } = octet.view.renderer;
+  const { canvas, scale } = octet.lane.renderer;
   const [px, py] = [(x + 40) * scale, (y + 40) * scale].map(Math.round);
   const [r, g, b] = canvas.getContext("2d").getImageData(px, py, 1, 1).data;
   return "#" + [r, g, b].map((part) => part.toString(16).padStart(2, "0")).join("");
@@ -174,7 +174,7 @@ def test_trails_begin_anew_where_the_same_environment_is_started_over(page, run)
 
 
 def test_a_page_that_has_lost_its_connection_says_so_until_it_has_another_one(page):
-    page.evaluate("octet.connection.connect = () => octet.connection.socket")
+    page.evaluate("octet.connection.open = () => {}")
     page.evaluate("octet.connection.socket.close()")
     wait_for_text(page, "#status", "no connection")
 

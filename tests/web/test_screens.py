@@ -38,8 +38,8 @@ def test_live(watch, look):
         if page.evaluate("octet.play.playing"):
             pause(page)
         check_schemes(page, f"live-{{}}-{size}")
-        assert page.evaluate("octet.view.renderer.canvas.width") == page.evaluate(
-            "Math.round(octet.view.renderer.canvas.clientWidth * devicePixelRatio)"
+        assert page.evaluate("octet.lane.renderer.canvas.width") == page.evaluate(
+            "Math.round(octet.lane.renderer.canvas.clientWidth * devicePixelRatio)"
         )
 
 
@@ -52,7 +52,7 @@ def test_interaction(watch, look):
     wait_for(page, "octet.scene.ghosts.size === 1")
     page.click("#cells li:nth-child(3) button")
     wait_for(page, "octet.scene.state.memory[2] === 1")
-    page.click("summary")
+    page.click("#reference summary")
     check(page, "interaction-light-laptop")
 
 

@@ -12,11 +12,14 @@ import sysconfig
 from collections.abc import Callable
 from pathlib import Path
 from urllib.request import HTTPCookieProcessor, build_opener
+from zipfile import ZipFile
 
 import pytest
 
 from host_sim.cli.main import parser_of
+from host_sim.client.frame_log import digest_of
 from tests.runs.support import octet_process, unpacked
+from tests.web.sim.page_runs import experiment, run_in_page
 
 ROOT = Path(__file__).resolve().parents[2]
 PLAN = """\
@@ -64,7 +67,7 @@ IN_A_CHECKOUT = {"debug", "grade", "new"}
 
 
 def test_each_command_is_tried():
-    assert commands() == set(USES) | IN_A_CHECKOUT
+    assert commands() == set(USES) | IN_A_CHECKOUT | {"check-wiring"}
 
 
 def test_a_behaviour_in_c_needs_a_checkout(octet, tmp_path):
@@ -72,6 +75,12 @@ def test_a_behaviour_in_c_needs_a_checkout(octet, tmp_path):
 
     assert (done.returncode, (tmp_path / "mine.c").exists()) == (1, False)
     assert "need a checkout of Octet with gcc" in done.stderr
+
+
+def test_a_new_robot_that_is_not_there_is_named(octet):
+    done = octet("check-wiring", "nowhere")
+
+    assert (done.returncode, done.stderr) == (2, "octet: cannot open nowhere: No such file or directory\n")
 
 
 def test_a_debugger_needs_a_checkout(octet):
@@ -244,3 +253,98 @@ def test_the_wheel_is_small_and_carries_man_pages_and_completions(wheel, environ
     script = environment / "share/bash-completion/completions/octet"
     subprocess.run(["bash", "-n", script], check=True)
     assert "--environments" in script.read_text()
+
+
+SEEDS, LIMIT_S = (1, 2, 3), 20
+PROGRAM = f"""
+from host_sim.cli.main import main
+for seed in {SEEDS}:
+    main(["run", "--bus", "none", "--environments", "2", "--limit-s", "{LIMIT_S}", "--json", "--seed", str(seed)])
+"""
+
+
+def digests(site: Path, cwd: Path) -> list[str]:
+    """Those of the runs of the packages in a folder."""
+    variables = {**os.environ, "PYTHONPATH": str(site)}
+    said = subprocess.check_output([sys.executable, "-c", PROGRAM], cwd=cwd, env=variables, text=True)
+    return re.findall(r'"log_sha256": "(\w+)"', said)
+
+
+def test_the_wheel_gives_the_bytes_of_the_checkout(wheel: Path, tmp_path: Path):
+    site = tmp_path / "site"
+    with ZipFile(wheel) as files:
+        files.extractall(site)
+
+    ours = digests(ROOT, tmp_path)
+
+    assert digests(site, tmp_path) == ours
+    assert len(set(ours)) == len(SEEDS)
+
+
+def test_the_page_gives_the_bytes_of_the_checkout(tmp_path: Path):
+    runs = run_in_page(tmp_path, *(experiment("article", seed, limit_ticks=LIMIT_S * 50) for seed in SEEDS))
+
+    assert [digest_of(run["log"].encode("latin1")) for run in runs] == digests(ROOT, tmp_path)
+
+
+COMMANDS = """
+import json
+from host_sim.cli.main import parser_of
+
+parser = parser_of([])
+found = {}
+for name, it in {"": parser, **parser._subparsers._group_actions[0].choices}.items():
+    shown = [action for action in it._actions if action.help != "==SUPPRESS=="]
+    found[name] = [flag for action in shown for flag in action.option_strings]
+print(json.dumps(found))
+"""
+COMPLETIONS = {
+    "bash": "bash-completion/completions/octet",
+    "fish": "fish/vendor_completions.d/octet.fish",
+    "zsh": "zsh/site-functions/_octet",
+}
+
+
+@pytest.fixture(scope="module")
+def options_of_commands(environment) -> dict[str, list[str]]:
+    """The options of each command, by its name; those of `octet` itself have none."""
+    done = subprocess.run([environment / "bin/python", "-c", COMMANDS], capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def options_of_page(page: str) -> set[str]:
+    """The options that a man page explains."""
+    plain = page.replace("\\-", "-")
+    heads = re.findall(r"^\.TP\n(\\fB-.*)$", plain, re.MULTILINE)
+    return {flag for head in heads for flag in re.findall(r"\\fB(--?[\w-]+)\\fR", head)}
+
+
+def missing_from(script: str, shell: str, options_of_commands: dict[str, list[str]]) -> set[str]:
+    """The commands and long options that a completion does not know."""
+    words = set(re.findall(r"[\w-]+", script))
+    flags = {flag for options in options_of_commands.values() for flag in options if flag.startswith("--")}
+    wanted = {flag[2:] if shell == "fish" else flag for flag in flags} | {*options_of_commands} - {""}
+    return wanted - words
+
+
+def test_the_man_pages_explain_the_options_of_each_command_and_no_other(environment: Path, options_of_commands):
+    pages = {path.stem: path.read_text() for path in (environment / "share/man/man1").glob("octet*.1")}
+
+    assert len(options_of_commands) > 15
+    assert {name: options_of_page(page) for name, page in pages.items()} == {
+        f"octet-{name}".rstrip("-"): set(options) for name, options in options_of_commands.items()
+    }
+
+
+def test_an_option_that_a_man_page_lacks_is_noticed():
+    page = ".TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nshow it\n.TP\noctet run \\fB\\-\\-robots\\fR 3\nthree robots\n"
+
+    assert options_of_page(page) == {"-h", "--help"}
+
+
+@pytest.mark.parametrize("shell", COMPLETIONS)
+def test_the_completions_know_each_command_and_each_option(environment: Path, options_of_commands, shell):
+    script = (environment / "share" / COMPLETIONS[shell]).read_text()
+
+    assert missing_from(script, shell, options_of_commands) == set()
+    assert missing_from(script, shell, {"x": ["--no-such-option"]}) != set()

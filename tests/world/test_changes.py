@@ -144,7 +144,7 @@ def test_a_plant_can_be_put_at_a_place():
     assert edits == [Edit("plant", at=(2000.0, 1500.0), radius=80.0)]
 
 
-def test_where_every_plant_would_be_in_the_way_there_is_no_room():
+def test_plant_is_refused_where_each_place_blocks_the_way():
     narrow = SimParams(width_mm=600.0, height_mm=600.0)
     arena = Arena(Layout((), ((400.0, 300.0),), Pose(200.0, 300.0, 0.0)), narrow)
 
@@ -175,7 +175,7 @@ def test_where_there_is_no_plant_none_grows():
         happen(Arena(generate(1, 1, PARAMS), PARAMS), "grow@2s")
 
 
-def test_what_happens_to_bodies_happens_to_all_or_to_the_one_named():
+def test_body_change_affects_all_robots_or_the_one_named():
     arena = Arena(generate(1, 1, PARAMS, robots=3), PARAMS)
 
     assert happen(arena, "mirror@1s", seed=7) == [
@@ -244,7 +244,7 @@ def test_noise_of_a_tick_is_the_same_whenever_it_is_asked_for(arena):
         ("mirror:left", "write mirror"),
     ],
 )
-def test_what_cannot_happen_is_refused_with_what_was_meant(what, meant):
+def test_unknown_change_is_refused_with_the_nearest_name(what, meant):
     with pytest.raises(ValueError) as raised:  # noqa: PT011 - the text is compared below
         check_fault(what)
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from host_sim.world.geometry import Bar, Plant, SimParams
 from host_sim.world.reach import Reach, clearance_mm, tour_mm
 from host_sim.world.worlds import world_of
-from tests.world.clearances import CELL_MM, clearances_mm, flooded, free_cells, length, middles
+from tests.world.golden_layouts import CELL_MM, clearances_mm, flooded, free_cells, length, middles
 
 PARAMS = SimParams()
 Floats = NDArray[np.float64]

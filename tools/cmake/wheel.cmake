@@ -15,19 +15,18 @@ endforeach()
 
 set(sources ${PROJECT_SOURCE_DIR}/host_sim)
 execute_process(
-  COMMAND ${python} ${generate} --python ${sources}/protocol/generated.py --javascript ${sources}/web/generated.js
+  COMMAND ${python} ${generate} --python ${sources}/protocol/generated.py
   COMMAND_ERROR_IS_FATAL ANY)
 execute_process(
   COMMAND ${python} -c "from host_sim.lab.study.version import code_version; print(code_version(), end='')"
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_FILE ${PROJECT_BINARY_DIR}/code_version COMMAND_ERROR_IS_FATAL ANY)
 install(FILES ${sources}/protocol/generated.py DESTINATION host_sim/protocol)
-install(FILES ${sources}/web/generated.js DESTINATION host_sim/web)
 install(FILES ${PROJECT_BINARY_DIR}/code_version DESTINATION ${tree}/build)
 install(FILES ${OCTET_GENERATED}/robot_words.h DESTINATION ${tree}/build/host/generated)
 
 file(GLOB pins RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/hal/*/boards/*.cmake
   ${PROJECT_SOURCE_DIR}/hal/*/pins.toml ${PROJECT_SOURCE_DIR}/hal/stm32/*/pins.toml)
-foreach(file firmware/io.h firmware/memory/memory.h hal/link/link.h firmware/motion/speed_control.h host_sim/program/own/mine.c
+foreach(file docs/tables/atlas-map.csv firmware/io.h firmware/memory/memory.h hal/link/link.h firmware/motion/speed_control.h host_sim/program/own/mine.c
     hal/pins_body/wiring.toml hal/protocol/octet.dbc hal/protocol/robot.toml ${pins})
   get_filename_component(folder ${file} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/${file} DESTINATION ${tree}/${folder})

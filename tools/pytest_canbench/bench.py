@@ -172,7 +172,7 @@ class Bench:
         """
         __tracebackhide__ = True
         for _ in range(ms):
-            if any(wanted(value) for _, value in self._told(signal)[-1:]):
+            if any(wanted(value) for _, value in self._values(signal)[-1:]):
                 return
             self.run(1)
         raise BenchError(f"within {ms} ms {signal} was not as wanted; it was {self[signal]:g} in the end")
@@ -193,9 +193,9 @@ class Bench:
             BenchError: It has sent none yet.
         """
         __tracebackhide__ = True
-        return self._told(signal) or self._never_heard(signal)
+        return self._values(signal) or self._never_heard(signal)
 
-    def _told(self, signal: str) -> list[tuple[int, float]]:
+    def _values(self, signal: str) -> list[tuple[int, float]]:
         __tracebackhide__ = True
         name, _, of = signal.partition(".")
         self.setup.messages.check_names(name, [of])
@@ -214,9 +214,9 @@ class Bench:
             f", and {len(faults) - _FAULTS} more" if len(faults) > _FAULTS else ""
         )
         for at_ms, way, frame in self._frames[-_FRAMES:]:
-            yield f"{at_ms:8} ms {way:4} {_id_text(frame.id)}#{frame.data.hex().upper()} {self._said_in(frame)}"
+            yield f"{at_ms:8} ms {way:4} {_id_text(frame.id)}#{frame.data.hex().upper()} {self._content_of(frame)}"
 
-    def _said_in(self, frame: Frame) -> str:
+    def _content_of(self, frame: Frame) -> str:
         try:
             told = self.setup.messages.decode(frame)
         except ValueError:

@@ -357,7 +357,7 @@ def _within(tree: Any) -> Iterator[str]:
 
 
 class Forger:
-    """As in `host_sim.transport.bus_faults`: listens, and continues the counters of the real sender."""
+    """As in `host_sim.transport.faulty_link`: listens, and continues the counters of the real sender."""
 
     def __init__(self, messages: Messages, names: list[str]) -> None:
         self._messages, self._names, self._counts = messages, names, dict[str, int]()

@@ -37,7 +37,7 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "can_faults(*rules): faults of frames, such as drop@20-/to")
 
 
-def _told(config: pytest.Config, name: str) -> tuple[str, Path]:
+def _option_or_ini(config: pytest.Config, name: str) -> tuple[str, Path]:
     """The value of an option, and the folder that its relative paths start from."""
     value = config.getoption(f"--can-{name}")
     if value is not None:
@@ -47,19 +47,19 @@ def _told(config: pytest.Config, name: str) -> tuple[str, Path]:
 
 def _setup(request: pytest.FixtureRequest) -> Setup:
     config = request.config
-    (dbc, dbc_folder), (device, device_folder) = _told(config, "dbc"), _told(config, "device")
+    (dbc, dbc_folder), (device, device_folder) = _option_or_ini(config, "dbc"), _option_or_ini(config, "device")
     for name, value in (("dbc", dbc), ("device", device)):
         if not value:
             raise UsageError(f"can_bench needs --can-{name} {_OPTIONS[name][0]}, {_OPTIONS[name][2]}")
-    seed, bus = _told(config, "seed")[0], _told(config, "bus")[0]
+    seed, bus = _option_or_ini(config, "seed")[0], _option_or_ini(config, "bus")[0]
     if not seed.isdecimal():
         raise UsageError(f"--can-seed is a number, not {seed!r}")
     rules = [rule for mark in request.node.iter_markers("can_faults") for rule in mark.args]
-    messages = Messages(dbc_folder / dbc, _told(config, "crc")[0])
+    messages = Messages(dbc_folder / dbc, _option_or_ini(config, "crc")[0])
     if odd := messages.odd():
         warnings.warn(pytest.PytestWarning(odd), stacklevel=1)
     return Setup(
-        messages, lambda: open_device(device, device_folder, bus), rules, int(seed), _told(config, "node")[0]
+        messages, lambda: open_device(device, device_folder, bus), rules, int(seed), _option_or_ini(config, "node")[0]
     )
 
 

@@ -10,7 +10,7 @@ HERE = Path(__file__).resolve().parent
 HOST_SIM = HERE.parents[1] / "host_sim"
 TAKEN = (
     *("base/errors", "base/files", "base/system"),
-    *(f"transport/{name}" for name in ("bus_faults", "bus_link", "bus_process", "clock", "faulty_link", "link")),
+    *(f"transport/{name}" for name in ("bus_link", "bus_process", "faulty_link", "link")),
     *("transport/rule", "transport/socket_pair", "transport/socket_pair_bus"),
 )
 

@@ -85,6 +85,7 @@ def mentions(root: Path, paths: Iterable[str]) -> Graph:
     graph: dict[str, set[str]] = defaultdict(set)
     for path in paths:
         for name in _MENTION.findall((root / path).read_text()):
+            graph[name.replace(".js", ".ts")].add(path)  # modules import each other by what esbuild makes of them
             graph[name].add(path)
     return graph
 

@@ -92,7 +92,7 @@ def _checks(changed: Sequence[str]) -> list[Stage]:
         Stage(
             "lint", "lint", [(".venv/bin/ruff", "check", *python), (".venv/bin/ruff", "format", "--check", *python)]
         ),
-        Stage("types", "types", [(".venv/bin/mypy",)], beside=True),
+        Stage("types", "types", [(".venv/bin/mypy",)]),
     ]
 
 

@@ -2,19 +2,86 @@
 
 import argparse
 import fcntl
+import json
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TextIO
+from typing import NamedTuple, TextIO
 
 from tools.testing.limits import NO_LIMIT, Ended, Limits, Steps, run_within, side_by_side
-from tools.testing.reports import count
+
+RUNNING, PASSED, FAILED, SKIPPED = "running", "passed", "failed", "skipped"
+
+_CTEST_BEGINS = re.compile(r" *Start +\d+: (\S+)")
+_CTEST_ENDS = re.compile(r" *\d+/\d+ Test +#\d+: (\S+) \.+ *(Passed)?")
+
+
+class Count(NamedTuple):
+    """Test results.
+
+    Attributes:
+        passed: Number that passed.
+        failed: Number that failed, or were skipped and not allowed; without those still running.
+        allowed: Skipped tests that the caller allowed, with their reasons.
+        running: Tests that have begun and not ended.
+    """
+
+    passed: int
+    failed: int
+    allowed: list[str]
+    running: list[str]
+
+
+def count(reports: Iterable[Path], allowed: Collection[str]) -> Count:
+    """Counts the tests in some reports, which grow as tests end: so a stopped run is counted, too.
+
+    Args:
+        reports: Of pytest, as tests/conftest.py writes them (`--progress FILE.jsonl`), or what ctest printed; a
+            missing one has no tests.
+        allowed: Words before the colon in the reasons of accepted skips.
+    """
+    state: dict[str, str] = {}
+    reasons: dict[str, str] = {}
+    for report in (report for report in reports if report.exists()):
+        lines = report.read_text(errors="replace").splitlines()
+        for event, test, reason in _pytest(lines) if report.suffix == ".jsonl" else _ctest(lines):
+            if state.get(test) != FAILED:
+                state[test] = event
+                reasons[test] = reason
+    skipped = [test for test, said in state.items() if said == SKIPPED]
+    fine = [test for test in skipped if reasons[test].split(":")[0] in allowed]
+    said = list(state.values())
+    return Count(
+        passed=said.count(PASSED),
+        failed=said.count(FAILED) + len(skipped) - len(fine),
+        allowed=[f"{test}: {reasons[test]}" for test in fine],
+        running=[test for test, said in state.items() if said == RUNNING],
+    )
+
+
+def _pytest(lines: Iterable[str]) -> Iterable[tuple[str, str, str]]:
+    for line in lines:
+        try:
+            event, test, reason = json.loads(line)
+        except ValueError:
+            continue  # cut short
+        yield event, test, reason
+
+
+def _ctest(lines: Iterable[str]) -> Iterable[tuple[str, str, str]]:
+    for line in lines:
+        if begins := _CTEST_BEGINS.match(line):
+            yield RUNNING, f"ctest {begins[1]}", ""
+        elif ends := _CTEST_ENDS.match(line):
+            yield PASSED if ends[2] else FAILED, f"ctest {ends[1]}", ""
+
 
 ROOT = Path(__file__).resolve().parents[2]
 REPORTS = ROOT / "build/reports"
@@ -34,14 +101,12 @@ class Stage:
         setup: its stage of tools/setup.
         commands: its commands, which all run even if one fails.
         reports: files that grow as tests begin and end; none if it only checks sources.
-        beside: whether it runs beside the other stages; its output is then shown at its end.
     """
 
     name: str
     setup: str
     commands: Sequence[Command]
     reports: Sequence[Path] = ()
-    beside: bool = False
 
 
 @dataclass(frozen=True)
@@ -98,16 +163,16 @@ def run_stage(stage: Stage, allowed: Collection[str], limits: Limits, output: Te
     )
 
 
-def pytest_stage(name: str, tests: Sequence[str], allowed: Collection[str]) -> Stage:
+def pytest_stage(name: str, tests: Sequence[str], allowed: Collection[str], more: int = 1) -> Stage:
     """A stage of Python tests.
 
     Args:
         name: of the stage, for tools/setup as well.
         tests: files and folders, or options of pytest that choose.
         allowed: words before the colon in the reasons of accepted skips.
+        more: workers beyond one for each core, since tests sometimes wait for processes and browsers.
     """
-    # One more than there are cores, since tests sometimes wait for processes and browsers.
-    workers = os.environ.get("PYTEST_XDIST_AUTO_NUM_WORKERS", f"{len(os.sched_getaffinity(0)) + 1}")
+    workers = os.environ.get("PYTEST_XDIST_AUTO_NUM_WORKERS", f"{len(os.sched_getaffinity(0)) + more}")
     options = ("-n", workers, "--dist=worksteal", "-m", "not vcan")
     report = REPORTS / f"{name}.jsonl"
     return Stage(name, name, [pytest_command(report, (*options, *tests), allowed)], [report])
@@ -135,9 +200,9 @@ def c_stage(*selection: str) -> Stage:
 RunStage = Callable[[Stage, TextIO | None], Steps[Result]]
 
 
-def run_one_by_one(stages: Sequence[Stage], at_once: bool, run: RunStage, results: dict[str, Result]) -> Steps[None]:
-    """Runs stages one after another; the output of each is shown at once, or at its end."""
-    for stage in stages:
+def run_lane(waiting: Iterator[Stage], at_once: bool, run: RunStage, results: dict[str, Result]) -> Steps[None]:
+    """Runs the next waiting stage until none is left; the output of each is shown at once, or at its end."""
+    for stage in waiting:
         if at_once:
             print(f"\n== {stage.name}", flush=True)
             results[stage.name] = yield from run(stage, None)
@@ -242,7 +307,7 @@ def run_repeatedly(stages: Sequence[Stage], arguments: argparse.Namespace) -> in
 
 
 def run_stages(stages: Sequence[Stage], arguments: argparse.Namespace) -> int:
-    """Sets up and runs the stages that the command line names, or all.
+    """Sets up the stages that the command line names, or all, and runs them in this order, two at a time.
 
     Returns:
         0 if everything asked for ran and passed, else 1.
@@ -256,9 +321,8 @@ def run_stages(stages: Sequence[Stage], arguments: argparse.Namespace) -> int:
     def run(stage: Stage, output: TextIO | None) -> Steps[Result]:
         return run_stage(stage, arguments.allow_missing, limits, output)
 
-    shown = [stage for stage in ready if not stage.beside]
-    beside = [stage for stage in ready if stage.beside]
-    side_by_side(run_one_by_one(shown, True, run, results), run_one_by_one(beside, not shown, run, results))
+    waiting = iter(ready)  # shared: while one lane's last test leaves cores idle, the other uses them
+    side_by_side(run_lane(waiting, True, run, results), run_lane(waiting, False, run, results))
     report(results, [stage.name for stage in stages if stage.name not in results])
     allowed = {name for name in arguments.allow_missing if name in results and results[name].verdict == "not run"}
     return 0 if all(result.verdict == "ok" for name, result in results.items() if name not in allowed) else 1

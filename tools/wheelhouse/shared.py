@@ -1,7 +1,7 @@
 """Makes the files that the wheels of all systems share, in build/wheel: `python -m tools.wheelhouse.shared`.
 
-They are the page's WebAssembly and the flash images that tools/setup has built; the declarations of C functions, as
-Python modules; and shell completions and man pages, generated from the command line's parsers.
+They are the pages' programs and WebAssembly, and the flash images that tools/setup has built; the declarations of C
+functions, as Python modules; and shell completions and man pages, generated from the command line's parsers.
 """
 
 import os
@@ -31,6 +31,9 @@ SHELLS = {
 
 def copy_page_and_images() -> None:
     """Copies the files for pages and boards, and strips the images of their debugging information."""
+    shutil.copytree(
+        paths.PAGE_SCRIPTS, TREE / paths.PAGE_SCRIPTS.relative_to(paths.BUILD), ignore=lambda *_: ["stamp"]
+    )
     page = TREE / paths.PAGE_WASM.relative_to(paths.BUILD)
     page.parent.mkdir(parents=True)
     shutil.copyfile(paths.PAGE_WASM, page)

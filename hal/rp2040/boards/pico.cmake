@@ -7,7 +7,7 @@ set(OCTET_UART_TX GP0)
 set(OCTET_UART_RX GP1)
 
 # A robot of its own: three infrared pairs in front, two motors with encoders behind a bridge, a beacon's receiver.
-set(OCTET_BODIES pins)
+set(OCTET_BODIES pins check)
 set(OCTET_LEFT_PWM GP2)
 set(OCTET_LEFT_BACK GP3)        # the PWM of driving forward; the other one is of driving backward
 set(OCTET_RIGHT_PWM GP4)

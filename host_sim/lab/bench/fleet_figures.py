@@ -4,6 +4,7 @@ import os
 import time
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 
 import gymnasium
 import numpy as np
@@ -14,7 +15,7 @@ from host_sim.lab.bench.lockstep_figures import on_one_processor
 from host_sim.sim.fleet import run_fleet
 from host_sim.sim.make import make
 from host_sim.sim.native_fleet import NativeFleet
-from host_sim.sim.own_brain import OWN_HEADERS
+from host_sim.sim.own_brain import OWN_HEADERS, own_brain
 from host_sim.sim.run_config import C_FILE, RunConfig
 from host_sim.world.body_kinds import KIT, BodyKind, body_kind
 from host_sim.world.geometry import SimParams
@@ -36,6 +37,11 @@ def fleet_figures() -> list[Figure]:
         rate(
             Value("one robot with its frames, article in a C file", partial(_single_ticks_per_second, _TEMPLATE)),
             single,
+            0.9,
+        ),
+        rate(
+            Value("the same fleet, article in a C file", partial(_fleet_ticks_per_second, profile=_TEMPLATE)),
+            own,
             0.9,
         ),
         rate(
@@ -67,12 +73,13 @@ def _whole_fleet_on_one() -> float:
         return _whole_fleet()
 
 
-def _fleet_ticks_per_second(kind: BodyKind | None = None) -> float:
+def _fleet_ticks_per_second(kind: BodyKind | None = None, profile: str = "article") -> float:
     """Ticks per second of all robots of a fleet together."""
     params = SimParams()
-    fleet = NativeFleet(_FLEET, _FLEET, params, kind)
+    own = own_brain(Path(profile)) if profile.endswith(C_FILE) else None
+    fleet = NativeFleet(_FLEET, _FLEET, params, kind, own=own)
     for index in range(_FLEET):
-        fleet.start(index, index + 1, "article", {})
+        fleet.start(index, index + 1, profile, {})
         fleet.enter(index, generate(index + 1, 1, params), _ENDLESS)
 
     def run() -> int:

@@ -30,12 +30,12 @@ _TIMEOUT_S = 30.0
 _LOOK_PAUSE_S = 0.01  # polling without a pause would take half a core from the measured run
 # Reading a pixel makes the browser finish the drawing.
 TIME_DRAWING = """() => {
-    const draw = octet.view.renderer.draw.bind(octet.view.renderer);
+    const draw = octet.lane.renderer.draw.bind(octet.lane.renderer);
     octet.times = [];
-    octet.view.renderer.draw = (scene) => {
+    octet.lane.renderer.draw = (scene) => {
         const began = performance.now();
         draw(scene);
-        octet.view.renderer.context.getImageData(0, 0, 1, 1);
+        octet.lane.renderer.context.getImageData(0, 0, 1, 1);
         octet.times.push(performance.now() - began);
     };
 }"""

@@ -6,13 +6,12 @@ from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
-from host_sim.base.errors import UsageError
+from host_sim.base.errors import UsageError, meant
 from host_sim.cli.parsing import Subparsers, add_command, number
 from host_sim.cli.run_options import add_option
 
 if TYPE_CHECKING:
-    from host_sim.lab.calibrate.calibration import Calibration
-    from host_sim.lab.calibrate.places import Places
+    from host_sim.lab.calibrate.calibration import Calibration, Places
 
 STEPS = {
     "light": "a white wall 60 mm before each of its five sensors: a half ring of cardboard",
@@ -59,16 +58,17 @@ def add(commands: Subparsers) -> None:
 def _check(arguments: argparse.Namespace) -> None:
     for step in arguments.steps:
         if step not in STEPS:
-            raise UsageError(f"there is no {step!r} to calibrate: {', '.join(STEPS)}")
-    if (arguments.bus is None) == (arguments.robot == "external"):
+            raise UsageError(f"there is no {step!r} to calibrate: {meant(step, STEPS)}")
+    if arguments.bus is None and arguments.robot == "external":
         raise UsageError("calibrate needs a robot: give --bus INTERFACE:CHANNEL, or --robot emulated")
+    if arguments.bus is not None and arguments.robot == "emulated":
+        raise UsageError("an emulated robot is on no bus: leave --bus out, or --robot emulated")
     if arguments.steps and (arguments.show or arguments.set):
         raise UsageError("give steps to measure, or --show or --set")
     arguments.settings = dict(map(_setting, arguments.set))
 
 
 def _setting(text: str) -> tuple[str, int]:
-    from host_sim.base.errors import meant
     from host_sim.lab.calibrate.calibration import CALIBRATION_VALUES
 
     name, _, value = text.partition("=")
@@ -113,7 +113,7 @@ def _reached(stack: ExitStack, arguments: argparse.Namespace) -> "tuple[Calibrat
     if not emulated:
         return Calibration(client, time.sleep), None
     from host_sim.emulator.pins_board import PinsBoard
-    from host_sim.lab.calibrate.places import Places
+    from host_sim.lab.calibrate.calibration import Places
 
     board = client.connection.link
     assert isinstance(board, PinsBoard)  # by the configuration

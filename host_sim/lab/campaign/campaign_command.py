@@ -2,8 +2,7 @@
 
 import argparse
 import sys
-from collections.abc import Iterable, Iterator, Sequence
-from operator import itemgetter
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
@@ -12,11 +11,12 @@ from host_sim.protocol.words import PROFILES
 from host_sim.sim.access import BOARDS
 
 if TYPE_CHECKING:
-    from host_sim.lab.campaign.cell import Cell
-    from host_sim.lab.campaign.outcome import Outcome
-    from host_sim.lab.campaign.running import Group
+    from host_sim.lab.campaign.cell import Cell, Outcome
 
 _LINKS = ("none", "fd", "external", "slcan", "vcan", *BOARDS, "pins")
+_JOBS = 16
+"""Runs in lockstep at once: those with a robot in a process of its own mostly wait."""
+
 _EXAMPLES = """\
 examples:
   tools/octet campaign --html out/campaign.html              every behaviour in lockstep, within this process
@@ -73,7 +73,12 @@ def add(commands: Subparsers) -> None:
         metavar="S",
         help="robot time of each run, 1..600 s (default: 60, in real time 10); longer for faults that show later",
     )
-    add("--jobs", type=number(1, 64), default=1, metavar="N", help="processes at once (default: %(default)d)")
+    add(
+        "--jobs",
+        type=number(1, 64),
+        metavar="N",
+        help=f"runs at once, each in a process (default: {_JOBS}; in real time and on vcan 1)",
+    )
     add(
         "--walk",
         type=number(1, 100_000),
@@ -87,13 +92,13 @@ def add(commands: Subparsers) -> None:
 
 
 def _check(arguments: argparse.Namespace) -> None:
-    if arguments.html is None and not (arguments.repeat or arguments.shrink or arguments.walk):
+    if arguments.html is None and not arguments.walk and arguments.repeat is arguments.shrink is None:
         raise UsageError("campaign needs --html FILE.html for the report, or --walk, --repeat or --shrink")
     check_outputs("campaign", None, {"--html": arguments.html, "--json": arguments.json, "--junit": arguments.junit})
     links = (arguments.repeat or arguments.shrink or "").split() or arguments.links
     if bool(arguments.robot_command.strip()) != ("external" in links):
         raise UsageError("--links external and --robot-command CMD go together: give both")
-    if arguments.jobs > 1 and "vcan" in arguments.links:
+    if (arguments.jobs or 1) > 1 and "vcan" in arguments.links:
         raise UsageError("vcan0 is one bus for one robot at a time: leave out --jobs")
 
 
@@ -103,13 +108,14 @@ def _stages(arguments: argparse.Namespace) -> Sequence[str]:
 
 
 def _campaign(arguments: argparse.Namespace) -> int:
-    if arguments.repeat or arguments.shrink:
-        act = _repeat if arguments.repeat else _shrink
-        return act(arguments.repeat or arguments.shrink, arguments.robot_command)
+    if arguments.repeat is not None:
+        return _repeat(arguments.repeat, arguments.robot_command)
+    if arguments.shrink is not None:
+        return _shrink(arguments.shrink, arguments.robot_command)
     from host_sim.base.files import write_bytes
     from host_sim.base.result_files import Case, write_results
+    from host_sim.lab.campaign.cell import unreached
     from host_sim.lab.campaign.html_report import page, summary, verdict
-    from host_sim.lab.campaign.outcome import unreached
 
     outcomes = _all_outcomes(arguments)
     if arguments.html is not None:
@@ -132,19 +138,20 @@ def _campaign(arguments: argparse.Namespace) -> int:
 
 def _all_outcomes(arguments: argparse.Namespace) -> "list[Outcome]":
     """Runs everything, with a progress line, and prints the problems."""
-    from host_sim.base.progress_line import ProgressLine
+    from host_sim.base.terminal import ProgressLine
+    from host_sim.lab.campaign.running import run_all
 
-    found, every = [], _groups(arguments)
-    with ProgressLine(sum(len(group.cells) for group in every)) as line:
-        for number, some in _outcomes(every, arguments.jobs):
-            for outcome in some:
-                found.append((number, outcome))
-                if outcome.problems:
-                    line.clear()
-                    _print_problem(outcome, is_shrunk=bool(arguments.walk))
-                if line.is_due():
-                    line.show("runs", len(found))
-    return [outcome for _, outcome in sorted(found, key=itemgetter(0))]
+    outcomes, cells = [], _cells(arguments)
+    jobs = arguments.jobs or (1 if arguments.real_time or "vcan" in arguments.links else _JOBS)
+    with ProgressLine(len(cells)) as line:
+        for outcome in run_all(cells, jobs):
+            outcomes.append(outcome)
+            if outcome.problems:
+                line.clear()
+                _print_problem(outcome, is_shrunk=bool(arguments.walk))
+            if line.is_due():
+                line.show("runs", len(outcomes))
+    return outcomes
 
 
 def _print_problem(outcome: "Outcome", *, is_shrunk: bool) -> None:
@@ -157,38 +164,20 @@ def _print_problem(outcome: "Outcome", *, is_shrunk: bool) -> None:
         print(f"  shortest: {shortest.cell.command()}", file=sys.stderr)
 
 
-def _groups(arguments: argparse.Namespace) -> "list[Group]":
-    """The cells of each configuration."""
+def _cells(arguments: argparse.Namespace) -> "list[Cell]":
+    """The cells of all configurations."""
     from dataclasses import replace
 
     from host_sim.lab.campaign.cell import PACES
     from host_sim.lab.campaign.matrix import default_limit_s, groups
-    from host_sim.lab.campaign.running import Group
     from host_sim.lab.campaign.walk import walk
 
     paces = PACES if arguments.real_time else PACES[:1]
     limits_s = {pace: arguments.limit_s or default_limit_s(pace) for pace in paces}
     where = arguments.links, arguments.profiles, limits_s[PACES[0]]
     drawn = walk(arguments.walk, arguments.seed, *where)
-    cells = drawn or groups(arguments.profiles, arguments.links, paces, lambda pace: limits_s[pace])
-    cells = ([replace(cell, command_of_own=arguments.robot_command) for cell in some] for some in cells)
-    return [Group(number, some) for number, some in enumerate(cells)]
-
-
-def _outcomes(every: "Sequence[Group]", jobs: int) -> "Iterator[tuple[int, Iterable[Outcome]]]":
-    """Yields the outcomes of each configuration with its number; in any order if several run at once."""
-    from concurrent.futures import ProcessPoolExecutor
-    from multiprocessing import get_context
-
-    from host_sim.lab.campaign.running import run_all as run_cells
-    from host_sim.lab.campaign.running import run_group
-    from host_sim.lab.workers import Workers, run_all
-
-    if jobs == 1:
-        yield from ((number, run_cells(some)) for number, some in every)
-    else:
-        pool = Workers(lambda: ProcessPoolExecutor(jobs, mp_context=get_context("spawn")))
-        yield from run_all(run_group, every, pool)
+    every = drawn or groups(arguments.profiles, arguments.links, paces, lambda pace: limits_s[pace])
+    return [replace(cell, command_of_own=arguments.robot_command) for cells in every for cell in cells]
 
 
 def _repeat(text: str, program: str) -> int:
@@ -217,7 +206,7 @@ def _shrink(text: str, program: str) -> int:
 def _shrunk(cell: "Cell") -> "Iterator[Outcome]":
     """The outcomes of ever smaller cells of the same kind."""
     from host_sim.lab.campaign.running import run_all
-    from host_sim.lab.campaign.shrink import shrink
+    from host_sim.lab.campaign.walk import shrink
 
     def attempt(smaller: "Cell") -> "Outcome":
         (outcome,) = run_all([smaller])

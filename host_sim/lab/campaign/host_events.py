@@ -1,19 +1,28 @@
-"""Events of a robot's process, of the simulator's process, and of the wall clock as read by the latter."""
+"""Events of processes and of the wall clock, and a run in a process of its own that is killed midway."""
 
+import json
 import os
+import select
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, suppress
 from itertools import chain, repeat
+from pathlib import Path
+from types import FrameType
+from typing import Any
 
-from host_sim.lab.campaign.setup import Happen
+from host_sim.base.errors import RobotError
+
+Trigger = Callable[[int], None]
+"""Triggers an event of a given size."""
 
 
-def process_events(pid: Callable[[], int]) -> Mapping[str, Callable[[int], None]]:
+def process_events(pid: Callable[[], int]) -> Mapping[str, Trigger]:
     """The events of a process on this host, given by a function that returns its process ID."""
     return {
         "kill": lambda _: os.kill(pid(), signal.SIGKILL),
@@ -46,7 +55,7 @@ CLOCK_EVENTS = frozenset({"clock-ahead", "clock-back"})
 """The events of the wall clock, by name."""
 
 
-def clock_events(undo: ExitStack) -> Mapping[str, Happen]:
+def clock_events(undo: ExitStack) -> Mapping[str, Trigger]:
     """Events that set the clock ahead or back by some seconds; `undo` restores it."""
     return {"clock-ahead": lambda span_s: _step(span_s, undo), "clock-back": lambda span_s: _step(-span_s, undo)}
 
@@ -65,3 +74,105 @@ def _replace(old: Callable[[], object], new: Callable[[], object], undo: ExitSta
         for name in names:
             undo.callback(setattr, module, name, old)
             setattr(module, name, new)
+
+
+_TRACED = (str(Path(__file__).parents[2]), tempfile.__file__)
+
+
+def before_each_instruction(action: Callable[[], None]) -> None:
+    """Calls a function before each Python instruction of this package, from now on and in this thread.
+
+    Functions already running are not traced, but those that they call are. `sys.settrace(None)` ends tracing.
+    """
+
+    def trace(frame: FrameType, event: str, _: Any) -> Any:
+        if event == "opcode":
+            action()
+        elif event == "call":
+            if not frame.f_code.co_filename.startswith(_TRACED):
+                return None
+            frame.f_trace_opcodes = True
+        return trace
+
+    sys.settrace(trace)
+
+
+SILENT_S = 60.0
+"""A run without a report for this time, s, is taken to hang."""
+
+ASK = "ask"
+"""First word of a report by which a run requests an event from its parent process."""
+
+_HUNG = ["broke", f"the simulator hung for {SILENT_S:g} s"]
+_BLOCK = 65536
+
+Report = Callable[..., None]
+"""Sends a report from a run that may be killed at any time: numbers, strings and lists of them."""
+
+
+def kill_at(number: int) -> None:
+    """Sends SIGKILL to this process before the nth of its Python instructions from now on, counted from 1."""
+    left = number
+
+    def count() -> None:
+        nonlocal left
+        left -= 1
+        if left <= 0:
+            os.kill(os.getpid(), signal.SIGKILL)
+
+    before_each_instruction(count)
+
+
+def run_killable(run: Callable[[Report], None], perform: Callable[[str, int], None]) -> tuple[bool, list[list[Any]]]:
+    """Runs a function in a process of its own.
+
+    Args:
+        run: The function. Its reports must not be further apart than `SILENT_S`.
+        perform: Called in this process with the other words of each report that begins with `ASK`.
+
+    Returns:
+        Whether it was killed, and its reports; the last one says if it hung.
+    """
+    ours, its = os.pipe()
+    child = os.fork()
+    if child == 0:
+        _run_to_the_end(run, lambda *words: _write(its, words))
+    os.close(its)
+    reports = []
+    with os.fdopen(ours, "rb") as pipe:
+        for words in _reports(pipe.fileno()):
+            if words[0] == ASK:
+                perform(*words[1:])
+            else:
+                reports.append(words)
+    if reports and reports[-1] == _HUNG:
+        os.kill(child, signal.SIGABRT)
+    _, status = os.waitpid(child, 0)
+    return os.waitstatus_to_exitcode(status) == -signal.SIGKILL, reports
+
+
+def _reports(pipe: int) -> Iterator[list[Any]]:
+    """Yields the reports from a pipe until it is closed, or silent for `SILENT_S`; then `_HUNG` is the last."""
+    text = b""
+    while select.select([pipe], [], [], SILENT_S)[0]:
+        read = os.read(pipe, _BLOCK)
+        if not read:
+            return
+        *lines, text = (text + read).split(b"\n")
+        yield from map(json.loads, lines)
+    yield _HUNG
+
+
+def _write(descriptor: int, words: tuple[object, ...]) -> None:
+    """Writes with one system call, so that a report is complete or missing."""
+    os.write(descriptor, f"{json.dumps(words)}\n".encode())
+
+
+def _run_to_the_end(run: Callable[[Report], None], report: Report) -> None:
+    """Runs the function, then exits; does not return."""
+    try:
+        run(report)
+    except Exception as error:
+        report("ended" if isinstance(error, RobotError) else "broke", f"{type(error).__name__}: {error}")
+    finally:
+        os._exit(0)

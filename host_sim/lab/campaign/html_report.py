@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Sequence
 from html import escape
 
-from host_sim.lab.campaign.outcome import Outcome, unreached
+from host_sim.lab.campaign.cell import Outcome, unreached
 
 _STYLE = """
 :root { color-scheme: light dark; --bad: #ffd9d6; --bad-ink: #8c0b00; --told: #fff0c9; --well: #e2f3e2; }
@@ -51,7 +51,7 @@ def page(outcomes: Sequence[Outcome]) -> str:
     profiles = dict.fromkeys(outcome.cell.profile for outcome in outcomes)
     tables = "".join(_table(name, [each for each in outcomes if each.cell.profile == name]) for name in profiles)
     return (
-        f"{_HEAD}<p>{escape(summary(outcomes))}</p>\n{_bars(outcomes)}{_EXPLAINED}{_bad(outcomes)}{_ways(profiles)}"
+        f"{_HEAD}<p>{escape(summary(outcomes))}</p>\n{_figures(outcomes)}{_EXPLAINED}{_bad(outcomes)}{_links(profiles)}"
         f"{tables}</main></body></html>\n"
     )
 
@@ -114,7 +114,7 @@ def _bad(outcomes: Sequence[Outcome]) -> str:
     return f"<h2>Not as they should be</h2>\n<table><tbody>\n{rows}</tbody></table>\n" if rows else ""
 
 
-def _ways(profiles: Iterable[str]) -> str:
+def _links(profiles: Iterable[str]) -> str:
     """Links to the tables."""
     links = (f'<a href="#{escape(name)}">{escape(name)}</a>' for name in profiles)
     return f"<nav><p>Behaviours: {', '.join(links)}</p></nav>\n"
@@ -127,7 +127,7 @@ def _command(text: str) -> str:
     return f"<code>{''.join(f'<span>{escape(word)}</span>' for word in words)}</code>"
 
 
-def _bars(outcomes: Sequence[Outcome]) -> str:
+def _figures(outcomes: Sequence[Outcome]) -> str:
     """The campaign's figures: the number of runs with a fault that meet each requirement."""
     faulty = [outcome for outcome in outcomes if outcome.cell.fault]
     counts = {

@@ -58,7 +58,7 @@ class FaultClass:
     profiles: tuple[str, ...] = ()
     least_s: float = 0.0
 
-    def can_happen(self, profile: str, link: str, pace: str) -> bool:
+    def applies_to(self, profile: str, link: str, pace: str) -> bool:
         """Whether it is possible in a configuration."""
         is_there = pace in self.paces and (link in self.links or (not self.links and link != PINS_LINK))
         is_there = is_there and (not self.profiles or profile in self.profiles)
@@ -268,7 +268,7 @@ def groups(
             for pace in paces:
                 if (link, pace) != ("none", REAL_TIME):
                     base = Cell(profile, link, pace, limit_s=limits_s(pace))
-                    yield [base, *(each.cell(base) for each in classes if each.can_happen(profile, link, pace))]
+                    yield [base, *(each.cell(base) for each in classes if each.applies_to(profile, link, pace))]
 
 
 def recognised(cell: Cell) -> Cell:

@@ -12,15 +12,14 @@ from tempfile import TemporaryDirectory
 
 from host_sim.base.errors import OctetError
 from host_sim.client.frame_log import FrameLog, digest_of
-from host_sim.lab.campaign.killed import Tell, kill_at
-from host_sim.lab.campaign.setup import Happen
+from host_sim.lab.campaign.host_events import Report, Trigger, kill_at
 from host_sim.protocol.codec import Protocol
 from host_sim.recording.memory_file import MemorySaver, load_memory
 from host_sim.transport.rule import Event
 from host_sim.world.memory_kinds import Memory
 
 _NODE = 1
-_OF_COURSE = f" {Protocol(_NODE).id_of('SENSES'):03X}#".encode()
+_COURSE_MARK = f" {Protocol(_NODE).id_of('SENSES'):03X}#".encode()
 
 
 class CourseLog(FrameLog):
@@ -37,7 +36,7 @@ class CourseLog(FrameLog):
 
     def _write(self, block: bytes) -> None:
         for line in block.splitlines():
-            if _OF_COURSE in line:
+            if _COURSE_MARK in line:
                 self._course.update(line)
         super()._write(block)
 
@@ -79,19 +78,19 @@ class NoFiles:
         log: The log.
         events: File faults by name.
         struck: Whether a file fault was applied.
-        told: Messages about the files, in sentences.
+        messages: Messages about the files, in sentences.
         memory: The previous content of the memory file; None if there was none.
         note: Takes reports of the run that must survive its end.
     """
 
     memory: Memory | None = None
-    note: Tell = staticmethod(_ignore)
+    note: Report = staticmethod(_ignore)
 
     def __init__(self, log: CourseLog | None = None) -> None:
         self.log = log or CourseLog()
-        self.events: Mapping[str, Happen] = {}
+        self.events: Mapping[str, Trigger] = {}
         self.struck = False
-        self.told: list[str] = []
+        self.messages: list[str] = []
 
     def save(self, memory: Sequence[int]) -> None:
         """Takes over the memory after a tick.
@@ -132,21 +131,21 @@ class RunFiles(NoFiles):
         killed_in_save: Number of the Python instruction of the next save at which this process is killed; 0 for none.
     """
 
-    def __init__(self, folder: Path, undo: ExitStack, tell: Tell = _ignore) -> None:
+    def __init__(self, folder: Path, undo: ExitStack, report: Report = _ignore) -> None:
         """Opens the files.
 
         Args:
             folder: A folder with nothing but the memory file of an earlier run.
             undo: Reverts the file faults.
-            tell: Called with each memory before it is saved, and with everything passed to `note`.
+            report: Called with each memory before it is saved, and with everything passed to `note`.
         """
-        self.folder, self._undo, self.note = folder, undo, tell
+        self.folder, self._undo, self.note = folder, undo, report
         self._log_path, self._memory_path = folder / _LOG, folder / _MEMORY
         super().__init__(CourseLog(self._log_path))
-        self.events = {name: partial(self._strike, happen) for name, happen in _EVENTS.items()}
+        self.events = {name: partial(self._strike, trigger) for name, trigger in _EVENTS.items()}
         self.memory = load_memory(self._memory_path)
         self._saver = MemorySaver(
-            self._memory_path, self.memory, lambda line: self.told.append(self.without_folder(line))
+            self._memory_path, self.memory, lambda line: self.messages.append(self.without_folder(line))
         )
         self._saved = None if self.memory is None else bytes(self.memory)
         self._finished, self.killed_in_save = False, 0
@@ -179,9 +178,9 @@ class RunFiles(NoFiles):
         """As in `NoFiles`."""
         return text.replace(f"{self.folder}/", "")
 
-    def _strike(self, happen: Callable[["RunFiles", int], None], size: int) -> None:
+    def _strike(self, trigger: Callable[["RunFiles", int], None], size: int) -> None:
         self.struck = True
-        happen(self, size)
+        trigger(self, size)
 
     def fill_disk(self, room: int) -> None:
         """Limits file sizes, in bytes, so that no file can grow beyond the limit."""
@@ -219,9 +218,9 @@ def make_folder(events: Iterable[Event], undo: ExitStack) -> Path | None:
     return folder
 
 
-def open_files(folder: Path | None, undo: ExitStack, tell: Tell = _ignore) -> NoFiles:
+def open_files(folder: Path | None, undo: ExitStack, report: Report = _ignore) -> NoFiles:
     """Opens the files of a run in the folder of `make_folder`; `undo` reverts their faults and closes them."""
-    files = NoFiles() if folder is None else RunFiles(folder, undo, tell)
+    files = NoFiles() if folder is None else RunFiles(folder, undo, report)
     undo.callback(files.close)
     return files
 

@@ -1,22 +1,20 @@
 """Runs cells: injects their faults, and notes how each run ends."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import BrokenExecutor
 from contextlib import ExitStack
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
 
 from host_sim.base.errors import OctetError, RobotError, UsageError
 from host_sim.client.commands import stop
 from host_sim.client.robot_client import RobotClient
-from host_sim.lab.campaign.cell import KILL_EVENTS, Cell
-from host_sim.lab.campaign.host_events import CLOCK_EVENTS, clock_events
-from host_sim.lab.campaign.killed import ASK, Tell, run_to_be_killed
-from host_sim.lab.campaign.links import check_events, open_setup
-from host_sim.lab.campaign.outcome import Outcome
+from host_sim.lab.campaign.cell import KILL_EVENTS, Cell, Outcome
+from host_sim.lab.campaign.host_events import ASK, CLOCK_EVENTS, Report, Trigger, clock_events, run_killable
 from host_sim.lab.campaign.run_files import FILE_EVENTS, NoFiles, is_memory_held, make_folder, open_files
-from host_sim.lab.campaign.setup import Happen, Setup
+from host_sim.lab.campaign.setups import Setup, check_events, open_setup
+from host_sim.lab.workers import processes
 from host_sim.protocol.generated import TICK_SPAN, Side
 from host_sim.sim.make import make
 from host_sim.sim.simulation import Simulation
@@ -24,38 +22,56 @@ from host_sim.transport.faulty_link import FaultyLink
 from host_sim.transport.rule import Event
 from host_sim.world.memory_kinds import sides_of
 
-_PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
-_REFUSING = ("stale", "damaged", "foreign", "refused")
-_SIGNS_MAX = 10
+_CORRECT_SIDES = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
+_REFUSAL_COUNTERS = ("stale", "damaged", "foreign", "refused")
+_REPEATED_MAX = 10
 """A waiting robot in lockstep sends signs of life: this many extra frames do not indicate a fault."""
 
 
-class Group(NamedTuple):
-    """The cells of one configuration; the first has no fault."""
+def run_all(cells: Sequence[Cell], jobs: int = 1) -> Iterator[Outcome]:
+    """Runs cells, comparing each with the same run without a fault, which is run only once.
 
-    number: int
-    cells: Sequence[Cell]
+    Args:
+        cells: The cells.
+        jobs: Number of processes; with 1, all run in this one.
 
-    def __str__(self) -> str:
-        return str(self.cells[0])
+    Yields:
+        The outcome of each cell, in this order.
 
-
-def run_group(groups: Sequence[Group]) -> tuple[int, list[Outcome]]:
-    """The number of the only group, and the outcomes of its cells."""
-    (group,) = groups
-    return group.number, list(run_all(group.cells))
-
-
-def run_all(cells: Iterable[Cell]) -> Iterator[Outcome]:
-    """Runs cells, comparing each with the same run without a fault, which is run only once."""
+    Raises:
+        OctetError: One of the processes died.
+    """
     clean: dict[Cell, Outcome] = {}
+    with ExitStack() as stack:
+        outcomes = map(run_cell, _runs(cells)) if jobs == 1 else _run_in_parallel(list(_runs(cells)), jobs, stack)
+        for cell in cells:
+            if cell.without_fault not in clean:
+                clean[cell.without_fault] = next(outcomes)
+            without = clean[cell.without_fault]
+            outcome = next(outcomes) if cell.items else without
+            outcome.compare(without)
+            yield outcome
+
+
+def _runs(cells: Iterable[Cell]) -> Iterator[Cell]:
+    """Yields each cell with a fault, and before the first of a configuration the run without one."""
+    seen: set[Cell] = set()
     for cell in cells:
-        without = replace(cell, faults=(), changes=(), events=(), fault="")
-        if without not in clean:
-            clean[without] = run_cell(without)
-        outcome = run_cell(cell) if cell.items else clean[without]
-        outcome.compare(clean[without])
-        yield outcome
+        if cell.without_fault not in seen:
+            seen.add(cell.without_fault)
+            yield cell.without_fault
+        if cell.items:
+            yield cell
+
+
+def _run_in_parallel(runs: Sequence[Cell], jobs: int, stack: ExitStack) -> Iterator[Outcome]:
+    """Runs cells in processes, which end with the stack: a run mostly waits for a robot that does not answer."""
+    pool = stack.enter_context(processes(min(jobs, len(runs))).open())
+    stack.callback(pool.shutdown, cancel_futures=True)
+    try:
+        yield from pool.map(run_cell, runs)
+    except BrokenExecutor:
+        raise OctetError("a process of the campaign was killed; try fewer --jobs") from None
 
 
 def run_cell(cell: Cell) -> Outcome:
@@ -66,13 +82,13 @@ def run_cell(cell: Cell) -> Outcome:
     """
     outcome = Outcome(cell, waiting=cell.events)
     try:
-        _run_there(outcome)
+        _run_with_setup(outcome)
     except RobotError as error:
         outcome.end, outcome.broke = str(error).partition(";")[0], True
     return outcome
 
 
-def _run_there(outcome: Outcome) -> None:
+def _run_with_setup(outcome: Outcome) -> None:
     cell, is_killed = outcome.cell, any(event.name in KILL_EVENTS for event in outcome.cell.events)
     with ExitStack() as stack:
         setup = stack.enter_context(open_setup(cell.link, cell.command_of_own))
@@ -81,7 +97,7 @@ def _run_there(outcome: Outcome) -> None:
         if is_killed and not _run_killed(outcome, setup, folder):
             return
         files = open_files(folder, stack)
-        files.told += ["the simulator was killed, and another one went on with its memory"] * is_killed
+        files.messages += ["the simulator was killed, and another one went on with its memory"] * is_killed
         try:
             _run(outcome, setup, files, {**setup.events, **files.events, **clock_events(stack)})
         except UsageError:
@@ -99,14 +115,14 @@ def _run_killed(outcome: Outcome, setup: Setup, folder: Path | None) -> bool:
         Whether it was killed.
     """
 
-    def run(tell: Tell) -> None:
+    def run(report: Report) -> None:
         with ExitStack() as stack:
-            files = open_files(folder, stack, tell)
-            elsewhere = {name: partial(tell, ASK, name) for name in setup.of_opener}
-            _run(outcome, setup, files, {**setup.events, **elsewhere, **files.events, **clock_events(stack)})
+            files = open_files(folder, stack, report)
+            remote = {name: partial(report, ASK, name) for name in setup.opener_only}
+            _run(outcome, setup, files, {**setup.events, **remote, **files.events, **clock_events(stack)})
 
-    was_killed, told = run_to_be_killed(run, lambda name, size: setup.events[name](size))
-    of = {kind: [each[1] for each in told if each[0] == kind] for kind in ("oldest", "saving", "ended", "broke")}
+    was_killed, reports = run_killable(run, lambda name, size: setup.events[name](size))
+    of = {kind: [each[1] for each in reports if each[0] == kind] for kind in ("oldest", "saving", "ended", "broke")}
     outcome.oldest = max(of["oldest"], default=0)
     outcome.end = outcome.seen = next(iter(of["broke"] + of["ended"]), "")
     outcome.lost = "" if is_memory_held(folder, of["saving"]) else "the memory"
@@ -125,7 +141,7 @@ def _note_end(outcome: Outcome, error: Exception, files: NoFiles) -> None:
         outcome.end, outcome.broke = f"{type(error).__name__}: {error}", True
 
 
-def _run(outcome: Outcome, setup: Setup, files: NoFiles, events: Mapping[str, Happen]) -> None:
+def _run(outcome: Outcome, setup: Setup, files: NoFiles, events: Mapping[str, Trigger]) -> None:
     def ready(client: RobotClient) -> None:
         _note(outcome, client)
         setup.found(client)
@@ -147,10 +163,10 @@ def _run(outcome: Outcome, setup: Setup, files: NoFiles, events: Mapping[str, Ha
             files.finish(client.memory)
         finally:
             _note(outcome, client)
-            outcome.seen = ", ".join([*([outcome.seen] if outcome.seen else []), *files.told])
+            outcome.seen = ", ".join([*([outcome.seen] if outcome.seen else []), *files.messages])
 
 
-def _watch(outcome: Outcome, events: Mapping[str, Happen], simulation: Simulation) -> None:
+def _watch(outcome: Outcome, events: Mapping[str, Trigger], simulation: Simulation) -> None:
     """Called after each step: checks the wheels, then triggers the events that are due."""
     (drive,) = simulation.drives
     age = (simulation.tick - 1 - drive.tick) % TICK_SPAN
@@ -162,10 +178,10 @@ def _watch(outcome: Outcome, events: Mapping[str, Happen], simulation: Simulatio
     for event in outcome.waiting:
         if event.tick <= simulation.tick:
             outcome.waiting = tuple(other for other in outcome.waiting if other is not event)
-            happen(events, event)
+            trigger(events, event)
 
 
-def happen(events: Mapping[str, Happen], event: Event) -> None:
+def trigger(events: Mapping[str, Trigger], event: Event) -> None:
     """Triggers an event."""
     events[event.name](event.size)
 
@@ -174,7 +190,7 @@ def _note(outcome: Outcome, client: RobotClient) -> None:
     frames, sides = client.frames, sides_of(client.memory)
     of_line = {
         "repeated": frames.repeated,
-        "duplicate": frames.duplicate if frames.duplicate > _SIGNS_MAX else 0,
+        "duplicate": frames.duplicate if frames.duplicate > _REPEATED_MAX else 0,
         "lost": frames.lost,
         "refused": frames.refused,
         "outages": client.connection.line.outages,
@@ -185,8 +201,8 @@ def _note(outcome: Outcome, client: RobotClient) -> None:
     outcome.doubts = tuple(map(str, client.incidents))
     outcome.seen = outcome.seen or ", ".join(outcome.doubts)
     outcome.memory = tuple(client.memory)
-    outcome.wrong = tuple(pattern for pattern, side in _PROPER.items() if sides[pattern] not in (0, side))
-    robots = sum(client.faults.get(kind, 0) for kind in _REFUSING)
+    outcome.wrong = tuple(pattern for pattern, side in _CORRECT_SIDES.items() if sides[pattern] not in (0, side))
+    robots = sum(client.faults.get(kind, 0) for kind in _REFUSAL_COUNTERS)
     outcome.refusals = frames.refused + robots
     if isinstance(client.connection.link, FaultyLink):
         outcome.strikes = client.connection.link.schedule.count

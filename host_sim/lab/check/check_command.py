@@ -1,9 +1,11 @@
 """`tools/octet check`: checks a robot against docs/protocol.md, sentence by sentence."""
 
 import argparse
+import sys
 from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
+from host_sim.base.terminal import GREEN, RED, coloured
 from host_sim.cli.parsing import Subparsers, add_command, check_outputs, number, output_of
 
 if TYPE_CHECKING:
@@ -58,8 +60,7 @@ def _check(arguments: argparse.Namespace) -> None:
 
 def _judge_robot(arguments: argparse.Namespace) -> int:
     from host_sim.base.result_files import Case, write_results
-    from host_sim.lab.check.checking import check_robot
-    from host_sim.lab.check.robots import external, started
+    from host_sim.lab.check.checking import check_robot, external, started
 
     command, bus, node = arguments.robot_command, arguments.bus, arguments.node
     if command is not None:
@@ -82,7 +83,8 @@ _WORDS = {"holds": "passed", "fails": "failed", "not checked": "skipped"}
 
 
 def _print(verdict: "Verdict") -> None:
-    print(f"{verdict.state} {verdict.number}: {verdict.text}")
+    state = coloured(verdict.state, RED if verdict.state == "fails" else GREEN, sys.stdout)
+    print(f"{state} {verdict.number}: {verdict.text}")
     if verdict.why:
         print(f"  {verdict.why}")
     for line in verdict.frames:

@@ -1,16 +1,102 @@
-"""Runs the checks, each on a robot just powered up, and judges each sentence."""
+"""Runs the checks, each on a robot just powered up: a program started for it, or a robot on a bus."""
 
-from collections.abc import Collection, Iterator
+import os
+import signal
+import threading
+from collections.abc import Callable, Collection, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import AbstractContextManager, ExitStack, closing, contextmanager
 from dataclasses import dataclass
 
-from host_sim.base.errors import RobotError
-from host_sim.lab.check import conversation, session, silence  # noqa: F401 - each notes its checks
-from host_sim.lab.check.invariants import breaches
-from host_sim.lab.check.registry import CHECKS
-from host_sim.lab.check.robots import Robots
-from host_sim.lab.check.sentences import NOT_CHECKED, sentences
-from host_sim.lab.check.talk import BrokenError, Said, Talk
+from host_sim.base.errors import LinkDownError, RobotError, UsageError
+from host_sim.base.terminal import counted
+from host_sim.lab.check import conversation, session, silence  # noqa: F401 - each registers its checks
+from host_sim.lab.check.sentences import NOT_CHECKED, breaches, sentences
+from host_sim.lab.check.talk import CHECKS, BrokenError, SeenFrame, Talk
+from host_sim.protocol.codec import COUNTERS, Protocol
+from host_sim.protocol.generated import Opcode
+from host_sim.transport.bus_process import BusProcess, start_on_socket_pair
+from host_sim.transport.buses import open_bus_link
+from host_sim.transport.link import LineStats, Link, WallClock
+
+Robots = Callable[[], AbstractContextManager[Talk]]
+
+WAKE_S = 5.0
+"""Time after which a robot counts as not answering, s."""
+
+_AGAIN_S = 0.25
+_ANYBODY = 254
+"""Owner ID of a sender whose stop cannot be an old one of the actual owner."""
+
+
+def wake(talk: Talk) -> None:
+    """Sends stop until the robot answers, and receives its reports.
+
+    Raises:
+        UsageError: The robot does not answer.
+    """
+    for _ in range(round(WAKE_S / _AGAIN_S)):
+        talk.counter = (talk.counter + 1) % COUNTERS
+        talk.send(talk.order(Opcode.STOP, owner=_ANYBODY))
+        seen = talk.hear(_AGAIN_S, lambda seen: _answers(seen, talk.counter))
+        if seen and _answers(seen[-1], talk.counter):
+            talk.hear(_AGAIN_S, lambda seen: seen.is_answer)
+            return
+    heard = sum(seen.by_robot for seen in talk.frames)
+    why = f"it sent {heard} frames, but no such ANSWER" if heard else "it sent nothing at all"
+    raise UsageError(f"the robot does not answer stop within {WAKE_S:g} s: {why}")
+
+
+def _answers(seen: SeenFrame, counter: int) -> bool:
+    return seen.name == "ANSWER" and seen.signals.get("counter") == counter and not seen.signals["result"]
+
+
+def _hang(pid: int, span_ms: int) -> None:
+    os.killpg(pid, signal.SIGSTOP)
+    threading.Timer(span_ms / 1000, os.killpg, (pid, signal.SIGCONT)).start()
+
+
+@contextmanager
+def started(command: str, bus: str, node: int) -> Iterator[Talk]:
+    """Starts a program as the robot, on a bus of python-can or, for `fd`, on a socket pair.
+
+    Raises:
+        UsageError: The robot cannot be started, or does not answer.
+    """
+    environment = {"OCTET_NODE": str(node)}
+    with ExitStack() as stack:
+        link: Link
+        if bus == "fd":
+            link, process = start_on_socket_pair(command, environment)
+            stack.callback(link.close)
+        else:
+            link = stack.enter_context(closing(_open(bus, node)))
+            process = BusProcess(command, bus, environment)
+        stack.callback(process.close)
+        talk = Talk(link, WallClock(), Protocol(node), lambda span_ms: _hang(process.pid, span_ms))
+        try:
+            wake(talk)
+        except LinkDownError as error:
+            raise UsageError(str(error)) from None
+        yield talk
+
+
+def _open(bus: str, node: int) -> Link:
+    return open_bus_link(bus, Protocol(node).ids_from("ROBOT"), LineStats())
+
+
+@contextmanager
+def external(bus: str, node: int) -> Iterator[Talk]:
+    """Connects to a robot on a bus; it remains in the state left by the last check.
+
+    Raises:
+        UsageError: The bus cannot be opened, or the robot does not answer.
+    """
+    with closing(_open(bus, node)) as link:
+        talk = Talk(link, WallClock(), Protocol(node))
+        wake(talk)
+        yield talk
+
 
 _FRAMES = 12
 
@@ -35,7 +121,7 @@ class Verdict:
 
 
 @dataclass
-class _Course:
+class _CheckResult:
     """The result of one check."""
 
     number: str
@@ -60,38 +146,39 @@ def check_robot(robots: Robots, missing: Collection[str] = (), jobs: int = 1, tr
     possible = [number for number in CHECKS if number not in missing]
     possible.sort(key=lambda number: CHECKS[number].__module__ != silence.__name__)  # slowest checks first
     with ThreadPoolExecutor(jobs) as pool:
-        courses = pool.map(lambda number: _run(number, robots, tries), possible)
-        return list(_judge({course.number: course for course in courses}, missing))
+        results = pool.map(lambda number: _run(number, robots, tries), possible)
+        done = {result.number: result for result in counted(results, len(possible), "sentences")}
+        return list(_judge(done, missing))
 
 
-def _run(number: str, robots: Robots, tries: int) -> _Course:
-    course = _run_once(number, robots)
-    is_broken = course.why or (course.talk is not None and any(breaches(course.talk.said)))
-    return _run(number, robots, tries - 1) if is_broken and tries > 1 else course
+def _run(number: str, robots: Robots, tries: int) -> _CheckResult:
+    result = _run_once(number, robots)
+    is_broken = result.why or (result.talk is not None and any(breaches(result.talk.frames)))
+    return _run(number, robots, tries - 1) if is_broken and tries > 1 else result
 
 
-def _run_once(number: str, robots: Robots) -> _Course:
-    course = _Course(number, "", None)
+def _run_once(number: str, robots: Robots) -> _CheckResult:
+    result = _CheckResult(number, "", None)
     try:
-        with robots() as course.talk:
-            CHECKS[number](course.talk)
+        with robots() as result.talk:
+            CHECKS[number](result.talk)
     except (BrokenError, RobotError) as error:
-        course.why = str(error)
-    return course
+        result.why = str(error)
+    return result
 
 
-def _judge(courses: dict[str, _Course], missing: Collection[str]) -> Iterator[Verdict]:
+def _judge(results: dict[str, _CheckResult], missing: Collection[str]) -> Iterator[Verdict]:
     broken: dict[str, tuple[str, tuple[str, ...]]] = {}
     heard: set[str] = set()
-    for course in courses.values():
-        talk = course.talk
-        said = talk.said if talk is not None else []
-        heard |= {each.name for each in said if each.by_robot}
-        if course.why:
-            broken[course.number] = (course.why, tuple(talk.lines(_FRAMES)) if talk is not None else ())
-        for breach in breaches(said):
+    for result in results.values():
+        talk = result.talk
+        frames = talk.frames if talk is not None else []
+        heard |= {each.name for each in frames if each.by_robot}
+        if result.why:
+            broken[result.number] = (result.why, tuple(talk.lines(_FRAMES)) if talk is not None else ())
+        for breach in breaches(frames):
             assert talk is not None
-            broken.setdefault(breach.number, (breach.why, tuple(_until(talk, breach.said))))
+            broken.setdefault(breach.number, (breach.why, tuple(_until(talk, breach.seen))))
     for number, text in sentences().items():
         message = number.partition(".")[0]
         if number in broken:
@@ -105,6 +192,6 @@ def _judge(courses: dict[str, _Course], missing: Collection[str]) -> Iterator[Ve
             yield Verdict(number, text, "holds")
 
 
-def _until(talk: Talk, said: Said) -> Iterator[str]:
-    index = next(i for i, each in enumerate(talk.said) if each is said)
-    return Talk(talk.link, talk.clock, talk.protocol, said=talk.said[: index + 1]).lines(_FRAMES // 3)
+def _until(talk: Talk, last: SeenFrame) -> Iterator[str]:
+    index = next(i for i, each in enumerate(talk.frames) if each is last)
+    return Talk(talk.link, talk.clock, talk.protocol, frames=talk.frames[: index + 1]).lines(_FRAMES // 3)

@@ -2,19 +2,18 @@
 
 from itertools import pairwise
 
-from host_sim.lab.check.registry import AT_ONCE_S, REPORTS, SECOND, damaged, sentence
-from host_sim.lab.check.talk import Said, Talk, expect, one
+from host_sim.lab.check.talk import AT_ONCE_S, REPORTS, SECOND, SeenFrame, Talk, damaged, expect, one, sentence
 from host_sim.protocol.generated import LAYOUT_HASH, PARAMETERS, Opcode, Result
 
 
-def _at_rest(said: Said) -> bool:
-    return said.signals["left"] == said.signals["right"] == 0
+def _at_rest(seen: SeenFrame) -> bool:
+    return seen.signals["left"] == seen.signals["right"] == 0
 
 
-def _names(heard: list[Said]) -> list[str]:
+def _names(heard: list[SeenFrame]) -> list[str]:
     """Names of the robot's messages, except for faults and silence."""
-    spoken = [said for said in heard if not said.signals.get("silent")]
-    return [said.name for said in spoken if said.name not in ("", "EMERGENCY", "DRIVE") or said.is_answer]
+    spoken = [seen for seen in heard if not seen.signals.get("silent")]
+    return [seen.name for seen in spoken if seen.name not in ("", "EMERGENCY", "DRIVE") or seen.is_answer]
 
 
 @sentence("T2")
@@ -28,7 +27,7 @@ def _stop_brings_all_reports(talk: Talk) -> None:
     heard = talk.stop()
     missing = [name for name in REPORTS if name not in _names(heard)]
     for name, part in (("MEMORY", "half"), ("FAULTS", "page")):
-        parts = {said.signals.get(part) for said in heard if said.name == name}
+        parts = {seen.signals.get(part) for seen in heard if seen.name == name}
         missing += [f"{name} with {part} {number}" for number in (0, 1) if parts and number not in parts]
     expect(not missing, f"stop brings no {', no '.join(missing)}")
 
@@ -72,8 +71,8 @@ def _each_command_is_answered(talk: Talk) -> None:
     ]
     for opcode, signals, wanted in cases:
         answer = talk.result(opcode, **signals).signals
-        told = (answer["counter"], answer["opcode"], answer["result"])
-        expect(told == (talk.counter, opcode, wanted), f"ANSWER has counter, opcode and result {told}")
+        fields = (answer["counter"], answer["opcode"], answer["result"])
+        expect(fields == (talk.counter, opcode, wanted), f"ANSWER has counter, opcode and result {fields}")
         talk.hear(AT_ONCE_S / 10)
 
 
@@ -82,8 +81,8 @@ def _get_tells_the_value(talk: Talk) -> None:
     talk.start()
     for name, parameter in PARAMETERS.items():
         answer = talk.result(Opcode.GET, wanted=parameter.number).signals
-        told = (answer["which"], answer["value"])
-        expect(told == (parameter.number, parameter.default), f"get {name} answers which and value {told}")
+        fields = (answer["which"], answer["value"])
+        expect(fields == (parameter.number, parameter.default), f"get {name} answers which and value {fields}")
 
 
 @sentence("T8")
@@ -125,11 +124,11 @@ def _reports_come_once_a_second(talk: Talk) -> None:
         )
 
 
-def _after_a_fault(talk: Talk) -> list[Said]:
+def _after_a_fault(talk: Talk) -> list[SeenFrame]:
     talk.drive_once()
     talk.send(damaged(talk.senses(talk.tick + 1)))
     heard = talk.step() + talk.hear(AT_ONCE_S)
-    return [said for said in heard if said.name in ("EMERGENCY", "DRIVE")]
+    return [seen for seen in heard if seen.name in ("EMERGENCY", "DRIVE")]
 
 
 @sentence("T14")
@@ -151,7 +150,7 @@ def _a_fault_is_told_at_once(talk: Talk) -> None:
 
 @sentence("T12")
 def _an_emergency_comes_before_the_drive(talk: Talk) -> None:
-    names = [said.name for said in _after_a_fault(talk) if said.name == "EMERGENCY" or said.is_answer]
+    names = [seen.name for seen in _after_a_fault(talk) if seen.name == "EMERGENCY" or seen.is_answer]
     expect(names[-1:] != ["EMERGENCY"], "EMERGENCY comes after the DRIVE of its tick")
 
 
@@ -166,5 +165,5 @@ def _a_drive_is_the_last_of_a_tick(talk: Talk) -> None:
 
 @sentence("T1")
 def _power_up_brings_boot(talk: Talk) -> None:
-    first = next(said.name for said in talk.said if said.by_robot)
+    first = next(seen.name for seen in talk.frames if seen.by_robot)
     expect(first == "BOOT", f"the first frame is {first}")

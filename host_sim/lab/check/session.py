@@ -2,8 +2,18 @@
 
 from zlib import crc32
 
-from host_sim.lab.check.registry import AT_ONCE_S, SECOND, damaged, sentence, unhurried
-from host_sim.lab.check.talk import ANSWER_S, Talk, answering, expect, one
+from host_sim.lab.check.talk import (
+    ANSWER_S,
+    AT_ONCE_S,
+    SECOND,
+    Talk,
+    answering,
+    damaged,
+    expect,
+    one,
+    sentence,
+    without_silence,
+)
 from host_sim.protocol.generated import CELL_COUNT, MESSAGES, PARAMETERS, Opcode, Result
 from host_sim.transport.link import Frame
 
@@ -18,7 +28,7 @@ def _a_drive_has_the_counter_of_its_senses(talk: Talk) -> None:
 
 def _unanswered(talk: Talk, frame: Frame, why: str) -> None:
     talk.send(frame)
-    answers = [said for said in talk.hear(AT_ONCE_S) if said.is_answer or said.name == "ANSWER"]
+    answers = [seen for seen in talk.hear(AT_ONCE_S) if seen.is_answer or seen.name == "ANSWER"]
     expect(not answers, f"{why} is answered")
 
 
@@ -42,7 +52,7 @@ def _ticks_go_on_by_up_to_14(talk: Talk) -> None:
         talk.drive()
         _unanswered(talk, talk.senses(talk.tick + 15), "a tick 15 ahead")
 
-    unhurried(talk, attempt)
+    without_silence(talk, attempt)
 
 
 @sentence("P5")
@@ -96,8 +106,8 @@ def _the_same_senses_get_the_same_drive(talk: Talk) -> None:
     talk.start()
     for tick in range(SECOND):
         first = talk.drive(feel=4 * (tick // 10 % 2))
-        talk.send(next(said.frame for said in reversed(talk.said) if not said.by_robot))
-        again = answering(talk.hear(ANSWER_S, lambda said: said.is_answer), "the same SENSES again")
+        talk.send(next(seen.frame for seen in reversed(talk.frames) if not seen.by_robot))
+        again = answering(talk.hear(ANSWER_S, lambda seen: seen.is_answer), "the same SENSES again")
         expect(first.frame == again.frame, "SENSES that come again get another DRIVE")
 
 
@@ -105,9 +115,9 @@ def _the_same_senses_get_the_same_drive(talk: Talk) -> None:
 def _the_same_command_gets_the_same_answer(talk: Talk) -> None:
     held = _begun(talk)
     order = talk.result(Opcode.ERASE)
-    command = next(said.frame for said in reversed(talk.said) if not said.by_robot)
+    command = next(seen.frame for seen in reversed(talk.frames) if not seen.by_robot)
     talk.send(command)
-    again = one(talk.hear(ANSWER_S, lambda said: said.name == "ANSWER"), "ANSWER")
+    again = one(talk.hear(ANSWER_S, lambda seen: seen.name == "ANSWER"), "ANSWER")
     expect(order.frame == again.frame, "a COMMAND that comes again gets another ANSWER")
     _expect_held(talk, crc32(command.data[1:], held))
 
@@ -182,11 +192,11 @@ def _begun(talk: Talk) -> int:
     return _carried_out(talk, 0, Opcode.START, lockstep=1, seed=7)
 
 
-def _expect_held(talk: Talk, told: int, *, owned: bool = True) -> None:
-    said = talk.report()
-    cells = bytes(said[f"cell_{cell}"] for cell in range(CELL_COUNT))
-    wanted = (told if owned else crc32(cells, told)) & 0xFFFF
-    expect(said["held"] == wanted, f"held is 0x{said['held']:04X}, not 0x{wanted:04X}")
+def _expect_held(talk: Talk, commands_crc: int, *, owned: bool = True) -> None:
+    seen = talk.report()
+    cells = bytes(seen[f"cell_{cell}"] for cell in range(CELL_COUNT))
+    wanted = (commands_crc if owned else crc32(cells, commands_crc)) & 0xFFFF
+    expect(seen["held"] == wanted, f"held is 0x{seen['held']:04X}, not 0x{wanted:04X}")
 
 
 @sentence("H1")
@@ -233,10 +243,10 @@ def _held_covers_senses_for_a_tick_that_had_others(talk: Talk) -> None:
 @sentence("H7")
 def _the_answer_to_a_stop_has_it_whole(talk: Talk) -> None:
     held = _carried_out(talk, _begun(talk), Opcode.FREEZE, freeze=1)
-    said = talk.result(Opcode.STOP).signals
-    expect(said["value"] == held, f"the answer to stop has 0x{said['value']:08X}, not 0x{held:08X}")
+    seen = talk.result(Opcode.STOP).signals
+    expect(seen["value"] == held, f"the answer to stop has 0x{seen['value']:08X}, not 0x{held:08X}")
     opcodes = Opcode.START + Opcode.FREEZE
-    expect(said["which"] == opcodes, f"the answer to stop has the sum {said['which']}, not {opcodes}")
+    expect(seen["which"] == opcodes, f"the answer to stop has the sum {seen['which']}, not {opcodes}")
 
 
 _NONE = bytes(8)
@@ -272,9 +282,9 @@ def _held_leaves_out_senses_on_its_own_clock(talk: Talk) -> None:
 def _a_memory_that_changes_is_told(talk: Talk) -> None:
     talk.drive_once()
     heard = talk.command(Opcode.WRITE, half=1, mask=15, byte_0=1, byte_1=2, byte_2=1, byte_3=2) + talk.step()
-    memories = [said.signals for said in heard if said.name == "MEMORY" and said.signals]
+    memories = [seen.signals for seen in heard if seen.name == "MEMORY" and seen.signals]
     halves = [memory["half"] for memory in memories]
     expect(sorted(halves[:2]) == [0, 1], f"after write come the halves {halves} of MEMORY")
-    told = next(memory for memory in memories if memory["half"] == 1)
-    cells = [told[f"cell_{cell}"] for cell in range(4, 8)]
+    upper = next(memory for memory in memories if memory["half"] == 1)
+    cells = [upper[f"cell_{cell}"] for cell in range(4, 8)]
     expect(cells == [1, 2, 1, 2], f"written were 1, 2, 1, 2; MEMORY has {cells}")

@@ -3,8 +3,7 @@
 from itertools import pairwise
 from statistics import median
 
-from host_sim.lab.check.registry import sentence, unhurried
-from host_sim.lab.check.talk import Said, Talk, expect, one
+from host_sim.lab.check.talk import SeenFrame, Talk, expect, one, sentence, without_silence
 from host_sim.protocol.generated import TICK_SPAN, Opcode, Reason, Result
 
 _SILENCE_S, _LATE_S = 0.1, 0.08
@@ -15,12 +14,12 @@ _LONG_S = 1.3
 """A second, with tolerance for a busy machine, s."""
 
 
-def _is_silence(said: Said) -> bool:
-    return said.name == "DRIVE" and said.signals.get("reason") == Reason.SILENCE
+def _is_silence(seen: SeenFrame) -> bool:
+    return seen.name == "DRIVE" and seen.signals.get("reason") == Reason.SILENCE
 
 
-def _silences(talk: Talk, span_s: float) -> list[Said]:
-    return [said for said in talk.hear(span_s) if _is_silence(said)]
+def _silences(talk: Talk, span_s: float) -> list[SeenFrame]:
+    return [seen for seen in talk.hear(span_s) if _is_silence(seen)]
 
 
 def _started(talk: Talk, lockstep: int = 0) -> None:
@@ -31,12 +30,12 @@ def _started(talk: Talk, lockstep: int = 0) -> None:
         for _ in range(3):
             talk.drive()
 
-    unhurried(talk, attempt)
+    without_silence(talk, attempt)
 
 
 def _sent_s(talk: Talk) -> float:
     """Time at which the last senses were sent, s."""
-    return next(said.at_s for said in reversed(talk.said) if said.name == "SENSES")
+    return next(seen.at_s for seen in reversed(talk.frames) if seen.name == "SENSES")
 
 
 @sentence("S1")
@@ -56,7 +55,7 @@ def _silence_stops_the_wheels(talk: Talk) -> None:
 @sentence("S2")
 def _silence_is_said_every_100_ms(talk: Talk) -> None:
     _started(talk)
-    at_s = [said.at_s for said in _silences(talk, _LONG_S)]
+    at_s = [seen.at_s for seen in _silences(talk, _LONG_S)]
     gaps = [later - sooner for sooner, later in pairwise(at_s)]
     usual_s = median(gaps) if gaps else 0.0
     expect(abs(usual_s - _SILENCE_S) < _EVEN_S, f"{len(at_s)} DRIVEs of silence come, every {1000 * usual_s:.0f} ms")
@@ -72,7 +71,7 @@ def _silence_is_said_when_stopped(talk: Talk) -> None:
 def _silence_has_a_heartbeat(talk: Talk) -> None:
     _started(talk)
     heard = talk.hear(2 * _LONG_S)
-    at_s = [said.at_s for said in heard if said.name == "HEARTBEAT" and said.signals.get("silent")]
+    at_s = [seen.at_s for seen in heard if seen.name == "HEARTBEAT" and seen.signals.get("silent")]
     gaps = [later - sooner for sooner, later in pairwise(at_s)]
     is_even = bool(gaps) and all(2 - _LONG_S <= gap <= _LONG_S for gap in gaps)
     expect(is_even, f"HEARTBEATs with silent come {', '.join(f'{at:.2f}' for at in at_s) or 'never'} (s)")
@@ -85,8 +84,8 @@ def _it_goes_on_after_silence(talk: Talk) -> None:
     talk.hear(3 * _SILENCE_S)
     drive = talk.drive(ahead=40)
     expect(drive.signals["tick"] == talk.tick % TICK_SPAN, "after silence, SENSES of another tick get no DRIVE")
-    told = talk.report()
-    cells = [told[f"cell_{cell}"] for cell in range(4, 8)]
+    report = talk.report()
+    cells = [report[f"cell_{cell}"] for cell in range(4, 8)]
     expect(cells == [1, 2, 1, 2], f"after silence the memory is another: {cells}")
 
 
@@ -99,7 +98,7 @@ def _of_queued_senses_the_newest_are_used(talk: Talk) -> None:
     for ahead in (1, 2, 3):
         talk.send(talk.senses(talk.tick + ahead))
     talk.tick += 3
-    ticks = [said.signals["tick"] for said in talk.hear(5 * _SILENCE_S) if said.is_answer]
+    ticks = [seen.signals["tick"] for seen in talk.hear(5 * _SILENCE_S) if seen.is_answer]
     stale = talk.report()["stale"] - before["stale"]
     expect((ticks, stale) == ([talk.tick], 2), f"of three SENSES that queued up, those answered have ticks {ticks}")
 

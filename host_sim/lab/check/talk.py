@@ -1,6 +1,6 @@
-"""A talk with a robot that may be faulty: all frames are kept, and decoded whatever their CRC and counters."""
+"""A talk with a robot that may be faulty: all frames are kept, whatever their CRC; and the registry of checks."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple, NoReturn
 
@@ -10,12 +10,12 @@ from host_sim.protocol.generated import (
     ODOMETER_COUNTS_PER_MM,
     ODOMETER_SPAN,
     TICK_SPAN,
+    Fault,
     Opcode,
     Reason,
     Senses,
 )
-from host_sim.transport.clock import Clock
-from host_sim.transport.link import Frame, Link
+from host_sim.transport.link import Clock, Frame, Link
 
 ANSWER_S = 0.9
 """Maximum time of an answer, even on a busy machine; after a second, a HEARTBEAT may come unrequested."""
@@ -25,10 +25,10 @@ _LAYOUTS = {name: MessageLayout(message) for name, message in MESSAGES.items()}
 
 
 class BrokenError(Exception):
-    """The robot breaks a sentence; the message says what it does instead."""
+    """The robot breaks a sentence of the protocol; the message says what it did."""
 
 
-class Said(NamedTuple):
+class SeenFrame(NamedTuple):
     """A frame of the talk.
 
     Attributes:
@@ -51,7 +51,7 @@ class Said(NamedTuple):
         return self.name == "DRIVE" and self.signals.get("reason", Reason.SILENCE) != Reason.SILENCE
 
 
-class Told(dict[str, int]):
+class ReportedValues(dict[str, int]):
     """Reported values by signal; a signal missing from all reports is the robot's fault."""
 
     def __missing__(self, name: str) -> NoReturn:
@@ -67,14 +67,14 @@ class Talk:
         clock: The clock of the talk.
         protocol: The protocol of its node.
         hang: Suspends the robot for some ms, unnoticed by it; None if impossible.
-        said: All frames so far.
+        frames: All frames so far, of both sides.
     """
 
     link: Link
     clock: Clock
     protocol: Protocol = field(default_factory=Protocol)
     hang: Callable[[int], None] | None = None
-    said: list[Said] = field(default_factory=list)
+    frames: list[SeenFrame] = field(default_factory=list)
     tick: int = -1
     counter: int = 0
     _odometers: list[int] = field(default_factory=lambda: [0, 0])
@@ -84,28 +84,28 @@ class Talk:
 
     def send(self, frame: Frame) -> Frame:
         """Sends any frame."""
-        self.said.append(self._read(frame, by_robot=False))
+        self.frames.append(self._read(frame, by_robot=False))
         self.link.send(frame)
         return frame
 
-    def hear(self, span_s: float, until: Callable[[Said], bool] = lambda _: False) -> list[Said]:
+    def hear(self, span_s: float, until: Callable[[SeenFrame], bool] = lambda _: False) -> list[SeenFrame]:
         """Frames of the robot within a span, or up to and including the first for which `until` is true."""
-        end, first = self.clock.now() + span_s, len(self.said)
+        end, first = self.clock.now() + span_s, len(self.frames)
         while (left_s := end - self.clock.now()) >= 0:
             frame = self.clock.receive(self.link, left_s)
             if frame is None:
                 break
-            self.said.append(self._read(frame))
-            if until(self.said[-1]):
+            self.frames.append(self._read(frame))
+            if until(self.frames[-1]):
                 break
-        return self.said[first:]
+        return self.frames[first:]
 
-    def command(self, opcode: int, owner: int = 1, ahead: int = 1, **signals: int) -> list[Said]:
+    def command(self, opcode: int, owner: int = 1, ahead: int = 1, **signals: int) -> list[SeenFrame]:
         """Sends a command with the next counter; returns the robot's frames up to its ANSWER."""
         self.counter = (self.counter + ahead) % COUNTERS
         self._hear_before()
         self.send(self.order(opcode, owner=owner, **signals))
-        return self.hear(ANSWER_S, lambda said: said.name == "ANSWER")
+        return self.hear(ANSWER_S, lambda seen: seen.name == "ANSWER")
 
     def _hear_before(self) -> None:
         """Receives unrequested frames such as HEARTBEAT, lest they be taken for answers to the next command."""
@@ -113,14 +113,14 @@ class Talk:
             frame = self.clock.receive(self.link, 0.0)
             if frame is None:
                 break
-            self.said.append(self._read(frame))
+            self.frames.append(self._read(frame))
 
     def order(self, opcode: int, **signals: int) -> Frame:
         """The frame of a command."""
         fields = {signal.name: 0 for signal in MESSAGES["COMMAND"].signals}
         return self.protocol.encode("COMMAND", {**fields, "counter": self.counter, "opcode": opcode, **signals})
 
-    def result(self, opcode: int, owner: int = 1, **signals: int) -> Said:
+    def result(self, opcode: int, owner: int = 1, **signals: int) -> SeenFrame:
         """Sends a command; returns its ANSWER.
 
         Raises:
@@ -138,9 +138,9 @@ class Talk:
         self.start(lockstep=lockstep, owner=owner)
         self.drive()
 
-    def stop(self, owner: int = 1) -> list[Said]:
+    def stop(self, owner: int = 1) -> list[SeenFrame]:
         """Stops the robot; returns its frames up to its DRIVE."""
-        return [*self.command(Opcode.STOP, owner), *self.hear(ANSWER_S, lambda said: said.is_answer)]
+        return [*self.command(Opcode.STOP, owner), *self.hear(ANSWER_S, lambda seen: seen.is_answer)]
 
     def report(self, owner: int = 1) -> dict[str, int]:
         """Requests all reports of the robot; returns their values by signal.
@@ -148,27 +148,27 @@ class Talk:
         Raises:
             BrokenError: The robot does not answer.
         """
-        said = self.command(Opcode.REPORT, owner) + self.hear(ANSWER_S, lambda said: said.name == "HEALTH")
-        one(said, "HEALTH")
-        return Told({name: value for each in said for name, value in each.signals.items()})
+        seen = self.command(Opcode.REPORT, owner) + self.hear(ANSWER_S, lambda seen: seen.name == "HEALTH")
+        one(seen, "HEALTH")
+        return ReportedValues({name: value for each in seen for name, value in each.signals.items()})
 
     def senses(self, tick: int, feel: int = 0) -> Frame:
         """The senses of a tick, of a body whose wheels have followed the last drive."""
         known = Senses(tick % TICK_SPAN, feel, False, False, 0, *self._odometers)
         return self.protocol.encode_senses(known, tick % COUNTERS)
 
-    def step(self, ahead: int = 1, feel: int = 0) -> list[Said]:
+    def step(self, ahead: int = 1, feel: int = 0) -> list[SeenFrame]:
         """Sends the senses of a coming tick; returns the robot's frames up to its DRIVE."""
         self.tick += ahead
         self.send(self.senses(self.tick, feel))
-        heard = self.hear(ANSWER_S, lambda said: said.is_answer)
+        heard = self.hear(ANSWER_S, lambda seen: seen.is_answer)
         for drive in heard[-1:]:
             for i, side in enumerate(("left", "right")):
                 rolled = round(drive.signals.get(side, 0) * _TICK_S * ODOMETER_COUNTS_PER_MM)
                 self._odometers[i] = (self._odometers[i] + rolled) % ODOMETER_SPAN
         return heard
 
-    def drive(self, ahead: int = 1, feel: int = 0) -> Said:
+    def drive(self, ahead: int = 1, feel: int = 0) -> SeenFrame:
         """As `step`, but returns the DRIVE.
 
         Raises:
@@ -178,18 +178,18 @@ class Talk:
 
     def lines(self, last: int) -> Iterator[str]:
         """The last frames, for people."""
-        for said in self.said[-last:]:
-            way = "robot" if said.by_robot else "     "
-            yield f"{said.at_s - self.said[0].at_s:8.3f} s {way} {self.protocol.describe(said.frame)}"
+        for seen in self.frames[-last:]:
+            way = "robot" if seen.by_robot else "     "
+            yield f"{seen.at_s - self.frames[0].at_s:8.3f} s {way} {self.protocol.describe(seen.frame)}"
 
-    def _read(self, frame: Frame, *, by_robot: bool = True) -> Said:
+    def _read(self, frame: Frame, *, by_robot: bool = True) -> SeenFrame:
         name = self._names.get(frame.id, "")
         is_whole = bool(name) and len(frame.data) == MESSAGES[name].length
         signals = _LAYOUTS[name].unpack(frame.data) if is_whole else {}
-        return Said(self.clock.now(), frame, name, signals, by_robot)
+        return SeenFrame(self.clock.now(), frame, name, signals, by_robot)
 
 
-def answering(heard: list[Said], what: str) -> Said:
+def answering(heard: list[SeenFrame], what: str) -> SeenFrame:
     """Finds the DRIVE that answers senses.
 
     Raises:
@@ -199,15 +199,15 @@ def answering(heard: list[Said], what: str) -> Said:
     return heard[-1]
 
 
-def one(heard: list[Said], name: str) -> Said:
+def one(heard: list[SeenFrame], name: str) -> SeenFrame:
     """Finds the last frame of a message.
 
     Raises:
         BrokenError: There is none.
     """
-    for said in reversed(heard):
-        if said.name == name and said.signals:
-            return said
+    for seen in reversed(heard):
+        if seen.name == name and seen.signals:
+            return seen
     raise BrokenError(f"no {name} came")
 
 
@@ -219,3 +219,60 @@ def expect(is_so: bool, otherwise: str) -> None:
     """
     if not is_so:
         raise BrokenError(otherwise)
+
+
+Check = Callable[[Talk], None]
+
+CHECKS: dict[str, Check] = {}
+"""The checks by sentence number. Each gets a robot that was just powered up and has answered a first command."""
+
+SECOND = 50
+"""Ticks in a second."""
+
+AT_ONCE_S = 0.05
+"""Time after which a frame counts as missing, s; after a longer time, a robot on its own clock reports silence."""
+
+REPORTS = ("HEARTBEAT", "BOOT", "MEMORY", "FAULTS", "HEALTH")
+"""The messages of a whole report."""
+
+_TRIES = 20
+
+
+def sentence(number: str) -> Callable[[Check], Check]:
+    """Registers a check."""
+
+    def note(check: Check) -> Check:
+        CHECKS[number] = check
+        return check
+
+    return note
+
+
+def without_silence(talk: Talk, attempt: Check) -> None:
+    """Makes an attempt in which no silence may occur; repeats it if this computer was so slow that one did.
+
+    Raises:
+        BrokenError: The attempt fails, or silence occurred each time.
+    """
+    for _ in range(_TRIES):
+        first = len(talk.frames)
+        broken = None
+        try:
+            attempt(talk)
+        except BrokenError as error:
+            broken = error
+        if not any(_heard_silence(seen.signals) for seen in talk.frames[first:]):
+            if broken is not None:
+                raise broken
+            return
+    raise BrokenError("it heard silence at once, however soon the next SENSES came")
+
+
+def _heard_silence(signals: Mapping[str, int]) -> bool:
+    """Whether a robot reports silence: in a DRIVE, or in an EMERGENCY after the next SENSES."""
+    return signals.get("reason") == Reason.SILENCE or bool(signals.get("kinds", 0) >> Fault.SILENCE & 1)
+
+
+def damaged(frame: Frame) -> Frame:
+    """A copy of a frame with a wrong CRC."""
+    return Frame(frame.id, bytes([frame.data[0] ^ 0xFF]) + frame.data[1:])

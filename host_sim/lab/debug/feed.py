@@ -1,4 +1,4 @@
-"""What one robot heard in a log, as the file that `octet-debug` hands to the firmware."""
+"""The frames that one robot received in a log, as the input file of `octet-debug`."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -18,11 +18,11 @@ _OUTAGE = "0 - -"
 
 @dataclass
 class Heard:
-    """A frame that the robot heard.
+    """A frame that the robot received.
 
     Attributes:
-        tick: The tick that it belongs to, or that comes next, as on the page.
-        time_us: Its time in the log.
+        tick: Number of the tick that it belongs to, or of the next one, as on the page.
+        time_us: Its time in the log, us.
         frame: The frame; None is an outage.
         drive: For SENSES: the DRIVE with which the robot answered, if any.
     """
@@ -43,8 +43,8 @@ class Heard:
 class Feed:
     """The frames that one robot heard, in order.
 
-    Of a run in real time, a log does not tell which senses the robot heard; as in `replay`, they are chosen such that
-    they explain its drives.
+    The log of a run in real time does not say which senses the robot received; as in `replay`, those are taken that
+    explain its drives.
 
     Attributes:
         heard: The frames.
@@ -122,29 +122,29 @@ class Feed:
         return decoded.signals["tick"] if decoded else -1
 
     def _read_real_time(self, lines: list[Recorded]) -> list[Heard]:
-        told = {id(it.frame): it for it in self._ticks(lines)}
+        numbered = {id(it.frame): it for it in self._ticks(lines)}
         hearing, heard = _Hearing(self._log, self._protocol, self._own), [Heard(0, 0, None)]
         for frame in hearing.follow(lines):
             last = heard[-1]
-            heard.append(Heard(last.tick, last.time_us, None) if frame is None else told[id(frame)])
+            heard.append(Heard(last.tick, last.time_us, None) if frame is None else numbered[id(frame)])
         return heard[1:]
 
 
 class _Hearing(Comparison):
-    """Notes what the firmware is told."""
+    """Records the frames that the firmware receives."""
 
     def follow(self, lines: Iterable[Recorded]) -> list[Frame | None]:
         """The frames that the robot heard, up to the first difference, and all that were sent to it after that."""
-        self._told: list[Frame | None] = []
+        self._received: list[Frame | None] = []
         for time_us, frame in lines:
             if frame.id in MEMORY_IDS:
                 self.feed(frame)
             else:
                 self.accept(Recorded(time_us, frame))
-        return self._told + self.heard()
+        return self._received + self.heard()
 
     def feed(self, frame: Frame) -> None:
         """As in `Comparison`."""
         if self._lockstep:
-            self._told += [*self.heard(), frame]
+            self._received += [*self.heard(), frame]
         super().feed(frame)

@@ -1,7 +1,7 @@
 """One attempt at an exercise: `python -m host_sim.lab.grade.attempt NUMBER SEED FILE [PAGE]`, a process with limits.
 
 It prints the verdict as JSON, and writes PAGE if there is a wrong decision. The file is compiled, and drives robots
-in several worlds. Between it and its guard stands a judge (`native/judge.c`), which tells the first wrong decision.
+in several worlds. A judge (`native/judge.c`), linked in front of it, reports the first wrong decision.
 """
 
 import json
@@ -17,6 +17,7 @@ from pathlib import Path
 
 from host_sim.base.errors import BrainError, OctetError
 from host_sim.base.paths import BUILD
+from host_sim.cli.own_source import log_words
 from host_sim.client.frame_log import FrameLog
 from host_sim.recording.resimulation import resimulate
 from host_sim.recording.world_file import world_path, write_world
@@ -41,14 +42,14 @@ TITLES = {
 _JUDGE = BUILD / "host/host_sim/lab/grade/native/CMakeFiles/octet_judge.dir/judge.c.o"
 _LAST_JUDGED = 7
 _CPU_S, _FILE_BYTES, _FILES, _COMPILER_BYTES = 40, 20_000_000, 64, 4_000_000_000
-_OTHERS = {"turn_deg": 17, "trial_deg": 31, "step_mm": 15, "boredom_limit": 4, "boredom_min_deg": 100}
-_CONTESTS = 8
+_SETTINGS = {"turn_deg": 17, "trial_deg": 31, "step_mm": 15, "boredom_limit": 4, "boredom_min_deg": 100}
+_RUNS = 8
 _SEEDS = 2**31
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is said of an attempt.
+    """The verdict on an attempt.
 
     Attributes:
         status: `pass`; `fail` for a wrong decision or a mistake that ended the run; `error` for a file that is no
@@ -94,7 +95,9 @@ class _Attempt(RunConfig):
 def _runs(profile: str, seed: int) -> Iterator[RunConfig]:
     """The runs that are judged: the second one has other parameters, and a world in which robots get stuck."""
     yield _Attempt(profile=profile, seed=seed, environments=3, limit_s=120.0)
-    yield _Attempt(profile=profile, seed=seed + 1, environments=3, limit_s=120.0, settings=_OTHERS, world="dead-ends")
+    yield _Attempt(
+        profile=profile, seed=seed + 1, environments=3, limit_s=120.0, settings=_SETTINGS, world="dead-ends"
+    )
 
 
 def attempt(number: int, seed: int, file: Path, page: Path | None = None) -> Verdict:
@@ -142,17 +145,17 @@ def _drive(config: RunConfig, page: Path | None = None) -> tuple[int, float]:
             simulation.clients[0].connection.status()
         except BrainError as mistake:
             if page and log and mistake.tick is not None:
-                _write_page(page, log, simulation.record, mistake.tick)
+                log.close()
+                _write_page(page, simulation.record, config, mistake.tick)
             raise
     return sum(sum(it.eaten) for it in episodes), sum(it.robot_s for it in episodes)
 
 
-def _write_page(page: Path, log: FrameLog, record: WorldRecord, tick: int) -> None:
-    log.close()
+def _write_page(page: Path, record: WorldRecord, config: RunConfig, tick: int) -> None:
     path = page.with_suffix(".log")
     write_world(record, world_path(path))
     run = resimulate(path)
-    write_page(page, run.trajectory, run.title, shown=tick)
+    write_page(page, run.trajectory, run.title, shown=tick, log=log_words(path, config.profile))
 
 
 def _contest(file: Path, seed: int) -> Verdict:
@@ -160,12 +163,12 @@ def _contest(file: Path, seed: int) -> Verdict:
     rehearse(RunConfig(profile=os.fspath(file), seed=seed))
     food, time_s = {}, {}
     for profile, fast in ((os.fspath(file), True), ("adaptive", False)):
-        configs = [RunConfig(profile=profile, fast=fast, seed=seed + it, environments=3) for it in range(_CONTESTS)]
+        configs = [RunConfig(profile=profile, fast=fast, seed=seed + it, environments=3) for it in range(_RUNS)]
         results = [_drive(config) for config in configs]
         food[fast], time_s[fast] = (sum(column) for column in zip(*results, strict=True))
-    said = f"{food[True]} pieces of food in {time_s[True]:.0f} s; adaptive {food[False]} in {time_s[False]:.0f} s"
+    score = f"{food[True]} pieces of food in {time_s[True]:.0f} s; adaptive {food[False]} in {time_s[False]:.0f} s"
     is_better = (food[True], -time_s[True]) > (food[False], -time_s[False])
-    return Verdict("pass" if is_better else "fail", said)
+    return Verdict("pass" if is_better else "fail", score)
 
 
 def main() -> int:

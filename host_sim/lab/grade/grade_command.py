@@ -1,7 +1,6 @@
 """`tools/octet grade`: judges behaviours in C files as solutions of an exercise."""
 
 import argparse
-import shlex
 import sys
 import webbrowser
 from collections.abc import Sequence
@@ -11,6 +10,8 @@ from typing import TYPE_CHECKING
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import as_called
 from host_sim.base.system import has_screen
+from host_sim.base.terminal import GREEN, RED, coloured
+from host_sim.cli.own_source import log_words
 from host_sim.cli.parsing import Subparsers, add_command, check_outputs, file_path, number
 
 if TYPE_CHECKING:
@@ -70,9 +71,9 @@ def _grade(arguments: argparse.Namespace) -> int:
     if not grading.network_is_off():
         sys.stderr.write("octet: this system does not let solutions run without network (unshare --net)\n")
     grades = grading.grade(arguments.exercise, arguments.seed, files, *[_PAGE] * arguments.page)
-    for file, status, said in grading.rows_of(grades):
-        right = {"pass": "right", "fail": "wrong", "error": "no solution"}[status]
-        print(f"{file}: {right}{f': {said}' if said else ''}")
+    for file, status, message in grading.rows_of(grades):
+        words = {"pass": ("right", GREEN), "fail": ("wrong", RED), "error": ("no solution", RED)}[status]
+        print(f"{file}: {coloured(*words, sys.stdout)}{f': {message}' if message else ''}")
     if arguments.page:
         _open(grades[0])
     _write(arguments, grades)
@@ -94,9 +95,7 @@ def _open(grade: "Grade") -> None:
     """Opens the page of a wrong decision, and names the debugger's command for it."""
     if grade.verdict.tick is None:
         return
-    where = shlex.join(
-        [str(_PAGE.with_suffix(".log")), "--tick", str(grade.verdict.tick), "--profile", str(grade.file)]
-    )
+    where = f"{log_words(_PAGE.with_suffix('.log'), grade.file)} --tick {grade.verdict.tick}"
     print(as_called(f"  page      {_PAGE}\n  debugger  tools/octet debug {where}"))
     if has_screen() and sys.stdout.isatty():
         webbrowser.open(_PAGE.resolve().as_uri())

@@ -17,6 +17,7 @@ from pathlib import Path
 from host_sim.base.errors import UsageError
 from host_sim.base.files import write_bytes
 from host_sim.base.result_files import Case, write_results
+from host_sim.base.terminal import counted
 from host_sim.lab.grade.attempt import TITLES, Verdict
 
 _WALL_S = 120.0
@@ -32,7 +33,7 @@ class Grade:
 
     Attributes:
         file: The file.
-        verdict: What is said of it.
+        verdict: The verdict on it.
         copies: The other files that are equal to it but for names, comments and spaces.
     """
 
@@ -56,7 +57,8 @@ _NO_NETWORK = ("unshare", "--net", "--map-root-user")
 def grade(number: int, seed: int, files: Sequence[Path], *page: Path) -> list[Grade]:
     """Grades files, several at once; with a page as `attempt` writes it, if there is one file."""
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        verdicts = list(pool.map(lambda file: _judged(number, seed, file, *page), files))
+        judged = pool.map(lambda file: _judged(number, seed, file, *page), files)
+        verdicts = list(counted(judged, len(files), "solutions"))
     skeletons = [_skeleton(file) for file in files]
     copies = [
         tuple(str(it) for it, other in zip(files, skeletons, strict=True) if other == skeleton and it != file)
@@ -106,12 +108,12 @@ def files_of(paths: Sequence[Path]) -> list[Path]:
 
 
 def rows_of(grades: Sequence[Grade]) -> list[tuple[str, str, str]]:
-    """A row for each file: its path, the status, and what is said."""
-    said = ["; ".join(filter(None, [it.verdict.message, _told_copies(it)])) for it in grades]
-    return [(str(it.file), it.verdict.status, text) for it, text in zip(grades, said, strict=True)]
+    """A row for each file: path, status and message."""
+    messages = ["; ".join(filter(None, [it.verdict.message, _copies_note(it)])) for it in grades]
+    return [(str(it.file), it.verdict.status, text) for it, text in zip(grades, messages, strict=True)]
 
 
-def _told_copies(it: Grade) -> str:
+def _copies_note(it: Grade) -> str:
     return f"the same but for names and comments: {', '.join(it.copies)}" if it.copies else ""
 
 

@@ -4,8 +4,8 @@
 .venv/bin/python -m host_sim.lab.gymnasium_envs.board searcher mine.py   these: a profile, and a policy of your own
 
 A policy is a Python file with `begin(arenas)`, which returns a function from observations, shape (arenas, 7), to
-actions, shape (arenas,). Its `KEEPS` says what it keeps, such as "8 bytes", its `ACTIONS` how many actions it was
-trained with.
+actions, shape (arenas,). Its `KEEPS` is the size of its data, such as "8 bytes"; its `ACTIONS` is the number of
+actions that it was trained with.
 """
 
 import argparse
@@ -49,9 +49,9 @@ class Row(NamedTuple):
     """One row of the board.
 
     Attributes:
-        who: What played.
+        who: The profile, learner or policy.
         food: Pieces of food eaten in each arena.
-        keeps: What it keeps beside its program.
+        keeps: The data that it keeps besides its program.
         actions: Number of actions that it was trained with.
     """
 
@@ -68,8 +68,8 @@ class Row(NamedTuple):
 
 def read_board(path: Path = BOARD) -> tuple[Arenas, list[str]]:
     """The board's arenas, and the profiles on it; the file is a study's, too."""
-    told = read_toml(path, "a board").content
-    return Arenas(told["first_seed"], told["seeds"], float(told["limit_s"])), list(told["profiles"])
+    content = read_toml(path, "a board").content
+    return Arenas(content["first_seed"], content["seeds"], float(content["limit_s"])), list(content["profiles"])
 
 
 def food_of_profile(profile: str, arenas: Arenas) -> NDArray[np.int64]:
@@ -134,7 +134,7 @@ _LEARNERS = {"q-table": _of_q_table, "ppo": _of_ppo}
 
 
 def players_of(words: list[str]) -> Iterator[Callable[[Arenas], Row]]:
-    """What the words name: profiles, the learners of this folder, and files with a policy.
+    """Yields the players that words name: profiles, the learners of this folder, and files with a policy.
 
     Raises:
         UsageError: A word names nothing.

@@ -9,10 +9,50 @@ from typing import Any, NamedTuple
 
 import gymnasium
 import numpy as np
+from gymnasium import spaces
 from numpy.typing import NDArray
 
 import host_sim.lab.gymnasium_envs  # noqa: F401 - names the environments
-from host_sim.lab.gymnasium_envs.scaled import scaled
+
+_CONES, _FAR_MM = 5, 5000.0  # the diagonal of the arena
+
+
+class ScaledSenses(gymnasium.ObservationWrapper[Any, Any, Any], gymnasium.utils.RecordConstructorArgs):
+    """Makes the observation a `Box` of eight float32 from 0 to 1, without clock and odometers, which wrap.
+
+    | index | meaning                                                                            |
+    | ----- | ---------------------------------------------------------------------------------- |
+    | 0..4  | proximity: right, front-right, front, front-left, left                             |
+    | 5     | the body touches something                                                         |
+    | 6     | food is seen straight ahead                                                        |
+    | 7     | how near that food is: 1 at the body's centre, 0 from five metres on, or if none is |
+
+    >>> import gymnasium
+    >>> env = ScaledSenses(gymnasium.make("octet_robot:octet/Arena-v0"))
+    >>> senses, info = env.reset(seed=1)
+    >>> senses in env.observation_space, senses.shape
+    (True, (8,))
+    """
+
+    def __init__(self, env: gymnasium.Env[Any, Any]) -> None:
+        """Wraps an `ArenaEnv`."""
+        gymnasium.utils.RecordConstructorArgs.__init__(self)
+        gymnasium.ObservationWrapper.__init__(self, env)
+        self.observation_space = spaces.Box(0.0, 1.0, (_CONES + 3,), np.float32)
+
+    def observation(self, observation: NDArray[np.int32]) -> NDArray[np.float32]:
+        """Returns `scaled(observation)`."""
+        return scaled(observation)
+
+
+def scaled(senses: NDArray[np.int32]) -> NDArray[np.float32]:
+    """Scales observations of any shape (..., 7), such as those of a vector environment."""
+    cones = senses[..., 1:2] >> np.arange(_CONES) & 1
+    seen = senses[..., 3:4]
+    near = seen * np.clip(1 - senses[..., 4:5] / _FAR_MM, 0, 1)
+    parts: NDArray[np.float64] = np.concatenate([cones, senses[..., 2:3], seen, near], -1)
+    return parts.astype(np.float32)
+
 
 Floats = NDArray[np.float64]
 
@@ -44,7 +84,15 @@ class Network:
         self._updates = 0
 
     def forward(self, seen: Floats) -> tuple[list[Floats], Floats, Floats]:
-        """The inputs of each layer, the logarithms of the actions' probabilities, and the values."""
+        """Computes the outputs for observations.
+
+        Args:
+            seen: Shape (rows, 14), as `inputs_of` returns it.
+
+        Returns:
+            The inputs of each layer, the log-probabilities of the actions, shape (rows, 6), and the values, shape
+            (rows,).
+        """
         inputs = [_with_one(seen)]
         for layer in self.layers[:-1]:
             inputs.append(_with_one(np.tanh(inputs[-1] @ layer)))
@@ -53,7 +101,7 @@ class Network:
         return inputs, scores - np.log(np.exp(scores).sum(-1, keepdims=True)), out[:, _ACTIONS]
 
     def gradients(self, inputs: list[Floats], of_out: Floats) -> list[Floats]:
-        """The gradient of each layer's weights, given that of the outputs."""
+        """Backpropagation: the gradient of each layer's weights, given that of the outputs, shape (rows, 7)."""
         found, back = [], of_out
         for layer, its_inputs in zip(reversed(self.layers), reversed(inputs), strict=True):
             found.append(its_inputs.T @ back)
@@ -100,7 +148,7 @@ class Training:
     """
 
     def __init__(self, seed: int, arenas: int = ARENAS) -> None:
-        """Begins."""
+        """Creates the network and the arenas, and resets these."""
         self._draws = np.random.default_rng(seed)
         self._env: Any = gymnasium.make_vec("octet/Arena-v0", num_envs=arenas, limit_s=SECONDS)
         self.network, self.samples = Network(self._draws), 0
@@ -151,24 +199,24 @@ class Training:
         found, advantage = np.zeros_like(it.values), np.zeros(len(after))
         for step in reversed(range(_ROLLOUT)):
             discount = _DISCOUNT_A_SECOND ** it.seconds[step] * it.goes_on[step]
-            surprise = it.rewards[step] + discount * after - it.values[step]
-            advantage = np.where(it.counts[step], surprise + discount * _TRACE * advantage, 0.0)
+            td_error = it.rewards[step] + discount * after - it.values[step]
+            advantage = np.where(it.counts[step], td_error + discount * _TRACE * advantage, 0.0)
             found[step], after = advantage, it.values[step]
         return found
 
 
 def inputs_of(senses: NDArray[np.int32], last: NDArray[np.int64]) -> Floats:
-    """What the network sees: the scaled senses, and which action was the last one."""
+    """The network's inputs, shape (rows, 14): the scaled senses, and the last action one-hot."""
     return np.hstack([scaled(senses).astype(np.float64), np.eye(_ACTIONS)[last]])
 
 
 def drawn(log_p: Floats, draws: np.random.Generator) -> NDArray[np.int64]:
-    """Draws an action for each row, by the logarithms of their probabilities."""
+    """Draws an action for each row of log-probabilities, shape (rows, 6). Returns shape (rows,)."""
     return np.asarray((log_p + draws.gumbel(size=log_p.shape)).argmax(-1))
 
 
 def policy(network: Network, seed: int, arenas: int) -> Callable[[NDArray[np.int32]], NDArray[np.int64]]:
-    """What a trained network does in new arenas: for each observation an action, drawn as in training."""
+    """The policy of a trained network for a number of arenas; actions are drawn as in training."""
     draws, last = np.random.default_rng(seed), np.zeros(arenas, np.int64)
 
     def act(senses: NDArray[np.int32]) -> NDArray[np.int64]:

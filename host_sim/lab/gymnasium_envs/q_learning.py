@@ -20,6 +20,7 @@ from host_sim.sim.fleet import run_fleet
 from host_sim.sim.run_config import RunConfig
 
 STEPS, ARENAS, SECONDS = 8000, 200, 60.0
+_COLOURS = ("#0072B2", "#D55E00", "#009E73")
 _STATES, _ACTIONS = 16, 6
 _DISCOUNT, _EXPLORES, _CURVE = 0.95, 0.02, 500
 
@@ -75,7 +76,7 @@ def learn(seed: int, steps: int = STEPS) -> Learned:
 
 
 def policy(table: NDArray[np.float64], seed: int, arenas: int) -> Callable[[NDArray[np.int32]], NDArray[np.int64]]:
-    """What a learned table does in new arenas: its best action, or seldom any, as in the end of its training."""
+    """The policy of a learned table for a number of arenas: the best action, or in 2 % of steps a random one."""
     draws, last = np.random.default_rng(seed), np.zeros(arenas, np.int64)
 
     def act(senses: NDArray[np.int32]) -> NDArray[np.int64]:
@@ -100,11 +101,14 @@ def _states(senses: NDArray[np.int32], actions: NDArray[np.int64]) -> NDArray[np
 def _plot(path: Path, learned: list[Learned], firmware: dict[str, float]) -> None:
     figure = library("matplotlib.figure", "study").Figure((8, 4.5), layout="constrained")
     axes = figure.add_subplot(xlabel=f"steps of each of {ARENAS} arenas", ylabel="food in a minute")
+    axes.set_prop_cycle(color=_COLOURS)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.grid(alpha=0.25)
     for seed, each in enumerate(learned, 1):
         axes.plot(*each.curve(), label=f"Q-learning, seed {seed}")
     for (profile, food), style in zip(firmware.items(), ("--", ":"), strict=True):
         axes.axhline(food, color="0.3", linestyle=style, label=f"{profile}, its first minute")
-    axes.legend()
+    axes.legend(frameon=False)
     figure.savefig(path, dpi=100, metadata={"Software": None})
 
 

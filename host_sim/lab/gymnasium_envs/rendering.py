@@ -122,7 +122,7 @@ def frame(worlds: DrivenWorlds, world: int) -> Frame:
         draw_obstacles,
         draw_robot,
     )
-    from host_sim.world.plain_space import CONE_BEARINGS_DEG  # noqa: PLC0415
+    from host_sim.world.native_world import CONE_BEARINGS_DEG  # noqa: PLC0415
 
     arena, params = worlds.arenas[world], SimParams()
     if arena is None:

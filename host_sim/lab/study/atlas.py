@@ -1,8 +1,8 @@
-"""All memories: how a robot fares that has one of them and learns no more.
+"""The result of every memory, for a robot that no longer learns.
 
-Cell 0 is never read, so there are 3^7 of them. A robot asks its memory only at the patterns that it meets, so all
-memories that agree there have the same run. For each seed a tree is searched: a run branches off two others at each
-cell that it was the first to ask. Some 400 runs tell exactly what all 2,187 memories do.
+Cell 0 is never read, so there are 3^7 = 2,187 memories. A robot reads only the cells of the patterns that it meets,
+and all memories that agree in these have the same run. For each seed a tree of runs is searched: for each cell that a
+run is the first to read, two more runs try the other values. About 400 runs give the exact results of all memories.
 """
 
 import itertools
@@ -32,12 +32,12 @@ _PARTS = "[0-9]*.npz"
 
 
 class SeedMap(NamedTuple):
-    """What all memories do in one environment.
+    """The results of all memories in one environment.
 
     Attributes:
-        key: The condition and the seed, as those of a trial.
-        values: For each of `MEMORIES` the number of ticks, whether all food was eaten, and whether a contact took
-            more than 60 s.
+        key: Condition and seed of the trial.
+        values: Shape (memories, 3), in the order of `MEMORIES`: number of ticks, 1 if all food was eaten, and 1 if a
+            contact took more than 60 s.
     """
 
     key: tuple[str, int]
@@ -45,13 +45,13 @@ class SeedMap(NamedTuple):
 
 
 class _Branch(NamedTuple):
-    """A memory to try. It stands for all that agree with it on the first cells that it meets, so many of them."""
+    """A memory to try, for all that agree with it on the first `settled` cells that its run reads."""
 
     memory: Memory
     settled: int
 
     def others(self, met: Sequence[int]) -> Iterator["_Branch"]:
-        """The branches at the other cells that it has met, in this order."""
+        """The branches with another value in one of the further cells that the run has read, in their order."""
         for place, cell in enumerate(met[self.settled :], self.settled):
             kept = {it: self.memory[it] for it in met[:place]}
             for side in {*Side} - {self.memory[cell]}:
@@ -60,7 +60,7 @@ class _Branch(NamedTuple):
 
 
 def map_of(trial: Trial) -> SeedMap:
-    """Runs what it takes to know what every memory does in a trial's first environment."""
+    """Computes the results of all memories in a trial's first environment from the runs that differ."""
     config, values = trial.config, np.zeros((len(MEMORIES), 3), np.uint16)
     left, trapped = [_Branch((0,) * CELL_COUNT, 0)], TRAPPED_S / SimParams().tick_s
     while left:
@@ -76,12 +76,12 @@ def map_of(trial: Trial) -> SeedMap:
 
 
 class Atlas(NamedTuple):
-    """What all memories do under one condition.
+    """The results of all memories under one condition.
 
     Attributes:
-        seconds: Robot time of each environment, s: shape (seeds, memories), as all others.
-        finished: Whether all food was eaten.
-        trapped: Whether a contact took more than 60 s.
+        seconds: Robot time of each environment, s: shape (seeds, memories).
+        finished: Whether all food was eaten, same shape.
+        trapped: Whether a contact took more than 60 s, same shape.
     """
 
     seconds: Floats
@@ -90,7 +90,7 @@ class Atlas(NamedTuple):
 
     @property
     def mean_s(self) -> Floats:
-        """Mean time of each memory, s."""
+        """Mean robot time of each memory, s: shape (memories,)."""
         return np.asarray(self.seconds.mean(0))
 
     @property
@@ -100,10 +100,10 @@ class Atlas(NamedTuple):
 
 
 class Maps:
-    """The maps in a study's folder, in parts."""
+    """The seed maps in a study's folder, in one file for each part."""
 
     def __init__(self, folder: Path) -> None:
-        """Reads them.
+        """Reads all parts.
 
         Raises:
             UsageError: A part cannot be read.
@@ -117,7 +117,7 @@ class Maps:
         return {*self._known}
 
     def add(self, maps: Sequence[SeedMap]) -> None:
-        """Writes some as a part."""
+        """Writes maps as a new part."""
         self._folder.mkdir(exist_ok=True)
         number = len([*self._folder.glob(_PARTS)])
         conditions, seeds = zip(*(it.key for it in maps), strict=True)
@@ -134,7 +134,11 @@ class Maps:
             raise UsageError(f"cannot read the maps in {path}: {error}") from None
 
     def atlas(self, condition: str, seeds: Sequence[int]) -> Atlas:
-        """The atlas of a condition; all its seeds must be known."""
+        """The atlas of a condition.
+
+        Raises:
+            KeyError: The map of a seed is missing.
+        """
         values = np.array([self._known[condition, seed] for seed in seeds])
         ticks, finished, trapped = np.moveaxis(values, -1, 0)
         return Atlas(ticks * SimParams().tick_s, finished > 0, trapped > 0)

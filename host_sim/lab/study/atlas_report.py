@@ -1,4 +1,4 @@
-"""What an atlas shows: which cells matter, which memory is best, where learners end. As figures, picture and CSV."""
+"""The report of an atlas, as figures, picture and CSV: important cells, the best memory, memories of learners."""
 
 import csv
 import io
@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from host_sim.base.extra_library import library
 from host_sim.base.files import replacing, write_bytes
 from host_sim.lab.study.atlas import MEMORIES, Atlas, Maps
+from host_sim.lab.study.figures import LEVEL
 from host_sim.lab.study.fleets import sample_of
-from host_sim.lab.study.intervals import LEVEL
 from host_sim.lab.study.plan import Plan
 from host_sim.lab.study.sample import Floats, Sample
 from host_sim.lab.study.trial import PROPER, Trial
@@ -59,7 +59,7 @@ def text_of(memory: Sequence[int]) -> str:
 
 
 def explained(means: Floats, cells: Sequence[int]) -> Floats:
-    """Part of the variance of mean times among the memories that some cells explain, 0 to 1.
+    """The part of the variance of mean times over all memories that some cells explain, 0 to 1.
 
     Args:
         means: The mean times, shape (..., memories).
@@ -71,31 +71,35 @@ def explained(means: Floats, cells: Sequence[int]) -> Floats:
     return _ratio(grid.mean(others, keepdims=True).var(axes), grid.var(axes))
 
 
-def turned_over(means: Floats) -> Floats:
-    """The mean times of the same memories behind a mirrored ring of sensors: it exchanges the cells of the sides."""
+def mirrored(means: Floats) -> Floats:
+    """The mean times of the memories with left and right patterns exchanged, as with mirrored sensors.
+
+    Args:
+        means: The mean times, shape (..., memories).
+    """
     index = {memory: i for i, memory in enumerate(MEMORIES)}
     return means[..., [index[tuple(memory[cell] for cell in _MIRRORED)] for memory in MEMORIES]]
 
 
-def alike(means: Floats, others: Floats) -> Floats:
-    """Correlation over the memories of two maps' mean times, shape (..., memories) each."""
+def correlation(means: Floats, others: Floats) -> Floats:
+    """Pearson's correlation of two maps' mean times over the memories, shape (..., memories) each."""
     a, b = (it - it.mean(-1, keepdims=True) for it in (means, others))
     return _ratio((a * b).sum(-1), np.sqrt((a * a).sum(-1) * (b * b).sum(-1)))
 
 
 def _ratio(part: Floats, whole: Floats) -> Floats:
-    """NaN where the memories do not differ."""
+    """The quotient; NaN where the memories do not differ."""
     return np.asarray(np.divide(part, whole, out=np.full(np.shape(whole), np.nan), where=whole > 0))
 
 
 class Report(NamedTuple):
-    """What an atlas shows.
+    """The report of an atlas.
 
     Attributes:
         plan: The study.
         atlases: The atlas of each condition.
-        ends: For each condition, the memories at which learners end.
-        samples: For each condition, what some memories do on seeds that nothing was chosen on; first, the programmed.
+        ends: For each condition, the final memories of learners.
+        samples: For each condition, samples of some memories on held-out seeds, the programmed memory first.
     """
 
     plan: Plan
@@ -113,8 +117,8 @@ class Report(NamedTuple):
             for words, cells in CELLS.items()
         }
         for name in others:
-            found[name, "alike"] = alike(drawn[name], drawn[first])
-            found[name, "turned"] = alike(drawn[name], turned_over(drawn[first]))
+            found[name, "alike"] = correlation(drawn[name], drawn[first])
+            found[name, "turned"] = correlation(drawn[name], mirrored(drawn[first]))
         return {key: _unbiased(values) for key, values in found.items()}
 
     def __str__(self) -> str:
@@ -163,7 +167,10 @@ def _ends(trial: Trial, first_seed: int, count: int) -> list[Memory]:
 
 
 def _resampled(seconds: Floats) -> Floats:
-    """The mean times of each memory: of all seeds, then of seeds drawn from them; the same for all conditions."""
+    """The mean times of each memory, shape (1 + resamples, memories): of all seeds, then of bootstrap resamples.
+
+    All conditions use the same resamples.
+    """
     count = len(seconds)
     drawn = np.random.default_rng(_SEED).multinomial(count, np.full(count, 1 / count), _RESAMPLES)
     weights: NDArray[np.float64] = np.vstack([np.ones(count), drawn]) / count
@@ -171,7 +178,7 @@ def _resampled(seconds: Floats) -> Floats:
 
 
 def _unbiased(values: Floats) -> tuple[float, float, float]:
-    """Value, low and high. Chance makes memories differ, and seeds drawn again add as much of it as there was."""
+    """Value, low and high of the basic bootstrap, the value corrected for the bias that resampling shows."""
     value, drawn = float(values[0]), values[1:]
     low, high = np.percentile(drawn, (50 * (1 + LEVEL), 50 * (1 - LEVEL)))
     return 2 * value - float(drawn.mean()), 2 * value - float(low), 2 * value - float(high)

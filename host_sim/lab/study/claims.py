@@ -1,4 +1,4 @@
-"""What the article says of its robot, measured: the table of docs/article.md.
+"""The article's claims about its robot, measured: the table of docs/article.md.
 
 .venv/bin/python -m host_sim.lab.study.claims                the seeds of studies/claims.toml
 .venv/bin/python -m host_sim.lab.study.claims --seeds 100    the first hundred of them
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from host_sim.base.paths import ROOT
-from host_sim.lab.study.intervals import wilson
+from host_sim.lab.study.figures import wilson
 from host_sim.lab.study.plan import Plan, read_plan
 from host_sim.lab.study.trial import PROPER, Trial
 from host_sim.lab.workers import processes, run_all
@@ -35,11 +35,11 @@ _FEEL, _REASON, _LEFT, _RIGHT, _ACTION = (
 
 
 class Life(NamedTuple):
-    """What one robot did in all its environments.
+    """The record of one robot in all its environments.
 
     Attributes:
         tried: For each trial the pattern of the front sensors, and the side of the turn.
-        memories: The turns that it knew after each environment.
+        memories: The sides in its cells after each environment.
         finished: For each environment, whether all food was eaten.
         meals: For each environment and meal, whether the listing would have erased the plot that was eaten.
     """
@@ -88,13 +88,13 @@ class _Watch:
 
 
 def erased(x_mm: float) -> int:
-    """The plot that the listing erases when the robot eats at x: it looks at nothing else."""
+    """Index of the food that the listing erases when the robot eats at `x_mm`, the only coordinate that it checks."""
     x = x_mm / _PIXEL_MM
     return 0 if x < 200 else 1 if 230 < x < 550 else 2  # noqa: PLR2004 - as the listing has it
 
 
 def life_of(trial: Trial) -> Life:
-    """Makes a run, and watches it."""
+    """Runs a trial in this process, and records what its robot does."""
     life = Life([], [], [], [])
     with make(trial.config) as simulation:
         for number in range(1, trial.config.environments + 1):
@@ -112,7 +112,7 @@ def life_of(trial: Trial) -> Life:
 
 
 def lives_of(trials: Sequence[Trial]) -> list[tuple[tuple[str, int], Life]]:
-    """Makes runs in this process, each with its key."""
+    """Runs trials in this process. Returns the key and the record of each."""
     return [(trial.key, life_of(trial)) for trial in trials]
 
 
@@ -143,7 +143,7 @@ def _mean(name: str, values: Sequence[float]) -> Row:
 
 
 def proper_rows(lives: Sequence[Life]) -> Iterator[Row]:
-    """What robots know beside obstacles on one side."""
+    """Rows about the cells of obstacles on one side."""
     for cell, side in PROPER.items():
         known = [life.memories[_AFTER - 1][cell] == side for life in lives]
         yield _share(f"cell {cell} right after two environments", known)
@@ -155,7 +155,7 @@ def proper_rows(lives: Sequence[Life]) -> Iterator[Row]:
 
 
 def symmetric_rows(lives: Sequence[Life], patterns: Sequence[int] = SYMMETRIC) -> Iterator[Row]:
-    """What robots make of patterns that have no side."""
+    """Rows about the cells of symmetric patterns."""
     for cell in patterns:
         ends = [life.memories[-1][cell] for life in lives]
         kept = [life for life, end in zip(lives, ends, strict=True) if end]
@@ -168,7 +168,7 @@ def symmetric_rows(lives: Sequence[Life], patterns: Sequence[int] = SYMMETRIC) -
 
 
 def world_rows(lives: Sequence[Life]) -> Iterator[Row]:
-    """What the world did with the robots."""
+    """Rows about environments and food."""
     yield _share("environments finished within 600 s", [life.finished for life in lives])
     other = [[not all(meals) for meals in life.meals] for life in lives]
     yield _share("environments in which the listing would erase another plot", other)

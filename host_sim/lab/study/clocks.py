@@ -1,10 +1,10 @@
-"""The learner as a Markov chain: each cell is a race of two clocks; the table of docs/learning.md.
+"""The learner as a Markov chain, with a race of two clocks for each cell: the table of docs/learning.md.
 
 A trial at a pattern is to the left or to the right, each equally likely, and helps with a chance of that side and
-pattern. The first side that helps is kept for ever. So the two chances say how often each side is kept, and how
-often the first trial helps. Some robots tell the chances, and others whether that is so.
+pattern. The first side that helps is kept for ever. So the two chances predict how often each side is kept, and how
+often the first trial helps. The chances are estimated from some robots, and the predictions tested on others.
 
-.venv/bin/python -m host_sim.lab.study.clocks              500 robots tell, 500 others are predicted
+.venv/bin/python -m host_sim.lab.study.clocks              500 robots to estimate, 500 others to test
 .venv/bin/python -m host_sim.lab.study.clocks --seeds 50   fewer of each
 """
 
@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from host_sim.lab.study.claims import STUDY, Life, measured
-from host_sim.lab.study.intervals import wilson
+from host_sim.lab.study.figures import wilson
 from host_sim.lab.study.plan import Plan, read_plan
 from host_sim.protocol.generated import CELL_COUNT, Side
 
@@ -48,7 +48,7 @@ class Clocks(NamedTuple):
 
 
 def clocks_of(lives: Sequence[Life], cell: int) -> Clocks:
-    """The clocks that robots show at a cell: of all trials to a side, the part that helped."""
+    """The clocks of a cell, estimated from robots: of all trials to a side, the part that helped."""
     sides = [side for life in lives for pattern, side in life.tried if pattern == cell]
     kept = [life.memories[-1][cell] for life in lives]
     left, right = (kept.count(side) / max(1, sides.count(side)) for side in (Side.LEFT, Side.RIGHT))
@@ -66,11 +66,11 @@ def first_helped(lives: Sequence[Life], cell: int) -> list[bool]:
     return [count == 1 and bool(kept) for count, kept in tried if count]
 
 
-def rows_of(telling: Sequence[Life], others: Sequence[Life]) -> Iterator[list[str]]:
-    """A row for each cell: its clocks, then what they predict, each beside what other robots did."""
+def rows_of(estimated_from: Sequence[Life], tested_on: Sequence[Life]) -> Iterator[list[str]]:
+    """A row for each cell: its clocks, then their predictions, each beside the result of the other robots."""
     for cell in range(1, CELL_COUNT):
-        clocks = clocks_of(telling, cell)
-        left, first = left_of(others, cell), first_helped(others, cell)
+        clocks = clocks_of(estimated_from, cell)
+        left, first = left_of(tested_on, cell), first_helped(tested_on, cell)
         predicted = (*clocks, clocks.left_wins, clocks.first_helps)
         left_chance, right_chance, wins, helps = (f"{100 * it:.1f} %" for it in predicted)
         yield [str(cell), left_chance, right_chance, wins, _share(left), helps, _share(first), str(len(left))]
@@ -89,9 +89,9 @@ HEADINGS = [
 ]
 
 
-def table_of(telling: Sequence[Life], others: Sequence[Life]) -> str:
+def table_of(estimated_from: Sequence[Life], tested_on: Sequence[Life]) -> str:
     """The table in Markdown."""
-    rows = [HEADINGS, ["---"] * len(HEADINGS), *rows_of(telling, others)]
+    rows = [HEADINGS, ["---"] * len(HEADINGS), *rows_of(estimated_from, tested_on)]
     return "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
 
@@ -105,7 +105,11 @@ def main() -> None:
     """Prints the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument(
-        "--seeds", type=int, default=SEEDS, metavar="N", help="how many seeds tell, and are predicted"
+        "--seeds",
+        type=int,
+        default=SEEDS,
+        metavar="N",
+        help="seeds to estimate from, and again to test on",
     )
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="processes")
     arguments = parser.parse_args()
@@ -113,7 +117,7 @@ def main() -> None:
     (lives,) = measured(plan, arguments.jobs)
     first, last = plan.seeds_used
     middle = first + arguments.seeds
-    print(f"seeds {first}..{middle - 1} tell, {middle}..{last} are predicted; five environments each\n")
+    print(f"estimated from seeds {first}..{middle - 1}, tested on {middle}..{last}; five environments each\n")
     print(table_of(lives[: arguments.seeds], lives[arguments.seeds :]))
 
 

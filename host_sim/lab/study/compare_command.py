@@ -26,11 +26,11 @@ examples:
   tools/octet compare article mine.c                                your own behaviour
   tools/octet compare article --seeds 2 --robot emulated            the flash image, on an emulated board
   tools/octet compare article searcher --body kit                   with real motors and sensors
-  tools/octet compare article forgetful --change swap-motors@env1      with the motors' plugs exchanged
+  tools/octet compare article forgetful --change swap-motors@env1      with the two motors swapped
 
 Exit code 1 if the study has goals and misses one.
 """
-_OF_RUNS = ("seeds", "first", "environments", "set", "body", "change", "robot", "jobs", "cluster", "chunk")
+_OF_RUNS = ("seeds", "seed", "environments", "set", "body", "change", "robot", "jobs", "cluster", "chunk")
 """The options that select the runs to make; the runs of a study exist already."""
 
 _SET_HELP = "change a parameter, as tools/run --help-all lists them; may be repeated"
@@ -42,7 +42,7 @@ def add(commands: Subparsers) -> None:
         commands,
         "compare",
         _compare,
-        summary="compare the conditions of a study, or behaviours at once",
+        summary="compare behaviours, or the conditions of a study",
         description="Summarizes a study, or runs each profile with the same seeds and summarizes that.",
         epilog=_EXAMPLES,
         check=_check,
@@ -65,12 +65,12 @@ def add(commands: Subparsers) -> None:
         "--coverage",
         type=number(10, 100_000),
         metavar="N",
-        help="print how often the intervals from N seeds of the study hold the figures of all its seeds",
+        help="print how often the intervals from N seeds of the study contain the figures of all its seeds",
     )
     profiles = parser.add_argument_group("with profiles").add_argument
     profiles("--seeds", type=number(1, 100_000), default=100, metavar="N", help="number of seeds" + DEFAULT)
-    profiles("--first", type=number(0, 2**31), default=1, metavar="SEED", help="first seed" + DEFAULT)
-    profiles("--environments", type=number(1, 1000), default=5, metavar="N", help="environments a seed" + DEFAULT)
+    profiles("--seed", type=number(0, 2**31), default=1, metavar="SEED", help="first seed" + DEFAULT)
+    profiles("--environments", type=number(1, 1000), default=5, metavar="N", help="environments per seed" + DEFAULT)
     profiles("--set", type=settings, action="append", default=[], metavar="NAME=VALUE", help=_SET_HELP)
     profiles("--body", default="ideal", metavar="BODY", help="the robots' bodies, as tools/run has them" + DEFAULT)
     profiles("--change", action="append", default=[], metavar="CHANGE", help="one change, as tools/run has them")
@@ -107,9 +107,9 @@ def _stages(arguments: argparse.Namespace) -> "Sequence[str]":
 
 
 def _compare(arguments: argparse.Namespace) -> int:
+    from host_sim.lab.study.folder import used_seed_notes
     from host_sim.lab.study.goals import judge
     from host_sim.lab.study.table import coverage_table, table
-    from host_sim.lab.study.used_seeds import notes
 
     folder = Path(arguments.what[0])
     if folder.suffix == ".toml":
@@ -122,7 +122,7 @@ def _compare(arguments: argparse.Namespace) -> int:
     if arguments.coverage:
         print(coverage_table(samples, arguments.coverage))
         return 0
-    print("\n".join([table(samples, arguments.difference / 100), *notes(*plan.seeds_used)]))
+    print("\n".join([table(samples, arguments.difference / 100), *used_seed_notes(*plan.seeds_used)]))
     if arguments.plots:
         from host_sim.lab.study.plots import draw_plots
 
@@ -199,7 +199,7 @@ def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]
     configs = [
         replace(shared, profile=name, fast=name.endswith(C_FILE) and a.robot == RunConfig.robot) for name in names
     ]
-    plan = Plan(" ".join(names), list(map(Trial, configs, names)), a.first, a.seeds)
+    plan = Plan(" ".join(names), list(map(Trial, configs, names)), a.seed, a.seeds)
     rehearse_all(plan, a.cluster)
     runs = [run for some in with_progress(plan.trials(), workers_of(a), a.chunk) for run in some]
     return plan, samples_of(tables_of(runs), names)

@@ -17,8 +17,7 @@ import numpy as np
 
 from host_sim.base.errors import OctetError
 from host_sim.base.files import write_bytes
-from host_sim.lab.study.figures import FIGURES, Figure
-from host_sim.lab.study.intervals import compare, estimate
+from host_sim.lab.study.figures import FIGURES, Figure, compare, estimate
 from host_sim.lab.study.sample import Sample
 from host_sim.lab.study.table import interval_of, text_of
 

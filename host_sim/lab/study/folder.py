@@ -8,11 +8,13 @@ import json
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from host_sim.base.errors import UsageError
 from host_sim.base.extra_library import library
 from host_sim.base.files import read_bytes, replacing, write_bytes
+from host_sim.base.paths import ROOT
+from host_sim.base.toml_file import read_toml
 from host_sim.lab.study.plan import Plan
 from host_sim.lab.study.tables import COLUMNS, Row, Tables, rows_of
 from host_sim.lab.study.trial import Run
@@ -138,3 +140,40 @@ def _schema(name: str) -> Any:
     pyarrow = library("pyarrow", "study")
     kinds = {str: pyarrow.string(), int: pyarrow.int64(), float: pyarrow.float64(), bool: pyarrow.bool_()}
     return pyarrow.schema([(column, kinds[kind]) for column, kind in COLUMNS[name].items()])
+
+
+USED_SEEDS = ROOT / "studies" / "used_seeds.toml"
+_KEYS = {"first": int, "last": int, "what": str}
+
+
+class Used(NamedTuple):
+    """A range of seeds, and what it was used for."""
+
+    first: int
+    last: int
+    what: str
+
+
+def read_used(path: Path = USED_SEEDS) -> list[Used]:
+    """The ranges of a file, in its order.
+
+    Raises:
+        UsageError: The file cannot be read, or has an error.
+    """
+    file = read_toml(path, "a list of used seeds")
+    ranges = file.content.get("used", [])
+    for i, it in enumerate(ranges):
+        if {key: type(value) for key, value in it.items()} != _KEYS or it["first"] > it["last"]:
+            raise file.error("a range has first, last and what it was used for", "", table="used", index=i)
+    return [Used(**it) for it in ranges]
+
+
+def used_seed_notes(first: int, last: int, path: Path = USED_SEEDS) -> Iterator[str]:
+    """For each range that has some of these seeds, a line that says so.
+
+    >>> list(used_seed_notes(3000001, 3000010))
+    ['used      seeds 3000001..3000010 for the open board: studies/board.toml']
+    """
+    for it in read_used(path):
+        if first <= it.last and it.first <= last:
+            yield f"used      seeds {max(first, it.first)}..{min(last, it.last)} for {it.what}"

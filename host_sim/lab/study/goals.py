@@ -9,8 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from host_sim.lab.study.figures import FIGURES
-from host_sim.lab.study.intervals import Estimate, compare, estimate
+from host_sim.lab.study.figures import FIGURES, Estimate, compare, estimate
 from host_sim.lab.study.plan import Goal
 from host_sim.lab.study.sample import Sample
 from host_sim.lab.study.table import interval_of, text_of

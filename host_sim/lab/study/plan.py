@@ -162,8 +162,8 @@ class _Reader:
         if not numbers or len(chosen) not in (0, 2) or chosen != sorted(chosen):
             raise self._error(f"{key} is the first and the last of some seeds, such as [1, 1000]", "", key)
         if chosen and chosen[0] <= last and first <= chosen[1]:
-            told = f"{first}..{last} are not held out: something {_DONE_ON[key]} on {chosen[0]}..{chosen[1]}"
-            raise self._error(f"the study's seeds {told}", "", key)
+            overlap = f"{first}..{last} are not held out: something {_DONE_ON[key]} on {chosen[0]}..{chosen[1]}"
+            raise self._error(f"the study's seeds {overlap}", "", key)
         return tuple(chosen)
 
     def _conditions(self) -> list[Trial]:

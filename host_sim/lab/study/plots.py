@@ -8,9 +8,8 @@ import numpy as np
 
 from host_sim.base.extra_library import library
 from host_sim.base.files import replacing
-from host_sim.lab.study.figures import FIGURES
+from host_sim.lab.study.figures import FIGURES, estimate
 from host_sim.lab.study.heiserman import CLASSES, scores
-from host_sim.lab.study.intervals import estimate
 from host_sim.lab.study.sample import CURVE, Floats, Sample
 
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999")

@@ -99,7 +99,7 @@ def _study(arguments: argparse.Namespace) -> int:
 
 
 def _atlas(plan: "Plan", out: Path) -> "Report":
-    """Prints and draws what an atlas shows."""
+    """Prints and draws the report of an atlas."""
     from host_sim.lab.study.atlas import Maps
     from host_sim.lab.study.atlas_report import draw_map, report_of, write_map
     from host_sim.lab.study.table import table
@@ -137,29 +137,30 @@ def _document(arguments: argparse.Namespace, out: Path) -> int:
 
 
 def _document_atlas(report: "Report", docs: Path, name: str) -> None:
-    """Writes the tables of an atlas and, of a single condition, its map."""
+    """Writes the tables of an atlas, and draws its maps."""
     from host_sim.lab.study.atlas_report import draw_map, write_map
-    from host_sim.lab.study.document import TABLES, write_rows, write_table
+    from host_sim.lab.study.document import TABLES, rows_of, write_rows
 
-    write_rows(report.rows(), docs / TABLES / f"{name}-cells.csv")
-    if len(report.atlases) == 1 and report.samples:
-        write_map(report, docs / TABLES / f"{name}-map.csv")
-        draw_map(report, docs / "images" / f"{name}-map.png")
-        write_table(report.samples[0], docs / TABLES / f"{name}.csv")
+    tables = docs / TABLES
+    write_rows(report.rows(), tables / f"{name}-cells.csv")
+    write_rows(
+        {key: row for samples in report.samples for key, row in rows_of(samples).items()}, tables / f"{name}.csv"
+    )
+    write_map(report, tables / f"{name}-map.csv")
+    draw_map(report, docs / "images" / f"{name}-map.png")
 
 
 def run_study(arguments: argparse.Namespace, plan: "Plan", out: Path) -> str:
     """Runs the missing trials of a study, and returns their number in words."""
     from host_sim.base.files import write_bytes
     from host_sim.lab.study.atlas import Maps
-    from host_sim.lab.study.folder import PLAN_FILE, open_study
-    from host_sim.lab.study.used_seeds import notes
+    from host_sim.lab.study.folder import PLAN_FILE, open_study, used_seed_notes
     from host_sim.lab.study.workers import map_chunk, run_chunk
 
     path: Path = arguments.plan
     if plan.is_fleet:
         raise UsageError(f"{path}: robots in worlds of their own run as a fleet: use tools/octet compare {path}")
-    for line in notes(*plan.seeds_used):
+    for line in used_seed_notes(*plan.seeds_used):
         print(line)
     rehearse_all(plan, arguments.cluster)
     with open_study(out, plan) as study:
@@ -168,17 +169,17 @@ def run_study(arguments: argparse.Namespace, plan: "Plan", out: Path) -> str:
         done = folder.done()
         trials = [trial for trial in plan.trials() if trial.key not in done]
         with ExitStack() as stack:
-            keeper = _Keeper(folder)
-            stack.callback(keeper.write)  # however the study ends
+            writer = _PeriodicWriter(folder)
+            stack.callback(writer.write)  # however the study ends
             for runs in with_progress(trials, workers_of(arguments), arguments.chunk, work):
-                keeper.extend(runs)
+                writer.extend(runs)
     return (
         f"{len(trials)} runs, {len(plan.trials()) - len(trials)} existed already" if done else f"{len(trials)} runs"
     )
 
 
 def rehearse_all(plan: "Plan", cluster: str | None) -> None:
-    """Runs users' behaviours for a minute in a process that checks them: elsewhere, some mistakes do harm.
+    """Runs users' behaviours for a minute in a process with memory checks, which the workers do not have.
 
     Raises:
         UsageError: The workers do not have the file.
@@ -195,8 +196,8 @@ def rehearse_all(plan: "Plan", cluster: str | None) -> None:
 def with_progress(
     trials: "Sequence[Trial]", workers: "Workers", chunk: int = 0, work: "Work | None" = None
 ) -> "Iterator[Sequence[Any]]":
-    """Runs trials, with a progress line; `work` makes something else of them than a `Run` each."""
-    from host_sim.base.progress_line import ProgressLine
+    """Runs trials, with a progress line. Yields the results of `work`, by default a `Run` for each trial."""
+    from host_sim.base.terminal import ProgressLine
     from host_sim.lab.study.workers import run_all, run_chunk
 
     done = 0
@@ -208,7 +209,7 @@ def with_progress(
             yield runs
 
 
-class _Keeper:
+class _PeriodicWriter:
     """Writes completed runs every few seconds."""
 
     def __init__(self, folder: "StudyFolder | Maps") -> None:

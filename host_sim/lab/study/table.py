@@ -5,8 +5,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from host_sim.lab.study.figures import FIGURES, OF_EACH, Figure
-from host_sim.lab.study.intervals import LEVEL, Estimate, compare, coverage, estimate
+from host_sim.lab.study.figures import FIGURES, LEVEL, OF_EACH, Estimate, Figure, compare, coverage, estimate
 from host_sim.lab.study.sample import Sample
 from host_sim.lab.table import aligned
 

@@ -145,7 +145,7 @@ def tour_s(config: RunConfig, number: int) -> float:
     NaN where several robots share the environment, or where it cannot be computed.
     """
     length_mm = math.inf if config.robots > 1 else _tour_mm(config.world, config.seed, number)
-    speed_mm_s = config.told.get("speed_mm_s", PARAMETERS["speed_mm_s"].default)
+    speed_mm_s = config.robot_settings.get("speed_mm_s", PARAMETERS["speed_mm_s"].default)
     return length_mm / speed_mm_s if math.isfinite(length_mm) else math.nan
 
 

@@ -24,8 +24,8 @@ examples:
 
 Run the same command again to resume a search that was stopped.
 """
-HELD_OUT = 1_000_001
-"""The first of the held-out seeds; a later one if the search itself uses so many."""
+HELD_OUT = 5_000_001
+"""The first of the held-out seeds, which nothing else uses; a later one if the search itself uses so many."""
 
 
 def add(commands: Subparsers) -> None:
@@ -46,9 +46,15 @@ def add(commands: Subparsers) -> None:
     only = "parameters to search (default: all but those of the body)"
     add("--only", nargs="+", choices=PARAMETERS, metavar="NAME", help=only)
     add("--set", type=settings, action="append", default=[], metavar="NAME=VALUE", help="fix a parameter at a value")
-    add("--environments", type=number(1, 1000), default=2, metavar="N", help="environments a seed" + DEFAULT)
+    add("--environments", type=number(1, 1000), default=2, metavar="N", help="environments per seed" + DEFAULT)
     add("--trials", type=number(4, 100_000), default=200, metavar="N", help="number of settings to try" + DEFAULT)
-    add("--seeds", type=number(3, 100_000), default=120, metavar="N", help="seeds for a generation's best" + DEFAULT)
+    add(
+        "--seeds",
+        type=number(3, 100_000),
+        default=120,
+        metavar="N",
+        help="seeds for a generation's best settings" + DEFAULT,
+    )
     add("--held-out", type=number(2, 100_000), default=400, metavar="N", help="seeds for the comparison" + DEFAULT)
     add("--out", type=file_path, default=Path("out/tune"), metavar="FOLDER", help="folder for the results" + DEFAULT)
     add_workers(parser)
@@ -56,8 +62,8 @@ def add(commands: Subparsers) -> None:
 
 def _tune(arguments: argparse.Namespace) -> int:
     from host_sim.base.files import write_bytes
-    from host_sim.base.progress_line import ProgressLine
-    from host_sim.lab.study.tuning import OF_THE_BODY, Search, Wanted, samples_of
+    from host_sim.base.terminal import ProgressLine
+    from host_sim.lab.study.tuning import OF_THE_BODY, Search, SearchTask, samples_of
     from host_sim.lab.workers import run_all
     from host_sim.recording.run_folder import run_folder
     from host_sim.sim.run_config import RunConfig
@@ -84,7 +90,7 @@ def _tune(arguments: argparse.Namespace) -> int:
         return run_all(run_pieces, pieces, workers, a.chunk)
 
     with run_folder(a.out):
-        search = Search(Wanted(config, a.goal, names, a.seeds), run, a.out / f"{a.profile}.jsonl")
+        search = Search(SearchTask(config, a.goal, names, a.seeds), run, a.out / f"{a.profile}.jsonl")
         with ProgressLine(a.trials) as line:
             search.go(a.trials, lambda done: line.show("settings", done))
         first, last = search.seeds
@@ -108,8 +114,7 @@ def _preset(best: "Settings", about: str) -> str:
 
 def _report(samples: "Sequence[Sample]", best: "Settings") -> str:
     """Compares the best settings with the defaults, and with themselves without each parameter."""
-    from host_sim.lab.study.figures import FIGURES
-    from host_sim.lab.study.intervals import compare, estimate
+    from host_sim.lab.study.figures import FIGURES, compare, estimate
     from host_sim.lab.study.table import compared, text_of
     from host_sim.lab.table import aligned
 

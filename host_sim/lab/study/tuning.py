@@ -46,7 +46,12 @@ _Key = tuple[Settings, int, int]
 
 
 class Piece(NamedTuple):
-    """A setting on some seeds."""
+    """A fleet with some settings on consecutive seeds.
+
+    Attributes:
+        config: The run; its seed is the first one.
+        seeds: Number of seeds.
+    """
 
     config: RunConfig
     seeds: int
@@ -64,7 +69,7 @@ Runner = Callable[[Sequence[Piece]], Iterator[Sequence[tuple[Piece, Sample]]]]
 """Runs pieces, in any order."""
 
 
-class Wanted(NamedTuple):
+class SearchTask(NamedTuple):
     """The task of a search.
 
     Attributes:
@@ -87,24 +92,24 @@ class Search:
         best: The best settings found; empty if the defaults are best.
     """
 
-    def __init__(self, wanted: Wanted, run: Runner, notes: Path) -> None:
+    def __init__(self, task: SearchTask, run: Runner, notes: Path) -> None:
         """Starts or resumes a search.
 
         Args:
-            wanted: The task of the search.
+            task: The task of the search.
             run: Runs pieces.
-            notes: File of the known values; more are added.
+            notes: File of the values found so far, to which new ones are added.
 
         Raises:
             UsageError: The file belongs to another search.
         """
-        self._config, self._names, self._figure = wanted.config, wanted.names, FIGURES[GOALS[wanted.goal]]
-        told = wanted.config.told
-        self._defaults = {name: told.get(name, PARAMETERS[name].default) for name in wanted.names}
-        self._sign = -1 if wanted.goal == "finished" else 1
-        self._rounds = [max(2, wanted.seeds // _KEPT**i) for i in reversed(range(_ROUNDS))]
-        self._run, self._next = run, wanted.config.seed
-        about = wanted.config.command(), wanted.goal, *wanted.names, *self._rounds, code_version()
+        self._config, self._names, self._figure = task.config, task.names, FIGURES[GOALS[task.goal]]
+        settings = task.config.robot_settings
+        self._defaults = {name: settings.get(name, PARAMETERS[name].default) for name in task.names}
+        self._sign = -1 if task.goal == "finished" else 1
+        self._rounds = [max(2, task.seeds // _KEPT**i) for i in reversed(range(_ROUNDS))]
+        self._run, self._next = run, task.config.seed
+        about = task.config.command(), task.goal, *task.names, *self._rounds, code_version()
         self._notes = _Notes(notes, json.dumps(about))
         self.best: Settings = ()
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TypeVar
 
 from host_sim.base.errors import OctetError
-from host_sim.lab import workers as of_lab
+from host_sim.lab import workers as lab_workers
 from host_sim.lab.study.atlas import SeedMap, map_of
 from host_sim.lab.study.trial import Run, Trial, run_trial
 from host_sim.lab.study.version import code_version
@@ -25,7 +25,7 @@ def map_chunk(trials: Sequence[Trial]) -> tuple[list[SeedMap], str]:
 def run_all(
     work: Callable[[Sequence[Trial]], tuple[list[Made], str]],
     trials: Sequence[Trial],
-    workers: of_lab.Workers,
+    workers: lab_workers.Workers,
     chunk: int = 0,
 ) -> Iterator[Sequence[Made]]:
     """Makes runs; the other arguments and errors are those of `host_sim.lab.workers.run_all`.
@@ -39,7 +39,7 @@ def run_all(
     Raises:
         OctetError: A worker is of another version.
     """
-    for runs, code in of_lab.run_all(work, trials, workers, chunk):
+    for runs, code in lab_workers.run_all(work, trials, workers, chunk):
         if code != code_version():
             raise OctetError("a worker has another version of robot or world; finished runs are kept")
         yield runs

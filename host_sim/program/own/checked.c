@@ -8,7 +8,7 @@
 
 #include "host_sim/program/own/guard.h"
 
-enum { ENDED = 3, NOTES_MAX = 4000, WAIT_S = 1 };
+enum { ENDED = 3, NOTES_MAX = 4000, WAIT_US = 200000 };
 
 void __sanitizer_symbolize_pc(void *code, const char *format, char *out, size_t size);
 const char *__asan_default_options(void);
@@ -25,8 +25,8 @@ void __asan_on_error(void)
 {
     char when[GUARD_TEXT_MAX / 3];
 
-    guard_when(when, sizeof when);
-    printf("own: , %s\n", when);
+    long tick = guard_when(when, sizeof when);
+    printf("own: %ld , %s\n", tick, when);
     fflush(stdout);
 }
 
@@ -41,7 +41,7 @@ void guard_place(const void *code, char *text, size_t size)
     __sanitizer_symbolize_pc((void *)code, "%S", places, sizeof places - 1);
     for (const char *next = places; next < places + sizeof places - 1 && *next; next += strlen(next) + 1)
         last = next;
-    snprintf(text, size / 2, "%s", last);
+    snprintf(text, size, "%s", last);
 }
 
 void guard_end(const char *text)
@@ -65,14 +65,14 @@ static void too_long(int number, siginfo_t *info, void *context)
 #else
     (void)at;
 #endif
-    guard_fail(code, NULL, "a loop without an end: a second in one decision");
+    guard_fail(code, NULL, "a loop without an end: 0.2 s in one decision");
 }
 
 /* A timer counts the time that this process computes: it counts in empty loops, too, which take no branches. */
 void guard_watch(bool on)
 {
     static bool ready;
-    const struct itimerval wait = {.it_value.tv_sec = on ? WAIT_S : 0};
+    const struct itimerval wait = {.it_value.tv_usec = on ? WAIT_US : 0};
     struct sigaction action;
 
     if (!ready) {

@@ -22,14 +22,16 @@ bool __real_own_begin(struct brain *brain);
 struct action __real_own_next(struct brain *brain, const struct config *config, const struct senses *senses);
 void __sanitizer_cov_trace_pc(void);
 
-/* The decision under way. */
-static __thread struct {
+struct decision {
     jmp_buf out;
-    unsigned left;                 /* branches that it may still take; 0: none is under way */
+    unsigned left;                 /* branches that it may still take */
     const void *last;              /* the last of them */
     const struct brain *brain;     /* as the robot has it */
-    const struct senses *senses;
-} now;
+    const struct senses *senses;   /* NULL at the start of a run */
+};
+
+/* The one under way in this thread, or NULL. It is looked up at every branch: that must not take a call. */
+static __thread struct decision *now __attribute__((tls_model("initial-exec")));
 
 static char failure[GUARD_TEXT_MAX];   /* the first one, of any robot, */
 static const void *failed;              /* and of which */
@@ -44,89 +46,82 @@ static const struct robot *robot_of(const struct brain *brain)
     return (const struct robot *)((const char *)brain - offsetof(struct robot, brain));
 }
 
-static void add(char *text, size_t size, const char *more)
-{
-    strncat(text, more, size - strlen(text) - 1);
-}
-
-void guard_when(char *text, size_t size)
+long guard_when(char *text, size_t size)
 {
     static const char *const names[] = FEEL_NAMES;
-    const struct robot *robot = robot_of(now.brain);
-    unsigned long ms = robot->uptime_s * 1000UL + robot->part_ms;
 
-    if (!now.senses) {
+    if (!now || !now->senses) {
         snprintf(text, size, "at the start of the run");
-        return;
+        return -1;
     }
-    snprintf(text, size, "at tick %lu, %.2f s, with ", ms / robot->config.value[TICK_MS], (double)ms / 1000);
+    const struct robot *robot = robot_of(now->brain);
+    unsigned long ms = robot->uptime_s * 1000UL + robot->part_ms;
+    long tick = (long)(ms / robot->config.value[TICK_MS]);
+
+    char felt[GUARD_TEXT_MAX / 6] = "";
     for (unsigned i = 0; i < FEEL_COUNT; i++)
-        if (now.senses->feel & 1u << i) {
-            add(text, size, names[i]);
-            add(text, size, " and ");
+        if (now->senses->feel & 1u << i) {
+            strcat(felt, felt[0] ? " and " : "");
+            strcat(felt, names[i]);
         }
-    if (now.senses->feel == 0)
-        add(text, size, "nothing ");
-    else
-        text[strlen(text) - strlen("and ")] = '\0';
-    add(text, size, now.senses->feel ? "blocked" : "in the way");
-    add(text, size, now.senses->look ? ", food ahead" : ", no food seen");
+    snprintf(text, size, "at tick %ld, %.2f s, with %s %s, %s", tick, (double)ms / 1000, felt[0] ? felt : "nothing",
+             felt[0] ? "blocked" : "in the way", now->senses->look ? "food ahead" : "no food seen");
+    return tick;
 }
 
 void guard_fail(const void *code, const char *place, const char *what)
 {
-    char text[GUARD_TEXT_MAX], when[GUARD_TEXT_MAX / 3];
+    char text[GUARD_TEXT_MAX], found[GUARD_TEXT_MAX / 2] = "", when[GUARD_TEXT_MAX / 3];
+    struct decision *decision = now;
 
-    if (now.left == 0)
+    if (!decision)
         return;
-    now.left = 0;
     guard_watch(false);
-    text[0] = '\0';
-    if (place)
-        add(text, sizeof text, place);
-    else
-        guard_place(code, text, sizeof text);
-    add(text, sizeof text, text[0] ? ": " : "");
-    add(text, sizeof text, what);
-    add(text, sizeof text, ", ");
-    guard_when(when, sizeof when);
-    add(text, sizeof text, when);
+    if (!place)
+        guard_place(code, found, sizeof found);
+    place = place ? place : found;
+    long tick = guard_when(when, sizeof when);
+    snprintf(text, sizeof text, "%ld %s%s%s, %s", tick, place, place[0] ? ": " : "", what, when);
     guard_end(text);
     if (!failure[0]) {
         memcpy(failure, text, sizeof failure);
-        failed = robot_of(now.brain);
+        failed = robot_of(decision->brain);
     }
-    longjmp(now.out, 1);
+    now = NULL;
+    longjmp(decision->out, 1);
 }
 
 /* gcc and clang call this in each basic block of code compiled with -fsanitize-coverage=trace-pc. */
 void __sanitizer_cov_trace_pc(void)
 {
-    if (now.left == 0)
+    struct decision *decision = now;
+
+    if (!decision)
         return;
-    now.last = __builtin_return_address(0);
-    if (now.left == 1)
-        guard_fail(now.last, NULL, "a loop without an end: a million branches in one decision");
-    now.left--;
+    decision->last = __builtin_return_address(0);
+    if (--decision->left == 0)
+        guard_fail(decision->last, NULL, "a loop without an end: a million branches in one decision");
 }
 
-static void enter(const struct brain *brain, const struct senses *senses)
+static void enter(struct decision *decision, const struct brain *brain, const struct senses *senses)
 {
-    now.brain = brain;
-    now.senses = senses;
-    now.left = BRANCHES_MAX;
+    decision->left = BRANCHES_MAX;
+    decision->last = NULL;
+    decision->brain = brain;
+    decision->senses = senses;
+    now = decision;
     guard_watch(true);
 }
 
 static void leave(void)
 {
     guard_watch(false);
-    now.left = 0;
+    now = NULL;
 }
 
 static void complain(const char *what)
 {
-    guard_fail(now.last, NULL, what);
+    guard_fail(now->last, NULL, what);
 }
 
 static void check_action(const struct action *action)
@@ -182,12 +177,13 @@ static void check_brain(const struct brain *before, const struct brain *after)
 /* The user's functions get copies: what they write beside these, the robot does not have. */
 bool __wrap_own_begin(struct brain *brain)
 {
+    struct decision decision;
     struct brain mine = *brain;
     bool learns;
 
-    enter(brain, NULL);
-    if (failure[0] || setjmp(now.out))
+    if (failure[0] || setjmp(decision.out))
         return false;
+    enter(&decision, brain, NULL);
     learns = __real_own_begin(&mine);
     check_brain(brain, &mine);
     leave();
@@ -197,6 +193,7 @@ bool __wrap_own_begin(struct brain *brain)
 
 struct action __wrap_own_next(struct brain *brain, const struct config *config, const struct senses *senses)
 {
+    struct decision decision;
     struct brain mine = *brain;
     struct config settings;
     struct senses sensed;
@@ -204,11 +201,9 @@ struct action __wrap_own_next(struct brain *brain, const struct config *config, 
 
     memcpy(&settings, config, sizeof settings);
     memcpy(&sensed, senses, sizeof sensed);
-    enter(brain, senses);
-    if (failure[0] || setjmp(now.out)) {
-        leave();
+    if (failure[0] || setjmp(decision.out))
         return (struct action){.reason = REASON_STOP};
-    }
+    enter(&decision, brain, senses);
     action = __real_own_next(&mine, &settings, &sensed);
     check_action(&action);
     check_brain(brain, &mine);

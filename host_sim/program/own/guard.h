@@ -9,10 +9,11 @@
 enum { GUARD_TEXT_MAX = 600 };
 
 const char *own_failure(const void *robot);
-        /* What was wrong with this robot, or with any if it is null, in one line; empty if nothing was. */
+        /* What was wrong with this robot, or with any if it is null: the tick as a number, a space, and a message in
+           one line. Empty if nothing was. */
 
-void guard_when(char *text, size_t size);
-        /* The tick of the decision under way, and its senses, in words. */
+long guard_when(char *text, size_t size);
+        /* The tick of the decision under way, -1 at the start of a run; with its senses, in words, too. */
 
 void guard_fail(const void *code, const char *place, const char *what);
         /* The decision under way is wrong: at a place in the source or, if that is null, where this code is. Does not
@@ -22,7 +23,7 @@ void guard_place(const void *code, char *text, size_t size);
         /* Of checked.c and fast.c: the file and line of code, empty if it is not known. */
 
 void guard_end(const char *text);
-        /* The same: takes the text of a failure. Returns if the robot is to stand still from now on. */
+        /* The same: takes a failure, as above. Returns if the robot is to stand still from now on. */
 
 void guard_watch(bool on);
         /* The same: a decision begins or ends. */

@@ -24,7 +24,7 @@ struct action next_seeing_food(uint8_t feel, uint16_t beacon_mm)
     return brain_next(&brain, &config, &senses);
 }
 
-void learned(uint8_t pattern, enum side side)
+void teach(uint8_t pattern, enum side side)
 {
     memory_learn(&brain.memory, pattern, side);
 }

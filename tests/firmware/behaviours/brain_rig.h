@@ -1,4 +1,4 @@
-/* brain_rig.h: a brain that decides, and what the tests of its behaviours ask of it. */
+/* brain_rig.h: a brain, and what the tests of its behaviours share. */
 #ifndef OCTET_BRAIN_RIG_H
 #define OCTET_BRAIN_RIG_H
 
@@ -12,21 +12,21 @@ extern struct brain brain;
 extern struct config config;
 
 void begin(enum profile profile);
-        /* Empty, with the default parameters. */
+        /* Starts this profile with an empty memory and the default parameters. */
 
 struct action next(uint8_t feel);
-        /* The last action has ended with these sensors triggered. */
+        /* The next action, where the last one ended with these sensors triggered. */
 
 struct action next_seeing_food(uint8_t feel, uint16_t beacon_mm);
         /* The same, with food in sight. */
 
-void learned(uint8_t pattern, enum side side);
-        /* It remembers that side from now on. */
+void teach(uint8_t pattern, enum side side);
+        /* Puts the side into the pattern's cell. */
 
 void assert_action(enum reason reason, int turn_deg, unsigned forward_mm, struct action action);
-        /* It is this action. */
+        /* Checks reason, turn and distance of an action. */
 
 void remembered_turns(unsigned count);
-        /* Blocked in front, it makes so many remembered turns. */
+        /* Checks that the next so many actions, blocked in front, are remembered turns. */
 
 #endif

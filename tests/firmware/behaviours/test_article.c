@@ -6,24 +6,24 @@ void setUp(void)
     begin(PROFILE_ARTICLE);
 }
 
-TEST(a_clear_way_is_driven_one_step)
+TEST(clear_way_is_driven_one_step)
 {
     assert_action(REASON_WANDER, 0, 12, next(CLEAR));
 }
 
-TEST(a_step_with_food_in_sight_is_toward_it)
+TEST(step_with_visible_food_is_toward_food)
 {
     assert_action(REASON_TOWARD_FOOD, 0, 12, next_seeing_food(CLEAR, 500));
 }
 
-TEST(without_food_in_sight_it_looks_around)
+TEST(step_without_visible_food_is_followed_by_a_look_around)
 {
     next(CLEAR);
     TEST_ASSERT_EQUAL(REASON_LOOK_AROUND, next(CLEAR).reason);
 }
 
 /* The listing does not read the sensors between the step and the look. */
-TEST(it_looks_around_even_where_the_step_met_an_obstacle)
+TEST(look_around_follows_a_step_that_met_an_obstacle)
 {
     next(CLEAR);
     TEST_ASSERT_EQUAL(REASON_LOOK_AROUND, next(FRONT).reason);
@@ -35,9 +35,10 @@ TEST(food_within_reach_is_eaten)
     assert_action(REASON_EAT, 0, 0, next_seeing_food(CLEAR, 149));
 }
 
-TEST(food_just_out_of_reach_is_driven_to)
+TEST(food_out_of_reach_is_driven_to)
 {
-    next_seeing_food(CLEAR, 155);
+    next_seeing_food(CLEAR, 163);
+    assert_action(REASON_TOWARD_FOOD, 0, 12, next_seeing_food(CLEAR, 151));
     assert_action(REASON_TOWARD_FOOD, 0, 12, next_seeing_food(CLEAR, 150));
 }
 
@@ -46,13 +47,13 @@ TEST(food_is_eaten_only_after_a_step)
     assert_action(REASON_TOWARD_FOOD, 0, 12, next_seeing_food(CLEAR, 100));
 }
 
-TEST(food_is_eaten_even_where_the_step_met_an_obstacle)
+TEST(food_is_eaten_when_the_step_met_an_obstacle)
 {
     next_seeing_food(CLEAR, 155);
     TEST_ASSERT_EQUAL(REASON_EAT, next_seeing_food(FRONT, 149).reason);
 }
 
-TEST(after_eating_it_goes_on)
+TEST(robot_steps_on_after_eating)
 {
     next_seeing_food(CLEAR, 155);
     next_seeing_food(CLEAR, 149);
@@ -61,23 +62,23 @@ TEST(after_eating_it_goes_on)
 
 /* Where the way is blocked: what it remembers, what it tries, and what a trial teaches. */
 
-TEST(a_cell_with_left_turns_left)
+TEST(cell_with_left_turns_left)
 {
     for (uint8_t pattern = 1; pattern < CELL_COUNT; pattern++) {
-        learned(pattern, SIDE_LEFT);
+        teach(pattern, SIDE_LEFT);
         assert_action(REASON_REMEMBERED, -10, 0, next((uint8_t)(pattern << 1)));
     }
 }
 
-TEST(a_cell_with_right_turns_right)
+TEST(cell_with_right_turns_right)
 {
     for (uint8_t pattern = 1; pattern < CELL_COUNT; pattern++) {
-        learned(pattern, SIDE_RIGHT);
+        teach(pattern, SIDE_RIGHT);
         assert_action(REASON_REMEMBERED, 10, 0, next((uint8_t)(pattern << 1)));
     }
 }
 
-TEST(an_empty_cell_is_tried_by_45_degrees)
+TEST(empty_cell_starts_a_trial_of_45_degrees)
 {
     for (uint8_t pattern = 1; pattern < CELL_COUNT; pattern++) {
         struct action trial = next((uint8_t)(pattern << 1));
@@ -92,7 +93,7 @@ static enum side side_of(struct action action)
     return action.turn_deg > 0 ? SIDE_RIGHT : SIDE_LEFT;
 }
 
-TEST(a_trial_that_frees_a_sensor_is_remembered_for_the_old_pattern)
+TEST(trial_that_frees_a_sensor_is_learned_for_the_old_pattern)
 {
     for (unsigned i = 0; i < 20; i++) {
         enum side tried;
@@ -104,7 +105,7 @@ TEST(a_trial_that_frees_a_sensor_is_remembered_for_the_old_pattern)
     }
 }
 
-TEST(a_trial_changes_no_other_cell)
+TEST(trial_changes_only_its_own_cell)
 {
     next(ALL_THREE);
     next(FRONT);
@@ -112,37 +113,37 @@ TEST(a_trial_changes_no_other_cell)
         TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, pattern));
 }
 
-TEST(a_trial_that_frees_no_sensor_is_forgotten)
+TEST(trial_that_frees_no_sensor_is_not_learned)
 {
     next(FRONT);
     next(FRONT_LEFT);   /* another pattern, but as many */
     TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT));
 }
 
-TEST(a_trial_that_makes_it_worse_is_forgotten)
+TEST(trial_that_triggers_more_sensors_is_not_learned)
 {
     next(FRONT);
     next(ALL_THREE);
     TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT));
 }
 
-TEST(the_side_sensors_do_not_judge_a_trial)
+TEST(article_trial_ignores_side_sensors)
 {
     next(FRONT | FRONT_LEFT);
     next(FRONT | 1 | 16);
     TEST_ASSERT_NOT_EQUAL_INT(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT | PATTERN_FRONT_LEFT));
 }
 
-TEST(the_reading_that_judges_a_trial_decides_the_next_action)
+TEST(trial_is_judged_by_the_reading_of_the_next_action)
 {
-    learned(PATTERN_FRONT, SIDE_LEFT);
+    teach(PATTERN_FRONT, SIDE_LEFT);
     next(ALL_THREE);
     assert_action(REASON_REMEMBERED, -10, 0, next(FRONT));
 }
 
-TEST(a_trial_is_judged_by_the_first_reading_only)
+TEST(trial_is_judged_by_the_first_reading_only)
 {
-    learned(PATTERN_FRONT_LEFT, SIDE_RIGHT);
+    teach(PATTERN_FRONT_LEFT, SIDE_RIGHT);
     next(FRONT);
     next(FRONT_LEFT);   /* no fewer */
     next(CLEAR);        /* fewer, but by the remembered turn */
@@ -157,14 +158,14 @@ TEST(learning_marks_the_memory_as_changed)
     TEST_ASSERT_TRUE(brain.changed);
 }
 
-TEST(a_trial_in_vain_leaves_the_memory_unchanged)
+TEST(unsuccessful_trial_leaves_the_memory_unchanged)
 {
     next(FRONT);
     next(FRONT);
     TEST_ASSERT_FALSE(brain.changed);
 }
 
-TEST(a_frozen_brain_learns_nothing)
+TEST(frozen_article_brain_does_not_learn)
 {
     brain.frozen = true;
     next(FRONT);
@@ -173,21 +174,21 @@ TEST(a_frozen_brain_learns_nothing)
     TEST_ASSERT_FALSE(brain.changed);
 }
 
-TEST(a_frozen_brain_uses_what_it_knows)
+TEST(frozen_brain_uses_its_memory)
 {
     brain.frozen = true;
-    learned(PATTERN_FRONT, SIDE_RIGHT);
+    teach(PATTERN_FRONT, SIDE_RIGHT);
     assert_action(REASON_REMEMBERED, 10, 0, next(FRONT));
 }
 
-TEST(a_start_keeps_what_was_learned)
+TEST(start_keeps_the_memory)
 {
-    learned(PATTERN_FRONT, SIDE_RIGHT);
+    teach(PATTERN_FRONT, SIDE_RIGHT);
     brain_start(&brain, PROFILE_ARTICLE, 2);
     assert_action(REASON_REMEMBERED, 10, 0, next(FRONT));
 }
 
-TEST(a_start_forgets_the_trial_under_way)
+TEST(start_discards_the_pending_trial)
 {
     next(FRONT);
     brain_start(&brain, PROFILE_ARTICLE, 2);

@@ -19,19 +19,19 @@ static int turn_with(enum side side, unsigned sensor, uint8_t range_mm)
     struct action action;
 
     brain.awaits = 0;
-    learned(PATTERN_FRONT, side);
+    teach(PATTERN_FRONT, side);
     action = brain_next(&brain, &config, &senses);
     TEST_ASSERT_EQUAL(REASON_REMEMBERED, action.reason);
     return action.turn_deg;
 }
 
-TEST(it_wants_ranges_and_learns)
+TEST(distance_profile_wants_ranges_and_learns)
 {
     TEST_ASSERT_TRUE(brain.wants_ranges);
     TEST_ASSERT_TRUE(brain.learns);
 }
 
-TEST(the_nearer_it_is_the_bigger_the_turn)
+TEST(turn_grows_with_nearness)
 {
     static const struct {
         uint8_t range_mm;
@@ -44,29 +44,29 @@ TEST(the_nearer_it_is_the_bigger_the_turn)
     }
 }
 
-TEST(the_front_three_count_and_the_sides_do_not)
+TEST(turn_depends_on_the_front_three_distances)
 {
     for (unsigned sensor = 0; sensor < FEEL_COUNT; sensor++)
         TEST_ASSERT_EQUAL_INT(sensor == 0 || sensor == 4 ? 10 : 20, turn_with(SIDE_RIGHT, sensor, 30));
 }
 
-TEST(the_nearest_counts)
+TEST(turn_depends_on_the_nearest_distance)
 {
     struct senses senses = blocked(1, 50);
 
     senses.range_mm[2] = 21;
     senses.range_mm[3] = 40;
-    learned(PATTERN_FRONT, SIDE_LEFT);
+    teach(PATTERN_FRONT, SIDE_LEFT);
     TEST_ASSERT_EQUAL_INT(-23, brain_next(&brain, &config, &senses).turn_deg);
 }
 
-TEST(it_adds_to_the_turn_that_is_set)
+TEST(nearness_adds_to_the_turn_parameter)
 {
     config.value[TURN_DEG] = 180;
     TEST_ASSERT_EQUAL_INT(200, turn_with(SIDE_RIGHT, 2, 0));
 }
 
-TEST(a_trial_is_as_big_as_ever)
+TEST(distance_does_not_change_the_trial_angle)
 {
     const struct senses senses = blocked(2, 0);
     int turn_deg = brain_next(&brain, &config, &senses).turn_deg;
@@ -74,13 +74,13 @@ TEST(a_trial_is_as_big_as_ever)
     TEST_ASSERT_EQUAL_INT(45, turn_deg < 0 ? -turn_deg : turn_deg);
 }
 
-TEST(another_behaviour_wants_no_ranges)
+TEST(start_of_another_profile_clears_wants_ranges)
 {
     TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_ARTICLE, 1));
     TEST_ASSERT_FALSE(brain.wants_ranges);
 }
 
-TEST(a_behaviour_that_a_memory_has_chosen_wants_no_ranges)
+TEST(adopted_memory_clears_wants_ranges)
 {
     static const uint8_t cells[CELL_COUNT] = {0, 5};
 
@@ -88,14 +88,14 @@ TEST(a_behaviour_that_a_memory_has_chosen_wants_no_ranges)
     TEST_ASSERT_FALSE(brain.wants_ranges);
 }
 
-TEST(the_smallest_turn_is_to_its_side_too)
+TEST(smallest_turn_parameter_keeps_the_side)
 {
     config.value[TURN_DEG] = 1;
     TEST_ASSERT_EQUAL_INT(21, turn_with(SIDE_RIGHT, 2, 0));
     TEST_ASSERT_EQUAL_INT(-21, turn_with(SIDE_LEFT, 2, 0));
 }
 
-TEST(something_near_that_is_not_in_the_way_turns_nothing)
+TEST(near_object_outside_the_way_causes_no_turn)
 {
     struct senses senses = blocked(2, 30);
 

@@ -32,7 +32,7 @@ void setUp(void)
     learns = true;
 }
 
-TEST(it_is_started_and_asked)
+TEST(own_behaviour_is_started_and_called)
 {
     const struct senses senses = {.feel = FEEL_FRONT};
     struct action action;
@@ -44,7 +44,7 @@ TEST(it_is_started_and_asked)
     TEST_ASSERT_EQUAL_INT(1 + FEEL_FRONT + 10, action.turn_deg);
 }
 
-TEST(it_says_itself_whether_it_learns)
+TEST(own_behaviour_decides_whether_it_learns)
 {
     TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_OWN, 1));
     TEST_ASSERT_TRUE(brain.learns);
@@ -53,7 +53,7 @@ TEST(it_says_itself_whether_it_learns)
     TEST_ASSERT_FALSE(brain.learns);
 }
 
-TEST(its_eight_bytes_are_0_at_each_start)
+TEST(start_clears_the_bytes_of_own_behaviour)
 {
     static const uint8_t expected[8] = {0, 0, 0, 0, 0, 0, 0, 1};
 
@@ -64,13 +64,13 @@ TEST(its_eight_bytes_are_0_at_each_start)
     TEST_ASSERT_EACH_EQUAL_UINT8(0, brain.own, sizeof brain.own);
 }
 
-TEST(no_further_profile_is_there)
+TEST(start_rejects_profiles_above_own)
 {
     for (unsigned profile = PROFILE_OWN + 1; profile <= UINT8_MAX; profile++)
         TEST_ASSERT_FALSE(brain_start(&brain, (uint8_t)profile, 1));
 }
 
-TEST(its_memory_holds_sides)
+TEST(own_behaviour_uses_the_sides_memory_kind)
 {
     static const uint8_t sure[CELL_COUNT] = {0, 13, 6};
     static const uint8_t expected[CELL_COUNT] = {0, 1, 2};

@@ -24,64 +24,65 @@ static void assert_turns_once_around(void)
     TEST_ASSERT_TRUE(action.until_food);
 }
 
-TEST(it_begins_by_turning_once_around)
+TEST(searcher_starts_with_a_full_turn)
 {
     assert_turns_once_around();
 }
 
-/* How far it drives on then: 1000 mm, less 8 for each degree beyond the whole turn. */
-static unsigned way_mm(void)
+/* The distance driven after the next full turn: 1000 mm, less 8 for each degree beyond 360. */
+static unsigned distance_mm(void)
 {
     return 1000 - 8 * ((unsigned)abs(next(CLEAR).turn_deg) - 360);
 }
 
-TEST(it_drives_on_for_a_metre_less_what_it_has_turned_aside)
+TEST(searcher_drives_a_metre_less_8_mm_per_degree_aside)
 {
     for (unsigned i = 0; i < 10; i++)
-        steps((way_mm() + 11) / 12);
+        steps((distance_mm() + 11) / 12);
     assert_turns_once_around();
 }
 
-TEST(it_goes_to_what_it_sees)
+TEST(searcher_drives_to_visible_food)
 {
     TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(CLEAR, 900).reason);
     TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(CLEAR, 150).reason);
     TEST_ASSERT_EQUAL(REASON_EAT, next_seeing_food(CLEAR, 149).reason);
 }
 
-TEST(after_a_meal_it_looks_for_the_next)
+TEST(searcher_makes_a_full_turn_after_a_meal)
 {
     next_seeing_food(CLEAR, 155);
     next_seeing_food(CLEAR, 149);
     assert_turns_once_around();
 }
 
-TEST(when_it_has_lost_the_food_it_drives_on_a_little)
+TEST(searcher_drives_200_mm_on_after_losing_food)
 {
     next_seeing_food(CLEAR, 900);
+    next_seeing_food(CLEAR, 888);   /* still seen: not lost yet */
     steps(17);
     assert_turns_once_around();
 }
 
-/* Lost again and again, the food is in a place that it cannot be reached from. */
-TEST(when_it_has_lost_food_again_it_drives_on_twice_as_far)
+/* Food that is lost again and again cannot be reached from here. */
+TEST(searcher_drives_400_mm_on_after_losing_food_again)
 {
-    static const unsigned ways[] = {17, 34, 34};   /* in steps of 12 mm: 200 mm and on */
+    static const unsigned steps_on[] = {17, 34, 34};   /* in steps of 12 mm: 200 mm and on */
 
-    for (unsigned i = 0; i < sizeof ways / sizeof ways[0]; i++) {
+    for (unsigned i = 0; i < sizeof steps_on / sizeof steps_on[0]; i++) {
         next_seeing_food(CLEAR, 900);
-        steps(ways[i]);
+        steps(steps_on[i]);
         assert_turns_once_around();
     }
     next_seeing_food(CLEAR, 155);
     next_seeing_food(CLEAR, 149);   /* a meal */
     assert_turns_once_around();
     next_seeing_food(CLEAR, 900);
-    steps(ways[0]);
+    steps(steps_on[0]);
     assert_turns_once_around();
 }
 
-TEST(it_goes_on_up_to_59_degrees_aside)
+TEST(searcher_leaves_a_full_turn_0_to_59_degrees_aside)
 {
     bool seen[60] = {false};
     unsigned directions = 0;
@@ -95,14 +96,14 @@ TEST(it_goes_on_up_to_59_degrees_aside)
     TEST_ASSERT_EQUAL_UINT(60, directions);
 }
 
-TEST(it_learns_as_adaptive_does)
+TEST(searcher_learns_like_adaptive)
 {
     next(ALL_THREE);
     next(CLEAR);
     TEST_ASSERT_EQUAL(2, brain.memory.cell[PATTERN_ALL_THREE] >> 2);
 }
 
-TEST(a_turn_around_ends_the_count)
+TEST(full_turn_resets_the_repeat_count)
 {
     brain.repeat_count = 7;
     assert_turns_once_around();
@@ -117,7 +118,7 @@ static void turn_aside_and_lose_food(enum side side)
     steps(17);
 }
 
-TEST(lost_food_is_looked_for_on_the_side_of_what_it_has_turned_away_from)
+TEST(searcher_looks_for_lost_food_on_the_obstacle_side)
 {
     turn_aside_and_lose_food(SIDE_RIGHT);
     TEST_ASSERT_LESS_OR_EQUAL(-360, next(CLEAR).turn_deg);
@@ -126,7 +127,7 @@ TEST(lost_food_is_looked_for_on_the_side_of_what_it_has_turned_away_from)
     TEST_ASSERT_GREATER_OR_EQUAL(360, next(CLEAR).turn_deg);
 }
 
-TEST(a_start_forgets_to_which_side_it_turned)
+TEST(start_resets_the_side_of_the_full_turn)
 {
     turn_aside_and_lose_food(SIDE_RIGHT);
     TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_SEARCHER, 1));
@@ -135,14 +136,14 @@ TEST(a_start_forgets_to_which_side_it_turned)
     TEST_ASSERT_GREATER_OR_EQUAL(360, next(CLEAR).turn_deg);
 }
 
-TEST(without_food_lost_it_looks_to_the_right)
+TEST(full_turn_is_to_the_right_without_lost_food)
 {
     memory_put(&brain.memory, MEMORY_KIND_CONFIDENCE, PATTERN_FRONT, SIDE_RIGHT);
     next(FRONT);
     TEST_ASSERT_GREATER_OR_EQUAL(360, next(CLEAR).turn_deg);
 }
 
-/* Draws until a trial is to that side; it then helps. */
+/* Tries seeds until a trial is to that side, and lets it help. */
 static void learn(uint8_t feel, enum side side)
 {
     uint32_t seed = 0;
@@ -165,7 +166,7 @@ static void assert_turns_from_the_right(enum side side)
     }
 }
 
-TEST(a_lesson_of_one_side_is_one_of_the_other_too)
+TEST(lesson_is_mirrored_to_the_other_side)
 {
     static const uint8_t on_the_right[] = {FRONT_RIGHT, FRONT_RIGHT | FRONT}, on_the_left[] = {FRONT_LEFT, FRONT_LEFT | FRONT};
 
@@ -178,7 +179,7 @@ TEST(a_lesson_of_one_side_is_one_of_the_other_too)
         }
 }
 
-TEST(a_lesson_of_what_is_ahead_says_nothing_of_the_sides)
+TEST(lesson_of_a_symmetric_pattern_is_not_mirrored)
 {
     static const uint8_t alike[] = {FRONT, FRONT_RIGHT | FRONT_LEFT, ALL_THREE};
 
@@ -189,7 +190,7 @@ TEST(a_lesson_of_what_is_ahead_says_nothing_of_the_sides)
     }
 }
 
-TEST(boredom_turns_it_about_though_the_way_is_clear)
+TEST(searcher_is_bored_when_the_way_is_clear)
 {
     memory_put(&brain.memory, MEMORY_KIND_CONFIDENCE, PATTERN_FRONT, SIDE_LEFT);
     remembered_turns(config.value[BOREDOM_LIMIT]);
@@ -197,12 +198,12 @@ TEST(boredom_turns_it_about_though_the_way_is_clear)
     TEST_ASSERT_EQUAL(REASON_LOOK_AROUND, next(CLEAR).reason);
 }
 
-TEST(it_learns_and_stores_it)
+TEST(searcher_stores_its_memory)
 {
     TEST_ASSERT_TRUE(brain.learns);
 }
 
-TEST(after_losing_food_it_looks_around_after_two_hundred_millimetres_and_not_before)
+TEST(full_turn_follows_200_mm_after_losing_food)
 {
     static const unsigned steps_of[][2] = {{200, 1}, {199, 2}};
 
@@ -215,13 +216,13 @@ TEST(after_losing_food_it_looks_around_after_two_hundred_millimetres_and_not_bef
     }
 }
 
-TEST(food_that_is_out_of_reach_is_driven_to_step_by_step)
+TEST(searcher_steps_toward_food_out_of_reach)
 {
     for (unsigned i = 0; i < 3; i++)
         TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(CLEAR, 900).reason);
 }
 
-TEST(a_meal_is_over_after_one_look_around)
+TEST(searcher_steps_on_after_one_full_turn)
 {
     next_seeing_food(CLEAR, 155);
     next_seeing_food(CLEAR, 149);
@@ -229,14 +230,14 @@ TEST(a_meal_is_over_after_one_look_around)
     TEST_ASSERT_EQUAL(REASON_WANDER, next(CLEAR).reason);
 }
 
-TEST(where_a_step_ends_at_an_obstacle_it_tries_a_turn)
+TEST(searcher_tries_a_turn_when_a_step_meets_an_obstacle)
 {
     assert_turns_once_around();
     steps(1);
     TEST_ASSERT_EQUAL(REASON_TRIAL, next(FRONT).reason);
 }
 
-TEST(food_seen_where_a_step_ends_at_an_obstacle_counts_as_a_look)
+TEST(food_seen_at_an_obstacle_restarts_the_distance)
 {
     const struct senses blocked = {.feel = FRONT, .look = true, .beacon_mm = 900};
 
@@ -248,14 +249,14 @@ TEST(food_seen_where_a_step_ends_at_an_obstacle_counts_as_a_look)
     assert_turns_once_around();
 }
 
-TEST(a_start_forgets_the_food_that_it_was_going_to)
+TEST(start_discards_the_food_in_sight)
 {
     next_seeing_food(CLEAR, 900);
     TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_SEARCHER, 1));
     assert_turns_once_around();
 }
 
-TEST(a_start_forgets_the_food_that_it_has_lost)
+TEST(start_resets_the_distance_after_lost_food)
 {
     next_seeing_food(CLEAR, 900);
     steps(17);
@@ -265,7 +266,7 @@ TEST(a_start_forgets_the_food_that_it_has_lost)
     assert_turns_once_around();
 }
 
-TEST(a_trial_is_not_judged_again_after_the_look_around_that_follows_it)
+TEST(trial_is_judged_once_when_a_look_around_follows)
 {
     next(ALL_THREE);
     TEST_ASSERT_EQUAL(REASON_LOOK_AROUND, next(CLEAR).reason);
@@ -273,8 +274,8 @@ TEST(a_trial_is_not_judged_again_after_the_look_around_that_follows_it)
     TEST_ASSERT_EQUAL(2, brain.memory.cell[PATTERN_ALL_THREE] >> 2);
 }
 
-/* As where another robot's vote filled the cell while it turned. */
-TEST(a_lesson_that_its_own_cell_holds_already_is_news_for_the_other_side)
+/* Another robot's vote may have filled the cell during the trial. */
+TEST(lesson_in_its_own_cell_is_still_mirrored)
 {
     const uint8_t known = (uint8_t)(1u << 2 | (next(FRONT_RIGHT | FRONT).turn_deg < 0 ? SIDE_LEFT : SIDE_RIGHT));
 

@@ -6,7 +6,7 @@
 
 const double PI = 3.14159265358979323846;
 
-struct wheels_of_a_body body;
+struct ideal_wheels body;
 
 struct config config;
 struct motion motion;
@@ -32,7 +32,7 @@ long heading_mdeg(void)
     return lround(1000.0 * (body.left_mm - body.right_mm) / config.value[WHEEL_TRACK_MM] * 180.0 / PI);
 }
 
-struct drive driven(void)
+struct drive commanded(void)
 {
     struct drive drive;
 
@@ -42,11 +42,11 @@ struct drive driven(void)
 
 bool tick(void)
 {
-    const struct drive drive = driven();
+    const struct drive drive = commanded();
     struct senses senses;
 
     body.tick++;
-    body.left_mm += body.lame * body.grip * drive.left_mm_s * config.value[TICK_MS] / 1000.0;
+    body.left_mm += body.left_share * body.grip * drive.left_mm_s * config.value[TICK_MS] / 1000.0;
     body.right_mm += body.grip * drive.right_mm_s * config.value[TICK_MS] / 1000.0;
     senses = sensed();
     motion_track(&motion, &senses);
@@ -74,12 +74,12 @@ void begin(int turn_deg, unsigned forward_mm)
 
 unsigned act(int turn_deg, unsigned forward_mm)
 {
-    enum { FAR_TOO_MANY = 100000 };
+    enum { TICKS_MAX = 100000 };
     unsigned ticks = 1;
 
     begin(turn_deg, forward_mm);
     while (!tick())
-        TEST_ASSERT_LESS_THAN_UINT(FAR_TOO_MANY, ticks++);
+        TEST_ASSERT_LESS_THAN_UINT(TICKS_MAX, ticks++);
     return ticks;
 }
 
@@ -89,7 +89,7 @@ void stand_at(double left_mm, double right_mm)
 
     body.left_mm = left_mm;
     body.right_mm = right_mm;
-    body.grip = body.lame = 1.0;
+    body.grip = body.left_share = 1.0;
     body.feel = 0;
     motion_start(&motion);
     senses = sensed();

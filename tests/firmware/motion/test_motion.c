@@ -19,14 +19,14 @@ void setUp(void)
     stand_at(0.0, 0.0);
 }
 
-TEST(a_positive_turn_is_to_the_right)
+TEST(positive_turn_is_to_the_right)
 {
     begin(10, 0);
-    TEST_ASSERT_GREATER_THAN_INT16(0, driven().left_mm_s);
-    TEST_ASSERT_EQUAL_INT16(-driven().left_mm_s, driven().right_mm_s);
+    TEST_ASSERT_GREATER_THAN_INT16(0, commanded().left_mm_s);
+    TEST_ASSERT_EQUAL_INT16(-commanded().left_mm_s, commanded().right_mm_s);
 }
 
-TEST(each_turn_ends_within_half_a_degree)
+TEST(turn_ends_within_half_a_degree)
 {
     for (int turn_deg = -210; turn_deg <= 210; turn_deg++) {
         stand_at(0.0, 0.0);
@@ -36,7 +36,7 @@ TEST(each_turn_ends_within_half_a_degree)
     }
 }
 
-TEST(errors_of_a_thousand_turns_do_not_add_up)
+TEST(random_turns_do_not_accumulate_error)
 {
     int sum_deg = 0;
 
@@ -50,14 +50,14 @@ TEST(errors_of_a_thousand_turns_do_not_add_up)
 }
 
 /* A thousand turns all one way: an error that always has the same sign shows here. */
-TEST(errors_of_equal_turns_do_not_add_up)
+TEST(equal_turns_do_not_accumulate_error)
 {
     for (unsigned i = 1; i <= 1000; i++)
         act(10, 0);
     TEST_ASSERT_INT_WITHIN(HALF, 10000000, heading_mdeg());
 }
 
-TEST(steps_between_turns_do_not_spoil_the_heading)
+TEST(steps_between_turns_keep_the_heading)
 {
     for (unsigned i = 0; i < 1000; i++) {
         act(7, 0);
@@ -66,13 +66,13 @@ TEST(steps_between_turns_do_not_spoil_the_heading)
     TEST_ASSERT_INT_WITHIN(HALF, 7000000, heading_mdeg());
 }
 
-TEST(a_turn_moves_nowhere)
+TEST(turn_does_not_move_the_body)
 {
     act(210, 0);
-    TEST_ASSERT_INT_WITHIN(HARDLY_ANY, 0, way_um());
+    TEST_ASSERT_INT_WITHIN(ROUNDING, 0, way_um());
 }
 
-TEST(what_one_turn_misses_is_made_up_for_in_the_next)
+TEST(turn_corrects_the_error_of_the_turn_before)
 {
     act(90, 0);
     body.left_mm += 8.0;   /* a knock turns the body by 2.9 degrees, and the wheels feel it */
@@ -80,7 +80,7 @@ TEST(what_one_turn_misses_is_made_up_for_in_the_next)
     TEST_ASSERT_INT_WITHIN(HALF, 0, heading_mdeg());
 }
 
-TEST(each_step_ends_within_half_a_millimetre)
+TEST(step_ends_within_half_a_millimetre)
 {
     for (unsigned forward_mm = 1; forward_mm <= 250; forward_mm++) {
         stand_at(0.0, 0.0);
@@ -89,13 +89,13 @@ TEST(each_step_ends_within_half_a_millimetre)
     }
 }
 
-TEST(a_step_goes_straight)
+TEST(step_keeps_the_heading)
 {
     act(0, STEP_MAX_MM);
-    TEST_ASSERT_INT_WITHIN(HARDLY_ANY, 0, heading_mdeg());
+    TEST_ASSERT_INT_WITHIN(ROUNDING, 0, heading_mdeg());
 }
 
-TEST(a_step_ends_in_the_tick_that_brings_an_obstacle)
+TEST(step_ends_in_the_tick_that_senses_an_obstacle)
 {
     begin(0, STEP_MAX_MM);
     TEST_ASSERT_FALSE(tick());
@@ -103,21 +103,21 @@ TEST(a_step_ends_in_the_tick_that_brings_an_obstacle)
     TEST_ASSERT_TRUE(tick());
 }
 
-TEST(an_obstacle_beside_the_body_does_not_end_a_step)
+TEST(step_continues_with_an_obstacle_at_the_side)
 {
     begin(0, STEP_MAX_MM);
     body.feel = 1 | 16;
     TEST_ASSERT_FALSE(tick());
 }
 
-TEST(an_obstacle_does_not_end_a_turn)
+TEST(turn_continues_at_an_obstacle)
 {
     body.feel = FRONT;
     act(45, 0);
     TEST_ASSERT_INT_WITHIN(HALF, 45000, heading_mdeg());
 }
 
-TEST(what_a_stopped_step_left_is_not_driven_later)
+TEST(rest_of_a_stopped_step_is_not_driven_later)
 {
     begin(0, STEP_MAX_MM);
     body.feel = FRONT;
@@ -128,14 +128,14 @@ TEST(what_a_stopped_step_left_is_not_driven_later)
     TEST_ASSERT_INT_WITHIN(HALF, 12000, way_um());
 }
 
-TEST(the_odometers_may_wrap_forward)
+TEST(step_is_exact_when_odometers_wrap_forward)
 {
     stand_at(409.0, 409.0);   /* 6 counts before the wrap */
     act(0, 12);
     TEST_ASSERT_INT_WITHIN(HALF, 421000, way_um());
 }
 
-TEST(the_odometers_may_wrap_backward)
+TEST(turn_is_exact_when_odometers_wrap_backward)
 {
     stand_at(0.3, 0.3);
     act(180, 0);
@@ -143,7 +143,7 @@ TEST(the_odometers_may_wrap_backward)
     TEST_ASSERT_INT_WITHIN(HALF, 0, heading_mdeg());
 }
 
-TEST(rest_lasts_one_tick)
+TEST(rest_action_lasts_one_tick)
 {
     TEST_ASSERT_EQUAL_UINT(1, act(0, 0));
 }
@@ -151,31 +151,31 @@ TEST(rest_lasts_one_tick)
 TEST(wheels_rest_between_actions)
 {
     act(0, 0);
-    TEST_ASSERT_EQUAL_INT16(0, driven().left_mm_s);
-    TEST_ASSERT_EQUAL_INT16(0, driven().right_mm_s);
+    TEST_ASSERT_EQUAL_INT16(0, commanded().left_mm_s);
+    TEST_ASSERT_EQUAL_INT16(0, commanded().right_mm_s);
 }
 
-TEST(nothing_is_under_way_before_the_first_action)
+TEST(motion_has_ended_before_the_first_action)
 {
     const struct senses senses = sensed();
 
     TEST_ASSERT_TRUE(motion_ended(&motion, &config, &senses));
 }
 
-TEST(a_step_keeps_to_its_speed)
+TEST(step_commands_the_speed_parameter)
 {
     begin(0, STEP_MAX_MM);
-    TEST_ASSERT_EQUAL_INT16(200, driven().left_mm_s);
+    TEST_ASSERT_EQUAL_INT16(200, commanded().left_mm_s);
 }
 
 /* 180 degrees/s with 160 mm between the wheels: each makes 80 mm * pi a second. */
-TEST(a_turn_keeps_to_its_speed)
+TEST(turn_commands_the_turn_speed_parameter)
 {
     begin(210, 0);
-    TEST_ASSERT_INT16_WITHIN(1, 251, driven().left_mm_s);
+    TEST_ASSERT_INT16_WITHIN(1, 251, commanded().left_mm_s);
 }
 
-TEST(turns_are_exact_at_both_ends_of_every_range)
+TEST(turns_are_exact_at_the_limits_of_parameters)
 {
     static const int turns_deg[] = {1, 90, 180, TURN_MAX_DEG};
 
@@ -188,7 +188,7 @@ TEST(turns_are_exact_at_both_ends_of_every_range)
         }
 }
 
-TEST(steps_are_exact_at_both_ends_of_every_range)
+TEST(steps_are_exact_at_the_limits_of_parameters)
 {
     static const unsigned steps_mm[] = {1, 250};
 
@@ -210,7 +210,7 @@ static bool tick_seeing_food(bool look)
     return motion_ended(&motion, &config, &senses);
 }
 
-TEST(a_turn_for_food_ends_when_food_is_seen)
+TEST(turn_for_food_ends_when_food_is_seen)
 {
     const struct action around = {.turn_deg = 360, .until_food = true};
 
@@ -221,14 +221,14 @@ TEST(a_turn_for_food_ends_when_food_is_seen)
     TEST_ASSERT_TRUE(tick_seeing_food(true));
 }
 
-TEST(a_turn_that_is_not_for_food_goes_on_when_food_is_seen)
+TEST(other_turn_continues_when_food_is_seen)
 {
     begin(180, 0);
     tick();
     TEST_ASSERT_FALSE(tick_seeing_food(true));
 }
 
-TEST(what_was_left_of_a_turn_for_food_is_forgotten)
+TEST(rest_of_a_turn_for_food_is_dropped)
 {
     const struct action around = {.turn_deg = 360, .until_food = true};
     long before;
@@ -242,7 +242,7 @@ TEST(what_was_left_of_a_turn_for_food_is_forgotten)
     TEST_ASSERT_INT_WITHIN(HALF, before - 90000, heading_mdeg());
 }
 
-TEST(the_rest_after_an_action_is_part_of_it)
+TEST(action_includes_its_rest_ticks)
 {
     const struct action trial = {.turn_deg = 45, .rest_ticks = 2};
 
@@ -250,9 +250,9 @@ TEST(the_rest_after_an_action_is_part_of_it)
     while (!tick())
         ;
     TEST_ASSERT_TRUE(motion_rest(&motion, &config));
-    TEST_ASSERT_EQUAL(0, driven().left_mm_s);
+    TEST_ASSERT_EQUAL(0, commanded().left_mm_s);
     TEST_ASSERT_FALSE(tick());
-    TEST_ASSERT_EQUAL(0, driven().left_mm_s);
+    TEST_ASSERT_EQUAL(0, commanded().left_mm_s);
     TEST_ASSERT_TRUE(tick());
     TEST_ASSERT_FALSE(motion_rest(&motion, &config));
 }

@@ -1,4 +1,4 @@
-/* Wheels that roll apart in a step, or together in a turn: one of them does not obey. */
+/* Straying: wheels that roll apart in a step, or together in a turn, because one of them does not obey. */
 #include "firmware/motion/motion.h"
 #include "tests/test.h"
 #include "motion_rig.h"
@@ -11,9 +11,9 @@ void setUp(void)
 }
 
 /* Steps until the wheels are denied; none if they never are. */
-static unsigned steps_until_denied(double lame)
+static unsigned steps_until_denied(double left_share)
 {
-    body.lame = lame;
+    body.left_share = left_share;
     for (unsigned steps = 1; steps <= 100; steps++) {
         act(0, 12);
         if (motion_is_denied(&motion, &config))
@@ -23,51 +23,51 @@ static unsigned steps_until_denied(double lame)
 }
 
 /* A step of 12 mm on one wheel takes 8 ticks: a wheel that stands still for 100 is dead. */
-TEST(one_dead_wheel_is_denied_after_some_steps)
+TEST(dead_wheel_is_denied_after_13_steps)
 {
     TEST_ASSERT_EQUAL_UINT(13, steps_until_denied(0.0));
 }
 
 /* Such a step goes astray by some 16 of 240 counts; 1004 are too much. */
-TEST(one_wheel_that_hardly_rolls_is_denied_in_the_end)
+TEST(wheel_at_a_tenth_of_its_speed_is_denied_after_61_steps)
 {
     TEST_ASSERT_EQUAL_UINT(61, steps_until_denied(0.1));
 }
 
-TEST(one_wheel_that_rolls_backward_is_denied_sooner)
+TEST(wheel_that_rolls_backward_is_denied_after_3_steps)
 {
     TEST_ASSERT_EQUAL_UINT(3, steps_until_denied(-0.5));
 }
 
-TEST(one_weak_wheel_is_not_denied_however_many_steps_it_takes)
+TEST(wheel_at_a_fifth_of_its_speed_is_not_denied_in_steps)
 {
     for (unsigned percent = 20; percent <= 100; percent += 10)
         TEST_ASSERT_EQUAL_UINT(0, steps_until_denied(percent / 100.0));
 }
 
-TEST(one_dead_wheel_is_denied_in_short_turns_either_way)
+TEST(dead_wheel_is_denied_in_short_turns)
 {
     unsigned turns = 0;
 
-    for (body.lame = 0.0; !motion_is_denied(&motion, &config); turns++) {
+    for (body.left_share = 0.0; !motion_is_denied(&motion, &config); turns++) {
         TEST_ASSERT_LESS_THAN_UINT(30, turns);
         act(turns % 2 ? 10 : -10, 0);
     }
     TEST_ASSERT_GREATER_THAN_UINT(3, turns);
 }
 
-TEST(a_wheel_that_is_mended_is_believed_after_one_step)
+TEST(repaired_wheel_is_credible_after_one_step)
 {
     TEST_ASSERT_NOT_EQUAL_UINT(0, steps_until_denied(0.1));
     act(0, 12);
     TEST_ASSERT_TRUE(motion_is_denied(&motion, &config));
-    body.lame = 1.0;
+    body.left_share = 1.0;
     act(0, 12);
     TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
 }
 
 /* Where drives are lost, a body goes on turning for 5 ticks while the robot takes steps. */
-TEST(wheels_that_go_on_turning_for_some_ticks_are_not_denied)
+TEST(wheels_finishing_a_turn_in_a_step_are_not_denied)
 {
     struct senses senses;
 
@@ -90,7 +90,7 @@ static void tear_apart(void)
     motion_track(&motion, &senses);
 }
 
-TEST(wheels_that_go_ever_farther_astray_stay_denied)
+TEST(wheels_that_keep_straying_stay_denied)
 {
     begin(0, 250);
     for (unsigned ticks = 0; ticks < 100; ticks++) {
@@ -99,8 +99,8 @@ TEST(wheels_that_go_ever_farther_astray_stay_denied)
     }
 }
 
-/* However far they had gone: what is held against them is no more than what denies one action. */
-TEST(wheels_that_were_far_astray_are_believed_after_one_step_too)
+/* However far they went: the straying kept for the next action is just enough to deny one. */
+TEST(wheels_far_astray_are_credible_after_one_step)
 {
     begin(0, 250);
     for (unsigned ticks = 0; ticks < 100; ticks++)

@@ -1,11 +1,11 @@
-/* Where each rule of motion begins and ends, to the last count: a turn makes 100 counts in a tick, a step 80. */
+/* The limits of each rule of motion, exact to a count: a turn makes 100 counts in a tick, a step 80. */
 #include "firmware/motion/motion.h"
 #include "tests/test.h"
 #include "motion_rig.h"
 
-enum { COUNT = 16384, DEGREE = 457528, LEAST = -1, MOST = 1 };
+enum { COUNT = 16384, DEGREE = 457528, TO_THE_LEFT = -1, TO_THE_RIGHT = 1 };
 
-static const struct action GLANCE = {.reason = REASON_LOOK_AROUND, .turn_deg = 90};
+static const struct action LOOK_AROUND = {.reason = REASON_LOOK_AROUND, .turn_deg = 90};
 static const struct action BACK = {.reason = REASON_TRIAL, .forward_mm = -12};
 static const struct action FOOD_TURN = {.turn_deg = 210, .until_food = true};
 
@@ -26,7 +26,7 @@ static bool has_ended(uint8_t feel)
 static void roll_for(unsigned ticks, int left, int right)
 {
     for (unsigned i = 0; i < ticks; i++) {
-        (void)driven();
+        (void)commanded();
         roll(left, right);
     }
 }
@@ -43,7 +43,7 @@ static bool is_credible(int from, int left, int right, unsigned ticks)
     return motion_is_credible(&motion, &config, &senses, ticks);
 }
 
-TEST(a_restarted_body_has_rolled_up_to_8_counts)
+TEST(restart_is_assumed_up_to_8_counts)
 {
     TEST_ASSERT_FALSE(is_credible(90, 8, 8, 2));
     TEST_ASSERT_FALSE(is_credible(90, -8, -8, 2));
@@ -52,19 +52,19 @@ TEST(a_restarted_body_has_rolled_up_to_8_counts)
     TEST_ASSERT_TRUE(is_credible(-90, -9, -8, 2));
 }
 
-TEST(a_body_that_stood_at_0_may_still_stand_there)
+TEST(odometers_that_stay_near_0_are_credible)
 {
     TEST_ASSERT_TRUE(is_credible(0, 0, 0, 2));
     TEST_ASSERT_TRUE(is_credible(8, 0, 0, 2));
     TEST_ASSERT_FALSE(is_credible(9, 0, 0, 2));
 }
 
-TEST(without_a_gap_wheels_may_roll_to_0)
+TEST(odometers_at_0_without_a_gap_are_credible)
 {
     TEST_ASSERT_TRUE(is_credible(50, 0, 0, 1));
 }
 
-TEST(wheels_roll_no_farther_in_a_longer_gap_than_in_five_ticks)
+TEST(credible_distance_is_limited_to_five_ticks)
 {
     static const unsigned ticks[] = {5, 6, 100};
 
@@ -75,7 +75,7 @@ TEST(wheels_roll_no_farther_in_a_longer_gap_than_in_five_ticks)
     }
 }
 
-/* How far wheels that still had to roll a distance apart have gone astray after a tick of a step. */
+/* The counts astray after a tick of a step, with a backlog of wheels apart. */
 static unsigned astray_in_a_step(int16_t to_come, int left, int right)
 {
     stand_at(0.0, 0.0);
@@ -94,7 +94,7 @@ static unsigned astray_in_a_turn(int16_t to_come, int left, int right)
     return motion.astray;
 }
 
-TEST(what_was_still_to_be_rolled_of_a_turn_is_not_astray_in_a_step)
+TEST(backlog_of_a_turn_is_not_straying_in_a_step)
 {
     TEST_ASSERT_EQUAL_UINT(30, astray_in_a_step(0, 15, -15));
     TEST_ASSERT_EQUAL_UINT(0, astray_in_a_step(30, 15, -15));
@@ -105,21 +105,21 @@ TEST(what_was_still_to_be_rolled_of_a_turn_is_not_astray_in_a_step)
     TEST_ASSERT_EQUAL_UINT(0, astray_in_a_step(1, 1, 0));
 }
 
-TEST(what_rolls_against_what_was_to_come_is_astray)
+TEST(rolling_against_the_backlog_counts_as_straying)
 {
     TEST_ASSERT_EQUAL_UINT(30, astray_in_a_step(30, -15, 15));
     TEST_ASSERT_EQUAL_UINT(30, astray_in_a_step(-30, 15, -15));
     TEST_ASSERT_EQUAL_UINT(1, astray_in_a_step(-1, 1, 0));
 }
 
-TEST(what_was_still_to_be_rolled_of_a_step_is_not_astray_in_a_turn)
+TEST(backlog_of_a_step_is_not_straying_in_a_turn)
 {
     TEST_ASSERT_EQUAL_UINT(40, astray_in_a_turn(0, 20, 20));
     TEST_ASSERT_EQUAL_UINT(10, astray_in_a_turn(30, 20, 20));
     TEST_ASSERT_EQUAL_UINT(10, astray_in_a_turn(-30, -20, -20));
 }
 
-TEST(a_tick_of_correct_rolling_offsets_three_quarters_of_it)
+TEST(correct_rolling_offsets_straying_by_three_quarters)
 {
     begin(0, 12);
     motion.astray = 10;
@@ -129,7 +129,7 @@ TEST(a_tick_of_correct_rolling_offsets_three_quarters_of_it)
     TEST_ASSERT_EQUAL_UINT16(4, motion.astray);
 }
 
-TEST(wheels_go_astray_up_to_a_limit_and_the_next_action_starts_from_what_denies_one)
+TEST(straying_is_limited_in_and_between_actions)
 {
     begin(0, 250);
     for (unsigned i = 0; i < 20; i++)
@@ -140,11 +140,11 @@ TEST(wheels_go_astray_up_to_a_limit_and_the_next_action_starts_from_what_denies_
     TEST_ASSERT_TRUE(motion_is_denied(&motion, &config));
 }
 
-TEST(a_turn_is_denied_with_its_last_command_and_not_before)
+TEST(turn_is_denied_when_its_pace_is_used_up)
 {
     begin(210, 0);
     motion.pace_left = 101;
-    (void)driven();
+    (void)commanded();
     roll(50, -50);
     TEST_ASSERT_EQUAL_UINT16(1, motion.pace_left);
     TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
@@ -159,18 +159,18 @@ TEST(a_turn_is_denied_with_its_last_command_and_not_before)
 
 TEST(wheels_slower_than_half_are_denied_after_ten_ticks)
 {
-    for (int side = LEAST; side <= MOST; side += 2) {
+    for (int side = TO_THE_LEFT; side <= TO_THE_RIGHT; side += 2) {
         stand_at(0.0, 0.0);
         begin(side * 210, 0);
         for (unsigned i = 1; i <= 10; i++) {
-            (void)driven();
+            (void)commanded();
             roll(side * 25, side * -24);
             TEST_ASSERT_EQUAL(i == 10, motion_is_denied(&motion, &config));
         }
     }
 }
 
-TEST(wheels_that_grow_slow_in_a_turn_are_denied)
+TEST(wheels_that_slow_down_in_a_turn_are_denied)
 {
     begin(210, 0);
     roll_for(20, 50, -50);
@@ -179,14 +179,14 @@ TEST(wheels_that_grow_slow_in_a_turn_are_denied)
     TEST_ASSERT_TRUE(motion_is_denied(&motion, &config));
 }
 
-TEST(wheels_at_half_their_speed_are_not_too_slow)
+TEST(wheels_at_half_speed_are_not_denied)
 {
     begin(210, 0);
     roll_for(30, 25, -25);
     TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
 }
 
-TEST(a_turn_for_food_is_not_judged_by_its_pace)
+TEST(turn_for_food_is_not_judged_by_its_pace)
 {
     motion_begin(&motion, &config, &FOOD_TURN);
     roll_for(30, 10, -10);
@@ -200,13 +200,13 @@ TEST(turns_of_eight_ticks_and_more_are_judged)
     TEST_ASSERT_FALSE(motion_tells(&motion));
     begin(-29, 0);
     TEST_ASSERT_TRUE(motion_tells(&motion));
-    motion_begin(&motion, &config, &GLANCE);
+    motion_begin(&motion, &config, &LOOK_AROUND);
     TEST_ASSERT_FALSE(motion_tells(&motion));
     begin(0, 250);
     TEST_ASSERT_FALSE(motion_tells(&motion));
 }
 
-TEST(a_turn_too_far_to_count_is_not_judged)
+TEST(turn_beyond_the_counting_limit_is_not_judged)
 {
     for (unsigned i = 0; i < 20; i++)
         roll(-2000, 2000);
@@ -214,7 +214,7 @@ TEST(a_turn_too_far_to_count_is_not_judged)
     TEST_ASSERT_FALSE(motion_tells(&motion));
 }
 
-TEST(a_turn_has_one_and_a_half_times_its_time_and_25_ticks)
+TEST(time_limit_depends_on_the_kind_of_action)
 {
     begin(210, 0);
     TEST_ASSERT_EQUAL_UINT16(5864 * 3 / 2 / 100 + 25, motion.ticks_left);
@@ -224,9 +224,9 @@ TEST(a_turn_has_one_and_a_half_times_its_time_and_25_ticks)
     TEST_ASSERT_EQUAL_UINT16(240 * 2 / 80 + 25, motion.ticks_left);
 }
 
-TEST(wheels_that_stop_within_half_a_degree_have_turned)
+TEST(turn_ends_when_wheels_stop_within_half_a_degree)
 {
-    for (int side = LEAST; side <= MOST; side += 2) {
+    for (int side = TO_THE_LEFT; side <= TO_THE_RIGHT; side += 2) {
         begin(90, 0);
         motion.apart.rolled = (int16_t)(side * 5);
         motion.turn_left = side * DEGREE / 2;
@@ -240,9 +240,9 @@ TEST(wheels_that_stop_within_half_a_degree_have_turned)
 }
 
 /* 10 counts are less than 3/8 degree, 11 are more. */
-TEST(a_turn_ends_with_up_to_three_eighths_of_a_degree_to_come_and_a_glance_with_any)
+TEST(turn_end_allows_a_backlog_of_three_eighths_degree)
 {
-    for (int side = LEAST; side <= MOST; side += 2) {
+    for (int side = TO_THE_LEFT; side <= TO_THE_RIGHT; side += 2) {
         begin(90, 0);
         motion.apart.rolled = 100;
         motion.apart.counts = (int16_t)(side * 10);
@@ -253,13 +253,13 @@ TEST(a_turn_ends_with_up_to_three_eighths_of_a_degree_to_come_and_a_glance_with_
         motion.apart.counts = (int16_t)(side * 11);
         motion.turn_left = side * 11 * COUNT;
         TEST_ASSERT_FALSE(has_ended(0));
-        motion_begin(&motion, &config, &GLANCE);
+        motion_begin(&motion, &config, &LOOK_AROUND);
         motion.turn_left = side * 11 * COUNT;
         TEST_ASSERT_TRUE(has_ended(0));
     }
 }
 
-TEST(a_way_back_ends_five_counts_before_its_end_and_at_no_obstacle)
+TEST(backward_step_ends_five_counts_early_despite_obstacles)
 {
     motion_begin(&motion, &config, &BACK);
     motion.way_left = -6;
@@ -270,7 +270,7 @@ TEST(a_way_back_ends_five_counts_before_its_end_and_at_no_obstacle)
     TEST_ASSERT_TRUE(has_ended(0));
 }
 
-TEST(what_wheels_will_still_roll_ends_a_step_earlier)
+TEST(backlog_ends_a_step_earlier)
 {
     begin(0, 12);
     motion.way_left = 26;
@@ -280,14 +280,14 @@ TEST(what_wheels_will_still_roll_ends_a_step_earlier)
     TEST_ASSERT_TRUE(has_ended(0));
 }
 
-TEST(what_wheels_will_still_roll_is_part_of_the_next_step)
+TEST(backlog_is_added_to_the_next_step)
 {
     motion.together.counts = 20;
     begin(0, 12);
     TEST_ASSERT_EQUAL_INT16(240 + 20, motion.way_left);
 }
 
-/* What is left of a turn that ended with this rest, and what wheels have still to roll of it. */
+/* The turn left after a turn that ended with this error and this backlog. */
 static int32_t left_after_a_turn(int32_t turn_left, int16_t to_come)
 {
     stand_at(0.0, 0.0);
@@ -298,16 +298,16 @@ static int32_t left_after_a_turn(int32_t turn_left, int16_t to_come)
     return motion.turn_left;
 }
 
-TEST(the_rest_of_a_turn_is_made_up_for_up_to_half_a_degree)
+TEST(turn_error_is_carried_over_up_to_half_a_degree)
 {
-    for (int side = LEAST; side <= MOST; side += 2) {
+    for (int side = TO_THE_LEFT; side <= TO_THE_RIGHT; side += 2) {
         TEST_ASSERT_EQUAL_INT32(side * DEGREE / 2, left_after_a_turn(side * DEGREE / 2, 0));
         TEST_ASSERT_EQUAL_INT32(0, left_after_a_turn(side * (DEGREE / 2 + 1), 0));
         TEST_ASSERT_EQUAL_INT32(side * 50 * COUNT, left_after_a_turn(side * 50 * COUNT, (int16_t)(side * 50)));
     }
 }
 
-TEST(a_turn_that_was_given_up_is_dropped_before_its_rest)
+TEST(turn_given_up_is_dropped_before_its_rest)
 {
     const struct action trial = {.turn_deg = 45, .rest_ticks = 2};
 
@@ -317,39 +317,39 @@ TEST(a_turn_that_was_given_up_is_dropped_before_its_rest)
     TEST_ASSERT_EQUAL_UINT16(2, motion.ticks_left);
 }
 
-static void assert_told(const struct action *action, int left_mm_s, int right_mm_s, int apart, int together)
+static void assert_commanded(const struct action *action, int left_mm_s, int right_mm_s, int apart, int together)
 {
     struct drive drive;
 
     stand_at(0.0, 0.0);
     motion_begin(&motion, &config, action);
-    drive = driven();
+    drive = commanded();
     TEST_ASSERT_EQUAL_INT16(left_mm_s, drive.left_mm_s);
     TEST_ASSERT_EQUAL_INT16(right_mm_s, drive.right_mm_s);
     TEST_ASSERT_EQUAL_INT16(apart, motion.apart.commanded[0]);
     TEST_ASSERT_EQUAL_INT16(together, motion.together.commanded[0]);
 }
 
-TEST(what_wheels_are_told_is_what_they_have_to_roll)
+TEST(commanded_counts_match_the_wheel_speeds)
 {
     static const struct action right = {.turn_deg = 90}, left = {.turn_deg = -90}, step = {.forward_mm = 12};
 
-    assert_told(&right, 251, -251, 100, 0);
-    assert_told(&left, -251, 251, -100, 0);
-    assert_told(&step, 200, 200, 0, 80);
-    assert_told(&BACK, -200, -200, 0, -80);
+    assert_commanded(&right, 251, -251, 100, 0);
+    assert_commanded(&left, -251, 251, -100, 0);
+    assert_commanded(&step, 200, 200, 0, 80);
+    assert_commanded(&BACK, -200, -200, 0, -80);
 }
 
-TEST(a_glance_goes_on_when_food_is_seen)
+TEST(look_around_continues_when_food_is_seen)
 {
     const struct senses senses = {.look = true, .tick = 1};
 
-    motion_begin(&motion, &config, &GLANCE);
+    motion_begin(&motion, &config, &LOOK_AROUND);
     motion_track(&motion, &senses);
     TEST_ASSERT_EQUAL_INT32(90 * DEGREE, motion.turn_left);
 }
 
-TEST(food_turns_the_robot_back_to_where_it_was_seen)
+TEST(turn_for_food_returns_to_the_sighting)
 {
     struct senses senses = {.look = true, .tick = 1, .odometer_left = 30, .odometer_right = ODOMETER_SPAN - 30};
 
@@ -359,16 +359,16 @@ TEST(food_turns_the_robot_back_to_where_it_was_seen)
     senses = (struct senses){.look = true, .tick = 2, .odometer_left = 40, .odometer_right = ODOMETER_SPAN - 40};
     motion_track(&motion, &senses);
     TEST_ASSERT_EQUAL_INT32(-20 * COUNT, motion.turn_left);
-    TEST_ASSERT_LESS_THAN_INT16(0, driven().left_mm_s);
+    TEST_ASSERT_LESS_THAN_INT16(0, commanded().left_mm_s);
 }
 
-TEST(a_wheel_that_has_rolled_and_stops_is_dead_after_two_seconds)
+TEST(wheel_that_stops_rolling_is_dead_after_two_seconds)
 {
     unsigned ticks = 0;
 
     begin(90, 0);
     roll(50, -50);
-    for ((void)driven(); !motion_gave_up(&motion); (void)driven()) {
+    for ((void)commanded(); !motion_gave_up(&motion); (void)commanded()) {
         TEST_ASSERT_LESS_THAN_UINT(200, ++ticks);
         roll(ticks % 2 ? 20 : -20, 0);
         begin(ticks % 2 ? 3 : -3, 0);

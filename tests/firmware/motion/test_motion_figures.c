@@ -42,19 +42,19 @@ static void assert_farthest(int counts, unsigned ticks)
     TEST_ASSERT_FALSE(is_credible(0, -counts - 1, ticks));
 }
 
-TEST(a_degree_is_rounded_to_the_nearest)
+TEST(degree_in_counts_is_rounded_to_nearest)
 {
     begin(1, 0);
     TEST_ASSERT_EQUAL_INT32(DEGREE, motion.turn_left);
 }
 
-TEST(wheels_are_believed_up_to_13_eighths_of_the_fastest_and_2_counts)
+TEST(credible_distance_is_13_eighths_of_full_speed_plus_2)
 {
     assert_farthest(83, 1);
     assert_farthest(409, 5);
 }
 
-TEST(the_fastest_is_the_greater_of_both_speeds)
+TEST(credible_distance_follows_the_faster_parameter)
 {
     config.value[SPEED_MM_S] = 250;
     config.value[TURN_SPEED_DEG_S] = 30;
@@ -64,7 +64,7 @@ TEST(the_fastest_is_the_greater_of_both_speeds)
     assert_farthest(83, 1);
 }
 
-TEST(lifted_wheels_are_believed_whatever_they_say)
+TEST(odometers_of_a_lifted_robot_are_credible)
 {
     motion_lift(&motion);
     TEST_ASSERT_TRUE(is_credible(2000, -2000, 1));
@@ -79,7 +79,7 @@ TEST(half_the_span_counts_as_backward)
     TEST_ASSERT_EQUAL_INT16(ODOMETER_SPAN, motion.way_left);
 }
 
-TEST(an_error_grows_to_its_limit_and_no_farther)
+TEST(turn_error_is_limited)
 {
     for (unsigned i = 0; i < 20; i++)
         roll(2000, -2000);
@@ -91,7 +91,7 @@ TEST(an_error_grows_to_its_limit_and_no_farther)
     TEST_ASSERT_EQUAL_INT32(TURN_MAX, motion.turn_left);
 }
 
-TEST(a_turn_adds_to_an_error_up_to_its_limit)
+TEST(turn_plus_error_is_limited)
 {
     for (unsigned i = 0; i < 20; i++)
         roll(-2000, 2000);
@@ -99,7 +99,7 @@ TEST(a_turn_adds_to_an_error_up_to_its_limit)
     TEST_ASSERT_EQUAL_INT32(TURN_MAX, motion.turn_left);
 }
 
-TEST(a_way_too_far_is_counted_up_to_its_limit)
+TEST(distance_left_is_limited)
 {
     for (unsigned i = 0; i < 5; i++)
         roll(2000, 2000);
@@ -109,7 +109,7 @@ TEST(a_way_too_far_is_counted_up_to_its_limit)
     TEST_ASSERT_EQUAL_INT16(WAY_MAX, motion.way_left);
 }
 
-TEST(a_turn_has_ended_an_eighth_of_a_degree_before_its_end)
+TEST(turn_ends_an_eighth_of_a_degree_early)
 {
     begin(1, 0);
     motion.apart.rolled = 2 * FASTEST_COUNTS;
@@ -119,7 +119,7 @@ TEST(a_turn_has_ended_an_eighth_of_a_degree_before_its_end)
     TEST_ASSERT_TRUE(has_ended());
 }
 
-TEST(a_step_has_ended_five_counts_before_its_end)
+TEST(step_ends_five_counts_early)
 {
     begin(0, 12);
     motion.way_left = 6;
@@ -128,7 +128,7 @@ TEST(a_step_has_ended_five_counts_before_its_end)
     TEST_ASSERT_TRUE(has_ended());
 }
 
-TEST(the_last_speed_is_what_covers_the_rest_in_a_tick)
+TEST(last_speed_of_a_step_covers_the_rest_in_one_tick)
 {
     static const struct {
         uint8_t tick_ms;
@@ -140,26 +140,26 @@ TEST(the_last_speed_is_what_covers_the_rest_in_a_tick)
         config.value[TICK_MS] = cases[i].tick_ms;
         begin(0, 12);
         motion.way_left = cases[i].way_left;
-        TEST_ASSERT_EQUAL_INT16(cases[i].speed_mm_s, driven().left_mm_s);
+        TEST_ASSERT_EQUAL_INT16(cases[i].speed_mm_s, commanded().left_mm_s);
     }
 }
 
-TEST(the_last_speed_of_a_turn_covers_the_rest_in_a_tick)
+TEST(last_speed_of_a_turn_covers_the_rest_in_one_tick)
 {
     begin(1, 0);
     motion.turn_left = FASTEST_COUNTS * COUNT;
-    TEST_ASSERT_EQUAL_INT16(125, driven().left_mm_s);
-    TEST_ASSERT_EQUAL_INT16(-125, driven().right_mm_s);
+    TEST_ASSERT_EQUAL_INT16(125, commanded().left_mm_s);
+    TEST_ASSERT_EQUAL_INT16(-125, commanded().right_mm_s);
 }
 
 /* 120 mm take 30 ticks: twice as many, and 25. */
-TEST(a_step_has_twice_its_time_and_25_ticks)
+TEST(step_time_limit_is_twice_its_time_plus_25_ticks)
 {
     body.grip = 0.0;
     TEST_ASSERT_EQUAL_UINT(85, act(0, 120));
 }
 
-TEST(what_is_given_up_is_known_when_its_time_is_over_and_not_before)
+TEST(step_without_grip_is_denied_at_its_time_limit)
 {
     body.grip = 0.0;
     begin(0, 120);
@@ -172,14 +172,14 @@ TEST(what_is_given_up_is_known_when_its_time_is_over_and_not_before)
     TEST_ASSERT_TRUE(motion_is_denied(&motion, &config));
 }
 
-TEST(a_rest_is_never_given_up)
+TEST(rest_is_never_given_up)
 {
     act(0, 0);
     TEST_ASSERT_FALSE(motion_gave_up(&motion));
 }
 
 /* In a turn at full speed each wheel makes 251 mm/s: both make 1004 counts in 0.2 s. */
-TEST(wheels_may_go_astray_as_far_as_both_roll_in_200_ms)
+TEST(straying_limit_is_200_ms_of_rolling)
 {
     motion.astray = 1003;
     TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
@@ -188,7 +188,7 @@ TEST(wheels_may_go_astray_as_far_as_both_roll_in_200_ms)
 }
 
 /* A step of 12 mm is 240 counts. */
-TEST(what_wheels_do_right_makes_amends_for_three_quarters_and_for_nothing_to_come)
+TEST(correct_rolling_reduces_straying_to_0_at_least)
 {
     motion.astray = 181;
     act(0, 12);
@@ -198,13 +198,13 @@ TEST(what_wheels_do_right_makes_amends_for_three_quarters_and_for_nothing_to_com
 }
 
 /* 210 degrees are 5864 counts, and a tick at full speed 100. */
-TEST(a_turn_may_be_told_seven_quarters_of_its_way_and_2_ticks)
+TEST(turn_pace_is_seven_quarters_plus_2_ticks)
 {
     begin(210, 0);
     TEST_ASSERT_EQUAL_UINT16(10462, motion.pace_left);
 }
 
-TEST(a_step_and_a_turn_for_food_have_no_pace)
+TEST(step_and_turn_for_food_have_no_pace)
 {
     const struct action around = {.turn_deg = 360, .until_food = true};
 
@@ -214,30 +214,30 @@ TEST(a_step_and_a_turn_for_food_have_no_pace)
     TEST_ASSERT_EQUAL_UINT16(UINT16_MAX, motion.pace_left);
 }
 
-TEST(an_outage_costs_five_ticks_of_the_pace)
+TEST(outage_costs_five_ticks_of_the_pace)
 {
     static const uint8_t ticks[] = {5, 6, 7, 100};
 
     for (unsigned i = 0; i < sizeof ticks; i++) {
         stand_at(0.0, 0.0);
         begin(210, 0);
-        (void)driven();
+        (void)commanded();
         body.tick = (uint8_t)(body.tick + ticks[i] - 1);
         roll(0, 0);
         TEST_ASSERT_EQUAL_UINT16(10462 - 500, motion.pace_left);
     }
 }
 
-TEST(wheels_rest_while_nothing_is_to_be_done_whatever_moves_them)
+TEST(rest_commands_no_speed_when_wheels_move)
 {
     begin(0, 0);
     roll(80, 20);
-    TEST_ASSERT_EQUAL_INT16(0, driven().left_mm_s);
-    TEST_ASSERT_EQUAL_INT16(0, driven().right_mm_s);
+    TEST_ASSERT_EQUAL_INT16(0, commanded().left_mm_s);
+    TEST_ASSERT_EQUAL_INT16(0, commanded().right_mm_s);
 }
 
 /* A knock by 180 counts is 6.4 degrees. */
-TEST(a_knock_between_turns_is_made_up_for_in_the_next)
+TEST(turn_corrects_for_motion_since_the_last_turn)
 {
     roll(90, -90);
     begin(0, 12);
@@ -245,7 +245,7 @@ TEST(a_knock_between_turns_is_made_up_for_in_the_next)
     TEST_ASSERT_EQUAL_INT32(10 * DEGREE - 180 * COUNT, motion.turn_left);
 }
 
-TEST(nothing_is_left_of_a_turn_that_was_given_up)
+TEST(turn_given_up_leaves_no_error)
 {
     begin(90, 0);
     begin(0, 12);

@@ -12,19 +12,19 @@ void setUp(void)
     stand_at(0.0, 0.0);
 }
 
-TEST(a_turn_against_stuck_wheels_is_given_up)
+TEST(turn_with_stuck_wheels_is_given_up)
 {
     body.grip = 0.0;
     TEST_ASSERT_LESS_OR_EQUAL_UINT(2 * 59 + 25, act(210, 0));   /* 59 ticks at full speed */
 }
 
-TEST(a_step_against_stuck_wheels_is_given_up)
+TEST(step_with_stuck_wheels_is_given_up)
 {
     body.grip = 0.0;
     TEST_ASSERT_LESS_OR_EQUAL_UINT(2 * 3 + 25, act(0, 12));
 }
 
-TEST(a_turn_that_was_given_up_is_not_made_up_for)
+TEST(turn_given_up_is_not_corrected_later)
 {
     body.grip = 0.0;
     act(90, 0);
@@ -52,8 +52,8 @@ TEST(slow_wheels_are_not_given_up)
     TEST_ASSERT_INT_WITHIN(HALF, 210000, heading_mdeg());
 }
 
-/* Whether wheels with a share of their speed are denied, in turns of any size. */
-static void check_wheels_at(double share, bool are_denied)
+/* Checks whether wheels at a share of their speed are denied, in turns of several angles. */
+static void check_wheels_at_share(double share, bool are_denied)
 {
     static const int paced[] = {-210, -150, -45, 45, 150, 210};
 
@@ -65,23 +65,23 @@ static void check_wheels_at(double share, bool are_denied)
     }
 }
 
-TEST(wheels_that_turn_at_half_the_speed_are_denied)
+TEST(turns_at_up_to_half_speed_are_denied)
 {
-    check_wheels_at(0.3, true);
-    check_wheels_at(0.4, true);
-    check_wheels_at(0.5, true);
+    check_wheels_at_share(0.3, true);
+    check_wheels_at_share(0.4, true);
+    check_wheels_at_share(0.5, true);
 }
 
-TEST(wheels_that_are_a_little_off_are_not_denied)
+TEST(turns_at_60_to_120_percent_speed_are_not_denied)
 {
-    check_wheels_at(0.6, false);
-    check_wheels_at(0.8, false);
-    check_wheels_at(1.0, false);
-    check_wheels_at(1.2, false);
+    check_wheels_at_share(0.6, false);
+    check_wheels_at_share(0.8, false);
+    check_wheels_at_share(1.0, false);
+    check_wheels_at_share(1.2, false);
 }
 
 /* At full speed each wheel makes 251 mm/s in a turn, 50 counts a tick. */
-TEST(odometers_that_count_twice_the_way_are_not_credible)
+TEST(odometers_at_twice_the_speed_are_not_credible)
 {
     struct senses senses = sensed();
 
@@ -93,7 +93,7 @@ TEST(odometers_that_count_twice_the_way_are_not_credible)
 }
 
 /* The faster of the two counts: here a step's 200 mm/s, 40 counts a tick. */
-TEST(wheels_faster_than_in_a_turn_are_credible_where_steps_are_faster)
+TEST(credible_distance_follows_the_step_speed_when_faster)
 {
     struct senses senses = sensed();
 
@@ -114,19 +114,19 @@ static bool is_credible_from(uint16_t left, uint16_t right, uint16_t left_now, u
     return motion_is_credible(&motion, &config, &now, 2);
 }
 
-TEST(odometers_that_both_begin_at_0_are_not_credible_even_where_one_has_stood_there)
+TEST(odometers_that_both_restart_at_0_are_not_credible)
 {
     TEST_ASSERT_FALSE(is_credible_from(0, 90, 0, 0));
     TEST_ASSERT_FALSE(is_credible_from(90, 0, 0, 0));
 }
 
-TEST(one_odometer_that_comes_to_0_has_rolled_there)
+TEST(single_odometer_at_0_is_credible)
 {
     TEST_ASSERT_TRUE(is_credible_from(90, 90, 0, 40));
     TEST_ASSERT_TRUE(is_credible_from(90, 90, 40, 0));
 }
 
-TEST(ticks_that_were_never_sensed_count_for_the_pace)
+TEST(missed_ticks_count_for_the_pace)
 {
     begin(150, 0);
     for (unsigned senses = 0; !tick(); senses++) {
@@ -136,23 +136,23 @@ TEST(ticks_that_were_never_sensed_count_for_the_pace)
     TEST_ASSERT_TRUE(motion_is_denied(&motion, &config));
 }
 
-static void carry_on(void)
+static void end_action(void)
 {
     while (!tick())
         continue;
 }
 
-TEST(an_outage_counts_as_long_as_wheels_are_held)
+TEST(outage_counts_only_until_wheels_stop)
 {
     begin(45, 0);
     (void)tick();
     body.tick += 100;
-    carry_on();
+    end_action();
     TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
 }
 
-/* Wheels of each speed, down to those that are just believed. */
-TEST(the_rest_after_a_turn_takes_none_of_its_time)
+/* At each speed, down to the lowest that is not denied. */
+TEST(rest_after_a_turn_does_not_use_its_time)
 {
     const struct action trial = {.turn_deg = 45, .rest_ticks = 2};
 
@@ -160,17 +160,17 @@ TEST(the_rest_after_a_turn_takes_none_of_its_time)
         stand_at(0.0, 0.0);
         body.grip = percent / 100.0;
         motion_begin(&motion, &config, &trial);
-        carry_on();
+        end_action();
         if (motion_is_denied(&motion, &config))
             return;
         TEST_ASSERT_TRUE(motion_rest(&motion, &config));
-        carry_on();
+        end_action();
         TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
     }
     TEST_FAIL_MESSAGE("all were believed");
 }
 
-TEST(what_food_left_of_a_turn_is_not_made_up_for_after_its_rest)
+TEST(rest_of_a_turn_ended_by_food_is_dropped)
 {
     const struct action search = {.turn_deg = 90, .rest_ticks = 2, .until_food = true};
     struct senses senses;
@@ -184,13 +184,13 @@ TEST(what_food_left_of_a_turn_is_not_made_up_for_after_its_rest)
     motion_track(&motion, &senses);
     TEST_ASSERT_TRUE(motion_ended(&motion, &config, &senses));
     TEST_ASSERT_TRUE(motion_rest(&motion, &config));
-    carry_on();
+    end_action();
     found_at = heading_mdeg();
     act(10, 0);
     TEST_ASSERT_INT_WITHIN(HALF, 10000, heading_mdeg() - found_at);
 }
 
-TEST(what_happens_while_lifted_is_not_the_robots_way)
+TEST(motion_ignores_odometers_while_lifted)
 {
     struct senses senses;
 
@@ -200,11 +200,11 @@ TEST(what_happens_while_lifted_is_not_the_robots_way)
     body.left_mm += 123.0;
     senses = sensed();
     motion_track(&motion, &senses);
-    carry_on();
+    end_action();
     TEST_ASSERT_INT_WITHIN(HALF, lround(1000.0 * (90.0 + 123.0 / 160.0 * 180.0 / PI)), heading_mdeg());
 }
 
-TEST(stuck_wheels_are_given_up_at_both_ends_of_every_range)
+TEST(stuck_wheels_are_given_up_at_the_limits_of_parameters)
 {
     for (unsigned corner = 0; corner < 16; corner++) {
         set_corner(corner);
@@ -226,7 +226,7 @@ static unsigned ticks_until_given_up(double left_mm, double right_mm)
             begin(ticks % 8 ? 3 : -3, 0);
         if (ticks % 20 == 0)
             begin(0, 12);
-        (void)driven();
+        (void)commanded();
         if (motion_gave_up(&motion))
             return ticks;
         body.tick++;
@@ -238,7 +238,7 @@ static unsigned ticks_until_given_up(double left_mm, double right_mm)
     return 0;
 }
 
-TEST(a_wheel_that_stands_still_for_two_seconds_of_any_actions_is_dead)
+TEST(wheel_is_dead_after_two_seconds_at_rest_in_any_actions)
 {
     static const uint8_t tick_ms[] = {10, 20, 100};
 
@@ -251,7 +251,7 @@ TEST(a_wheel_that_stands_still_for_two_seconds_of_any_actions_is_dead)
     }
 }
 
-TEST(a_wheel_that_goes_on_standing_still_stays_dead)
+TEST(wheel_stays_dead_while_at_rest)
 {
     for (unsigned ticks = 0; ticks < 300; ticks++) {
         begin(0, 12);
@@ -261,7 +261,7 @@ TEST(a_wheel_that_goes_on_standing_still_stays_dead)
     }
 }
 
-TEST(the_odometer_of_a_wheel_that_stands_still_may_waver)
+TEST(dead_wheel_may_jitter_by_a_few_counts)
 {
     stand_at(100.05, 100.05);
     TEST_ASSERT_EQUAL_UINT(100, ticks_until_given_up(0.3, 20.0));
@@ -269,18 +269,18 @@ TEST(the_odometer_of_a_wheel_that_stands_still_may_waver)
     TEST_ASSERT_EQUAL_UINT(0, ticks_until_given_up(0.4, 20.0));
 }
 
-TEST(a_wheel_that_stands_still_in_a_rest_is_told_to)
+TEST(wheel_at_rest_counts_as_obeying)
 {
     struct senses senses = sensed();
 
     for (unsigned ticks = 0; ticks < 300; ticks++) {
         begin(0, 0);
-        (void)driven();
+        (void)commanded();
         senses.tick++;
         motion_track(&motion, &senses);
     }
     begin(0, 12);
-    (void)driven();
+    (void)commanded();
     TEST_ASSERT_FALSE(motion_gave_up(&motion));
 }
 
@@ -300,12 +300,12 @@ TEST(random_odometers_keep_wheel_speeds_within_limits)
         motion_track(&motion, &senses);
         if (motion_ended(&motion, &config, &senses) || random_below(&dice, 50) == 0)
             begin(random_below(&dice, 2) ? TURN_MAX_DEG : -TURN_MAX_DEG, random_below(&dice, 2) * (unsigned)STEP_MAX_MM);
-        TEST_ASSERT_INT16_WITHIN(1257, 0, driven().left_mm_s);
-        TEST_ASSERT_INT16_WITHIN(1257, 0, driven().right_mm_s);
+        TEST_ASSERT_INT16_WITHIN(1257, 0, commanded().left_mm_s);
+        TEST_ASSERT_INT16_WITHIN(1257, 0, commanded().right_mm_s);
     }
 }
 
-TEST(either_wheel_that_jumps_is_not_credible)
+TEST(jump_of_either_odometer_is_not_credible)
 {
     struct senses senses = {.odometer_left = 0};
 
@@ -319,7 +319,7 @@ TEST(either_wheel_that_jumps_is_not_credible)
 }
 
 /* The same way each time, so that the error grows to its limit. */
-TEST(a_body_that_spins_by_itself_overflows_nothing)
+TEST(spinning_body_does_not_overflow)
 {
     uint16_t odometer = 0;
 
@@ -329,6 +329,6 @@ TEST(a_body_that_spins_by_itself_overflows_nothing)
         motion_track(&motion, &senses);
         begin(i < 5000 ? -TURN_MAX_DEG : TURN_MAX_DEG, 0);
         odometer = (uint16_t)((odometer + 2000) % ODOMETER_SPAN);
-        TEST_ASSERT_INT16_WITHIN(2047, 0, driven().left_mm_s);
+        TEST_ASSERT_INT16_WITHIN(2047, 0, commanded().left_mm_s);
     }
 }

@@ -1,20 +1,20 @@
-/* What wheels have still to roll, whatever their lag, delay and gain. */
+/* The backlog: what wheels have still to roll, whatever their lag, delay and gain. */
+#include "tests/test.h"
 #include "firmware/motion/odometry_backlog.h"
+#include "firmware/motion/wheels.h"
 
 #include <math.h>
-
-#include "tests/test.h"
 
 enum { FULL = 100, HALF_A_DEGREE = 14 };   /* of both wheels in a tick, turning */
 
 static struct backlog backlog;
 
-void setUp(void)
+BEFORE_EACH(odometry_backlog)
 {
     backlog = (struct backlog){.counts = 0};
 }
 
-/* Wheels told FULL for some ticks and then nothing. Returns what they have rolled of it. */
+/* Commands FULL in each tick to such wheels. Returns the counts that they have rolled. */
 static double follow(double lag_ticks, unsigned delay, double gain, unsigned ticks)
 {
     double speed = 0.0, way = 0.0, seen = 0.0;
@@ -33,33 +33,33 @@ static double follow(double lag_ticks, unsigned delay, double gain, unsigned tic
     return way;
 }
 
-TEST(the_backlog_is_the_distance_commanded_and_not_rolled)
+TEST(backlog_is_commanded_minus_rolled_distance)
 {
     for (unsigned lag = 0; lag <= 5; lag++)
         for (unsigned delay = 0; delay <= 2; delay++)
             for (unsigned ticks = 1; ticks <= 40; ticks++) {
                 double way;
 
-                setUp();
+                prepare_odometry_backlog();
                 way = follow(lag, delay, 1.0, ticks);
                 TEST_ASSERT_INT_WITHIN(2 * HALF_A_DEGREE, (int)(FULL * ticks - way), backlog.counts);
             }
 }
 
-/* What is missing at a steady speed will never be rolled. */
-TEST(the_backlog_of_wheels_that_are_too_slow_stops_growing)
+/* Distance missing at a steady speed will never be rolled. */
+TEST(backlog_of_slow_wheels_stops_growing)
 {
     (void)follow(0.0, 0, 0.8, 60);
     TEST_ASSERT_INT_WITHIN(FULL / 2, 0, backlog.counts);
 }
 
-TEST(wheels_that_are_too_fast_have_no_backlog)
+TEST(fast_wheels_have_no_backlog)
 {
     (void)follow(0.0, 0, 1.2, 60);
     TEST_ASSERT_EQUAL_INT32(0, backlog_counts(&backlog));
 }
 
-TEST(the_backlog_of_standing_wheels_is_the_last_two_commands_at_most)
+TEST(backlog_of_stopped_wheels_is_at_most_two_commands)
 {
     for (unsigned i = 0; i < 10; i++) {
         backlog_command(&backlog, FULL);
@@ -73,7 +73,7 @@ TEST(the_backlog_of_standing_wheels_is_the_last_two_commands_at_most)
     TEST_ASSERT_EQUAL_INT32(0, backlog_counts(&backlog));
 }
 
-TEST(a_backlog_of_rounding_errors_counts_as_none)
+TEST(backlog_up_to_5_counts_is_read_as_0)
 {
     backlog.counts = 5;
     TEST_ASSERT_EQUAL_INT32(0, backlog_counts(&backlog));
@@ -90,7 +90,7 @@ TEST(extreme_commands_and_odometers_do_not_overflow)
     }
 }
 
-/* The backlog after a tick, or several, in which they rolled this far. */
+/* The backlog after some ticks in which wheels rolled so many counts. */
 static int after(struct backlog before, int rolled, unsigned ticks)
 {
     backlog_roll(&before, rolled, ticks);
@@ -108,26 +108,26 @@ static void assert_either_way(int expected, struct backlog before, int rolled)
     TEST_ASSERT_EQUAL_INT(-expected, after(back, -rolled, 1));
 }
 
-TEST(a_command_adds_to_the_backlog_until_it_may_have_arrived)
+TEST(command_adds_to_the_backlog_until_it_takes_effect)
 {
     assert_either_way(40 + 40, (struct backlog){.counts = 40, .rolled = 58, .commanded = {100, 100}, .same = 1}, 60);
     assert_either_way(40 + 12, (struct backlog){.counts = 40, .rolled = 58, .commanded = {100, 100}, .same = 2}, 60);
     assert_either_way(40 - 60, (struct backlog){.counts = 40, .rolled = 60, .commanded = {0, -100}, .same = 9}, 60);
 }
 
-TEST(wheels_that_hardly_rolled_count_as_just_started)
+TEST(wheels_below_4_counts_are_treated_as_starting)
 {
     assert_either_way(95, (struct backlog){.rolled = 3, .commanded = {100, 100}, .same = 9}, 5);
     assert_either_way(6, (struct backlog){.rolled = 4, .commanded = {100, 100}, .same = 9}, 5);
 }
 
-TEST(an_acceleration_adds_at_most_what_is_missing)
+TEST(acceleration_adds_at_most_the_missing_speed)
 {
     assert_either_way(10, (struct backlog){.rolled = 60, .commanded = {100, 100}, .same = 9}, 90);
     assert_either_way(60 - 50, (struct backlog){.counts = 60, .rolled = 60, .commanded = {100, 100}, .same = 9}, 50);
 }
 
-TEST(an_acceleration_within_rounding_adds_nothing)
+TEST(acceleration_within_rounding_adds_no_backlog)
 {
     assert_either_way(60, (struct backlog){.counts = 60, .rolled = 98, .commanded = {100, 100}, .same = 9}, 97);
     assert_either_way(60 - 4, (struct backlog){.counts = 60, .rolled = 97, .commanded = {100, 100}, .same = 9}, 96);
@@ -136,7 +136,7 @@ TEST(an_acceleration_within_rounding_adds_nothing)
     assert_either_way(60, (struct backlog){.counts = 60, .rolled = 102, .commanded = {100, 100}, .same = 9}, 102);
 }
 
-TEST(the_backlog_is_at_most_what_wheels_at_that_speed_coast)
+TEST(backlog_is_limited_by_the_coasting_distance)
 {
     assert_either_way(60, (struct backlog){.counts = 100, .rolled = 10}, 10);
     assert_either_way(72, (struct backlog){.counts = 100, .rolled = 6}, 10);
@@ -151,7 +151,7 @@ TEST(the_backlog_is_at_most_what_wheels_at_that_speed_coast)
     assert_either_way(0, (struct backlog){.counts = 100, .rolled = -10}, 0);
 }
 
-TEST(the_backlog_is_at_most_the_last_two_commands_and_what_wheels_coast)
+TEST(backlog_is_limited_by_two_commands_plus_coasting)
 {
     assert_either_way(30, (struct backlog){.counts = 100, .commanded = {30, 0}}, 0);
     assert_either_way(30, (struct backlog){.counts = 100, .commanded = {0, 30}}, 0);
@@ -164,18 +164,18 @@ TEST(the_backlog_is_at_most_the_last_two_commands_and_what_wheels_coast)
     assert_either_way(1, (struct backlog){.counts = 9, .commanded = {1, 0}}, 0);
 }
 
-TEST(a_command_counts_for_each_of_several_ticks)
+TEST(command_counts_for_every_tick_of_a_gap)
 {
     TEST_ASSERT_EQUAL_INT(60 - 10, after((struct backlog){.commanded = {30, 30}}, 10, 2));
     TEST_ASSERT_EQUAL_INT(-60 + 10, after((struct backlog){.commanded = {-30, -30}}, -10, 2));
 }
 
-TEST(the_backlog_stays_within_its_type)
+TEST(backlog_saturates_at_16000)
 {
     assert_either_way(16000, (struct backlog){.counts = 15990, .commanded = {9000, 9000}}, 0);
 }
 
-TEST(equal_commands_in_a_row_are_counted_up_to_255)
+TEST(count_of_equal_commands_saturates_at_255)
 {
     backlog_command(&backlog, 7);
     TEST_ASSERT_EQUAL_UINT8(0, backlog.same);
@@ -192,7 +192,7 @@ TEST(equal_commands_in_a_row_are_counted_up_to_255)
     TEST_ASSERT_EQUAL_UINT8(0, backlog.same);
 }
 
-TEST(a_backlog_of_rounding_errors_counts_as_none_in_both_directions)
+TEST(backlog_of_rounding_errors_is_read_as_0_in_both_directions)
 {
     backlog.counts = 3;
     TEST_ASSERT_EQUAL_INT32(0, backlog_counts(&backlog));
@@ -200,4 +200,47 @@ TEST(a_backlog_of_rounding_errors_counts_as_none_in_both_directions)
     TEST_ASSERT_EQUAL_INT32(0, backlog_counts(&backlog));
     backlog.counts = 6;
     TEST_ASSERT_EQUAL_INT32(6, backlog_counts(&backlog));
+}
+
+static struct config config;
+
+BEFORE_EACH(wheels)
+{
+    config_reset(&config);
+}
+
+TEST(turn_per_degree_follows_the_wheel_track)
+{
+    TEST_ASSERT_EQUAL_UINT32(457528, wheels_turn_per_degree(&config));   /* 160 mm * pi / 180 */
+}
+
+TEST(fastest_speed_is_the_greater_of_both_parameters)
+{
+    TEST_ASSERT_EQUAL_UINT32(251, wheels_turning_mm_s(&config));
+    TEST_ASSERT_EQUAL_UINT32(251, wheels_fastest_mm_s(&config));
+    config.value[TURN_SPEED_DEG_S] = 30;
+    TEST_ASSERT_EQUAL_UINT32(200, wheels_fastest_mm_s(&config));
+}
+
+TEST(counts_per_tick_are_rounded)
+{
+    TEST_ASSERT_EQUAL_UINT32(80, wheels_counts_at(200, &config));
+    TEST_ASSERT_EQUAL_UINT32(100, wheels_counts_at(251, &config));
+    TEST_ASSERT_EQUAL_UINT32(101, wheels_counts_at(252, &config));
+}
+
+TEST(counts_between_odometers_wrap)
+{
+    TEST_ASSERT_EQUAL_INT32(2, wheels_counts_between(4095, 1));
+    TEST_ASSERT_EQUAL_INT32(-2, wheels_counts_between(1, 4095));
+    TEST_ASSERT_EQUAL_INT32(2047, wheels_counts_between(0, 2047));
+    TEST_ASSERT_EQUAL_INT32(-2048, wheels_counts_between(0, 2048));
+}
+
+TEST(wheels_limited_limits_both_signs)
+{
+    TEST_ASSERT_EQUAL_INT32(5, wheels_limited(6, 5));
+    TEST_ASSERT_EQUAL_INT32(-5, wheels_limited(-6, 5));
+    TEST_ASSERT_EQUAL_INT32(-4, wheels_limited(-4, 5));
+    TEST_ASSERT_EQUAL_UINT32(7, wheels_magnitude(-7));
 }

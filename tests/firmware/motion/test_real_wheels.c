@@ -13,7 +13,7 @@ static struct wheel_figures run_at(double lag_ms, int delay_ticks, uint32_t seed
     return wheel_run(PROFILE_ADAPTIVE, seed, MINUTE_TICKS, &traits);
 }
 
-TEST(wheels_that_follow_late_carry_out_every_action)
+TEST(lagging_wheels_complete_every_action)
 {
     for (int lag_ms = 0; lag_ms <= 100; lag_ms += 10)
         for (int delay_ticks = 0; delay_ticks <= 2; delay_ticks++) {
@@ -25,7 +25,7 @@ TEST(wheels_that_follow_late_carry_out_every_action)
         }
 }
 
-TEST(a_turn_on_late_wheels_ends_within_a_degree_and_runs_over_by_no_more_than_two)
+TEST(turn_on_lagging_wheels_errs_by_at_most_2_degrees)
 {
     for (int lag_ms = 0; lag_ms <= 60; lag_ms += 5) {
         const struct wheel_figures figures = run_at(lag_ms, 0, 1);
@@ -36,7 +36,7 @@ TEST(a_turn_on_late_wheels_ends_within_a_degree_and_runs_over_by_no_more_than_tw
 }
 
 /* A turn may end right even so, if the wheels still rolled that way when it began. */
-TEST(wheels_that_follow_far_too_late_stop_the_robot_before_it_learns)
+TEST(wheels_with_300_ms_lag_stop_the_robot_before_it_learns)
 {
     int lessons = 0;
 

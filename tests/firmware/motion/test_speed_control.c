@@ -6,119 +6,119 @@
 
 enum { PERIODS = 400, SETTLED = 100, PARTS = 50 };
 
-/* A motor, and what came of a step from rest to some speed. */
+/* A motor, and its response to a step from rest to a speed. */
 struct motor {
     double volts, strength, dead, lag_s, ripple_v;
 };
 
-struct came {
-    double overshoot, rise_ms, behind_mm, rough_mm_s;
+struct response {
+    double overshoot, rise_ms, lag_mm, deviation_mm_s;
     int32_t duty;
 };
 
 static const struct motor NOMINAL = {.volts = 7.2, .strength = 1, .dead = 0.08, .lag_s = 0.06};
 
-static double pushed_mm_s(const struct motor *motor, double volts, int32_t duty)
+static double steady_mm_s(const struct motor *motor, double volts, int32_t duty)
 {
     double push = fabs(duty / 65536.0) * volts / 7.2;
 
     return push < motor->dead ? 0 : copysign((push - motor->dead) * 674 * motor->strength, duty);
 }
 
-static struct came step_to(int16_t told_mm_s, const struct motor *motor)
+static struct response step_to(int16_t commanded_mm_s, const struct motor *motor)
 {
     struct wheel wheel = {.known = false};
-    struct came came = {.rise_ms = -1};
+    struct response response = {.rise_ms = -1};
     double v = 0, x = 0;
 
     for (int k = 0; k < PERIODS; k++) {
         double volts = motor->volts + motor->ripple_v * (k % 2 ? 1 : -1);
 
-        came.duty = wheel_run(&wheel, (uint16_t)(int32_t)floor(x * 256000 / WHEEL_COUNT_256), 
-            told_mm_s, (uint32_t)(motor->volts * 1000));
+        response.duty = wheel_run(&wheel, (uint16_t)(int32_t)floor(x * 256000 / WHEEL_COUNT_256),
+            commanded_mm_s, (uint32_t)(motor->volts * 1000));
         for (int i = 0; i < PARTS; i++) {
-            v += (pushed_mm_s(motor, volts, came.duty) - v) * 1e-4 / motor->lag_s;
+            v += (steady_mm_s(motor, volts, response.duty) - v) * 1e-4 / motor->lag_s;
             x += v * 1e-4;
         }
-        came.overshoot = fmax(came.overshoot, v / told_mm_s - 1);
-        if (came.rise_ms < 0 && v / told_mm_s > 0.63)
-            came.rise_ms = (k + 1) * WHEEL_PERIOD_MS;
+        response.overshoot = fmax(response.overshoot, v / commanded_mm_s - 1);
+        if (response.rise_ms < 0 && v / commanded_mm_s > 0.63)
+            response.rise_ms = (k + 1) * WHEEL_PERIOD_MS;
         if (k > SETTLED)
-            came.rough_mm_s = fmax(came.rough_mm_s, fabs(v - told_mm_s));
+            response.deviation_mm_s = fmax(response.deviation_mm_s, fabs(v - commanded_mm_s));
     }
-    came.behind_mm = fabs((double)told_mm_s) * PERIODS * WHEEL_PERIOD_MS / 1000.0 - fabs(x);
-    return came;
+    response.lag_mm = fabs((double)commanded_mm_s) * PERIODS * WHEEL_PERIOD_MS / 1000.0 - fabs(x);
+    return response;
 }
 
-static void assert_held(const struct motor *motor)
+static void assert_controlled(const struct motor *motor)
 {
     static const int16_t speeds_mm_s[] = {200, -200, 251, 120};
 
     for (unsigned i = 0; i < sizeof speeds_mm_s / sizeof *speeds_mm_s; i++) {
-        struct came came = step_to(speeds_mm_s[i], motor);
+        struct response response = step_to(speeds_mm_s[i], motor);
 
-        TEST_ASSERT_LESS_THAN_DOUBLE(0.10, came.overshoot);
-        TEST_ASSERT_LESS_THAN_DOUBLE(80, came.rise_ms);
-        TEST_ASSERT_GREATER_THAN_DOUBLE(0, came.rise_ms);
-        TEST_ASSERT_LESS_THAN_DOUBLE(30, came.rough_mm_s);
+        TEST_ASSERT_LESS_THAN_DOUBLE(0.10, response.overshoot);
+        TEST_ASSERT_LESS_THAN_DOUBLE(80, response.rise_ms);
+        TEST_ASSERT_GREATER_THAN_DOUBLE(0, response.rise_ms);
+        TEST_ASSERT_LESS_THAN_DOUBLE(30, response.deviation_mm_s);
     }
 }
 
-TEST(a_wheel_reaches_its_speed_with_the_lag_of_the_model)
+TEST(wheel_reaches_its_speed_with_the_lag_of_the_model)
 {
-    struct came came = step_to(200, &NOMINAL);
+    struct response response = step_to(200, &NOMINAL);
 
-    TEST_ASSERT_DOUBLE_WITHIN(15, 37, came.rise_ms);
-    TEST_ASSERT_DOUBLE_WITHIN(1.0, 200 * 0.037, came.behind_mm);
+    TEST_ASSERT_DOUBLE_WITHIN(15, 37, response.rise_ms);
+    TEST_ASSERT_DOUBLE_WITHIN(1.0, 200 * 0.037, response.lag_mm);
 }
 
-TEST(it_runs_over_by_less_than_a_tenth_at_any_voltage)
+TEST(speed_control_overshoots_under_10_percent_at_any_voltage)
 {
     struct motor motor = NOMINAL;
 
     for (motor.volts = 6.0; motor.volts < 8.45; motor.volts += 0.2)
-        assert_held(&motor);
+        assert_controlled(&motor);
 }
 
-TEST(it_holds_a_motor_that_is_weak_stiff_quick_or_slow)
+TEST(speed_control_tolerates_motor_variation)
 {
     struct motor motor = NOMINAL;
 
     motor.strength = 0.7;
-    assert_held(&motor);
+    assert_controlled(&motor);
     motor.strength = 1.2;
-    assert_held(&motor);
+    assert_controlled(&motor);
     motor = NOMINAL;
     motor.dead = 0.14;
-    assert_held(&motor);
+    assert_controlled(&motor);
     motor = NOMINAL;
     motor.lag_s = 0.045;
-    assert_held(&motor);
+    assert_controlled(&motor);
     motor.lag_s = 0.075;
-    assert_held(&motor);
+    assert_controlled(&motor);
 }
 
-TEST(ripple_of_the_supply_does_not_disturb_it)
+TEST(speed_control_tolerates_supply_ripple)
 {
     struct motor motor = NOMINAL;
 
     motor.ripple_v = 0.5;
-    assert_held(&motor);
+    assert_controlled(&motor);
 }
 
-TEST(against_a_stuck_wheel_it_gathers_no_more_than_it_can_give)
+TEST(speed_control_limits_its_integral_against_a_stuck_wheel)
 {
     struct motor motor = NOMINAL;
-    struct came came;
+    struct response response;
 
     motor.strength = 0;
-    came = step_to(500, &motor);
-    TEST_ASSERT_EQUAL_INT32(WHEEL_DUTY_MAX, came.duty);
-    came = step_to(-500, &motor);
-    TEST_ASSERT_EQUAL_INT32(-WHEEL_DUTY_MAX, came.duty);
+    response = step_to(500, &motor);
+    TEST_ASSERT_EQUAL_INT32(WHEEL_DUTY_MAX, response.duty);
+    response = step_to(-500, &motor);
+    TEST_ASSERT_EQUAL_INT32(-WHEEL_DUTY_MAX, response.duty);
 }
 
-TEST(at_rest_a_motor_gets_nothing)
+TEST(duty_is_zero_at_rest)
 {
     struct wheel wheel = {.known = false};
 
@@ -128,11 +128,11 @@ TEST(at_rest_a_motor_gets_nothing)
     TEST_ASSERT_EQUAL_INT32(0, wheel_run(&wheel, 7, 0, 0));
 }
 
-/* Its duty in the next period on a nominal battery, where it has counted so many. */
-static int32_t duty_after(struct wheel *wheel, int counts, int16_t told_mm_s)
+/* The wheel's duty in the next period on a nominal battery, after so many counts. */
+static int32_t duty_after(struct wheel *wheel, int counts, int16_t commanded_mm_s)
 {
     wheel->known = true;
-    return wheel_run(wheel, (uint16_t)(wheel->count + counts), told_mm_s, WHEEL_NOMINAL_MV);
+    return wheel_run(wheel, (uint16_t)(wheel->count + counts), commanded_mm_s, WHEEL_NOMINAL_MV);
 }
 
 TEST(feed_forward_leads_the_model_by_the_lag)
@@ -144,14 +144,14 @@ TEST(feed_forward_leads_the_model_by_the_lag)
     TEST_ASSERT_EQUAL_INT32(1000 * 256 / 8, wheel.model_256);
 }
 
-TEST(what_differs_in_its_motor_is_added)
+TEST(calibration_offsets_are_added_to_the_duty)
 {
     struct wheel wheel = {.forward_more = 10, .dead_more = 100, .lag_more_ms = 4};
 
     TEST_ASSERT_EQUAL_INT32(1600 * 107 / 5 + 5343, duty_after(&wheel, 0, 200));
 }
 
-TEST(a_wheel_that_was_turned_back_is_pushed_by_what_is_missing_and_by_its_sum)
+TEST(duty_has_proportional_and_integral_terms)
 {
     struct wheel wheel = {.known = false};
 
@@ -164,7 +164,7 @@ TEST(a_wheel_that_was_turned_back_is_pushed_by_what_is_missing_and_by_its_sum)
     TEST_ASSERT_EQUAL_INT32(-4 - WHEEL_COUNT_256 + 91 * 256, wheel.rest_256);
 }
 
-TEST(it_makes_up_for_four_millimetres_and_no_more)
+TEST(integral_is_limited_to_four_millimetres)
 {
     struct wheel wheel = {.behind_um = 3990};
 
@@ -172,7 +172,7 @@ TEST(it_makes_up_for_four_millimetres_and_no_more)
     TEST_ASSERT_EQUAL_INT32(4000, wheel.behind_um);
 }
 
-TEST(a_duty_jumps_over_the_dead_band_from_a_thousand_on)
+TEST(duty_above_1000_jumps_over_the_dead_band)
 {
     static const struct { int counts, behind_um, duty; } CASES[] = {
         {2, 2872, 0}, {0, 517, 1001 + 5243},   /* of 1000 and 1001, */
@@ -186,9 +186,9 @@ TEST(a_duty_jumps_over_the_dead_band_from_a_thousand_on)
     }
 }
 
-TEST(a_duty_is_in_parts_of_the_battery_unless_that_is_not_measured)
+TEST(duty_scales_with_the_battery_voltage_if_plausible)
 {
-    static const struct { uint32_t battery_mv; int16_t told_mm_s; int32_t duty; } CASES[] = {
+    static const struct { uint32_t battery_mv; int16_t commanded_mm_s; int32_t duty; } CASES[] = {
         {7200, 200, 34343}, {7201, 200, 34343 * 4095 / 4096}, {8400, 450, 70718 * 3510 / 4096},
         {2999, 200, 34343}, {3000, 200, WHEEL_DUTY_MAX}, {16000, 2000, 2 * WHEEL_DUTY_MAX * 1843 / 4096},
     };
@@ -196,11 +196,11 @@ TEST(a_duty_is_in_parts_of_the_battery_unless_that_is_not_measured)
     for (unsigned i = 0; i < sizeof CASES / sizeof *CASES; i++) {
         struct wheel wheel = {.known = false};
 
-        TEST_ASSERT_EQUAL_INT32(CASES[i].duty, wheel_run(&wheel, 0, CASES[i].told_mm_s, CASES[i].battery_mv));
+        TEST_ASSERT_EQUAL_INT32(CASES[i].duty, wheel_run(&wheel, 0, CASES[i].commanded_mm_s, CASES[i].battery_mv));
     }
 }
 
-TEST(nothing_is_gathered_while_the_motor_gives_all_it_has)
+TEST(integral_stays_unchanged_at_full_duty)
 {
     struct wheel wheel = {.known = false};
 
@@ -211,7 +211,7 @@ TEST(nothing_is_gathered_while_the_motor_gives_all_it_has)
     TEST_ASSERT_EQUAL_INT32(0, wheel.behind_um);
 }
 
-TEST(the_way_wraps_with_the_odometer_and_keeps_what_is_less_than_a_tenth)
+TEST(wheel_distance_wraps_with_the_odometer_and_keeps_fractions)
 {
     const int32_t unit_256 = 25600, last_256 = ODOMETER_SPAN * unit_256 - 1;
     struct wheel wheel = {.way_256 = unit_256 - 1};
@@ -225,7 +225,7 @@ TEST(the_way_wraps_with_the_odometer_and_keeps_what_is_less_than_a_tenth)
     TEST_ASSERT_EQUAL_INT32(1 - WHEEL_COUNT_256, wheel.way_256);
 }
 
-TEST(the_odometer_counts_tenths_of_a_millimetre_and_wraps_either_way)
+TEST(odometer_counts_tenths_of_a_millimetre_and_wraps)
 {
     struct wheel wheel = {.known = false};
 

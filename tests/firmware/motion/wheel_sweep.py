@@ -44,8 +44,7 @@ class Figures(NamedTuple):
 @cache
 def _interface():
     ffi, library = load()
-    for name in ("real_wheels", "wheel_run"):
-        ffi.cdef(declarations(ROOT / f"tests/firmware/motion/{name}.h"))
+    ffi.cdef(declarations(ROOT / "tests/firmware/motion/wheel_run.h"))
     return ffi, library
 
 

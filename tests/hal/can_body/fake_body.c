@@ -22,7 +22,7 @@ int port_open(struct port *port, int argc, char *const argv[])
 void port_ready(const struct port *port)
 {
     TEST_ASSERT_EQUAL_UINT8(NODE, port->node);
-    fake.readies++;
+    fake.ready_calls++;
 }
 
 uint32_t port_clock_ms(void)
@@ -119,7 +119,7 @@ int link_send(struct link *link, const struct frame *frame)
 void link_health(const struct link *link, struct link_health *out)
 {
     (void)link;
-    fake.looks_at_health++;
+    fake.health_reads++;
     *out = fake.bus;
 }
 
@@ -135,25 +135,25 @@ void setUp(void)
     TEST_ASSERT_EQUAL(0, open_body());
 }
 
-void happens(uint32_t at_ms, int result, struct frame frame)
+void script_event(uint32_t at_ms, int result, struct frame frame)
 {
     TEST_ASSERT_LESS_THAN_UINT(SCRIPT_MAX, fake.events);
     fake.script[fake.events++] = (struct event){.at_ms = at_ms, .result = result, .frame = frame};
 }
 
-void senses_come(uint32_t at_ms, unsigned ticks)
+void script_senses(uint32_t at_ms, unsigned ticks)
 {
-    happens(at_ms, 1, senses_frame(NODE, ticks));
+    script_event(at_ms, 1, senses_frame(NODE, ticks));
 }
 
-void command_comes(uint32_t at_ms, struct octet_command_t command)
+void script_command(uint32_t at_ms, struct octet_command_t command)
 {
-    happens(at_ms, 1, command_frame(command));
+    script_event(at_ms, 1, command_frame(command));
 }
 
-void noise_comes(uint32_t at_ms)
+void script_noise(uint32_t at_ms)
 {
-    happens(at_ms, 1, (struct frame){.id = 0x7FF});
+    script_event(at_ms, 1, (struct frame){.id = 0x7FF});
 }
 
 int receive(void)

@@ -1,5 +1,5 @@
-/* fake_body.h: the CAN body between a fake link and a fake port: what happens to it is a script, and its clock moves only
- * while it waits. The link fails on plan, at the n-th call. */
+/* fake_body.h: the CAN body between a fake link, which plays a script and fails at a given call, and a fake port. The clock
+ * moves only while the link waits. */
 #ifndef OCTET_FAKE_BODY_H
 #define OCTET_FAKE_BODY_H
 
@@ -33,13 +33,13 @@ struct fake {
     bool needs_rest;                      /* to store anything */
     unsigned stores;                      /* that were not put off */
     uint8_t stored[CELL_COUNT];           /* by the last of them */
-    bool endless;                         /* the event that is next comes again and again */
+    bool endless;                         /* the next event repeats without end */
     enum reset_cause reset_cause;
     const struct crash *crash;
     bool clock_exact;
-    unsigned readies;                     /* times that the link was said to be open */
+    unsigned ready_calls;                 /* of port_ready */
     struct link_health bus;
-    unsigned looks_at_health;
+    unsigned health_reads;
     uint32_t alive_ms, longest_wait_ms;   /* without a sign of life */
     uint16_t ids[WIRE_LISTEN_COUNT];
     size_t id_count;
@@ -50,19 +50,19 @@ extern struct hal *hal;     /* the body, open */
 extern struct input in;     /* what receive took */
 
 int open_body(void);
-        /* Opens it again, as things are; result of hal_open. */
+        /* Opens the body again; result of hal_open. */
 
-void happens(uint32_t at_ms, int result, struct frame frame);
-void senses_come(uint32_t at_ms, unsigned ticks);
-void command_comes(uint32_t at_ms, struct octet_command_t command);
-void noise_comes(uint32_t at_ms);
-        /* One more event of the script. */
+void script_event(uint32_t at_ms, int result, struct frame frame);
+void script_senses(uint32_t at_ms, unsigned ticks);
+void script_command(uint32_t at_ms, struct octet_command_t command);
+void script_noise(uint32_t at_ms);
+        /* Append an event to the script. */
 
 int receive(void);
         /* hal_receive into `in`. */
 
 struct octet_faults_t faults(void);
-        /* What the robot itself reports of its faults, with nothing failing any more. */
+        /* The fault counters that the robot reports; from here on no send fails. */
 
 void assert_faults(struct octet_faults_t expected);
         /* The robot reports exactly these. */

@@ -31,7 +31,7 @@ static void assert_guarded_but(unsigned offset, unsigned length)
             TEST_ASSERT_EQUAL_HEX8(GUARD, buffer[i]);
 }
 
-TEST(the_first_byte_that_differs_tells_which_is_greater)
+TEST(memcmp_orders_by_the_first_differing_byte)
 {
     static const uint8_t low[] = {1, 2, 3, 200}, high[] = {1, 2, 200, 3};
 
@@ -42,7 +42,7 @@ TEST(the_first_byte_that_differs_tells_which_is_greater)
     }
 }
 
-TEST(bytes_are_copied_from_and_to_any_address)
+TEST(memcpy_copies_at_any_alignment)
 {
     for (unsigned length = 0; length < LENGTHS; length++)
         for (unsigned offset = 0; offset < OFFSETS; offset++) {
@@ -54,7 +54,7 @@ TEST(bytes_are_copied_from_and_to_any_address)
         }
 }
 
-TEST(bytes_are_set_at_any_address)
+TEST(memset_fills_at_any_alignment)
 {
     for (unsigned length = 0; length < LENGTHS; length++)
         for (unsigned offset = 0; offset < OFFSETS; offset++) {
@@ -66,7 +66,7 @@ TEST(bytes_are_set_at_any_address)
         }
 }
 
-TEST(of_a_value_the_lowest_byte_counts)
+TEST(memset_uses_the_low_byte_of_its_value)
 {
     octet_memset(buffer, 0x1FF, 7);
     TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, buffer, 7);

@@ -1,14 +1,14 @@
-/* What waits: frames leave once, in their order, as long as there is room. */
+/* Queued frames leave once, in order, as long as there is room. */
 #include "can_queue_rig.h"
 
-TEST(a_frame_goes_straight_to_an_idle_controller)
+TEST(idle_controller_gets_a_frame_at_once)
 {
     TEST_ASSERT_TRUE(put(HEALTH, 1));
     TEST_ASSERT_EQUAL_HEX32(1, controller.waiting);
     TEST_ASSERT_EQUAL_UINT8(0, queue.count);
 }
 
-TEST(the_controllers_last_buffer_is_kept_for_what_is_urgent)
+TEST(last_controller_buffer_is_reserved_for_urgent_frames)
 {
     block();
     for (uint8_t n = 0; n < 5; n++)
@@ -22,7 +22,7 @@ TEST(the_controllers_last_buffer_is_kept_for_what_is_urgent)
     TEST_ASSERT_EQUAL_UINT8(3, queue.count);
 }
 
-TEST(a_free_buffer_is_made_use_of_at_once)
+TEST(queue_uses_a_free_buffer_at_once)
 {
     block();
     TEST_ASSERT_TRUE(put(HEARTBEAT, 0));
@@ -30,7 +30,7 @@ TEST(a_free_buffer_is_made_use_of_at_once)
     TEST_ASSERT_EQUAL_HEX32(3, controller.waiting);
 }
 
-TEST(all_that_was_put_leaves_once_and_in_its_order)
+TEST(queue_sends_each_frame_once_and_in_order)
 {
     for (unsigned round = 0; round < 5; round++)
         for (uint8_t n = 0; n < 11; n++)
@@ -41,7 +41,7 @@ TEST(all_that_was_put_leaves_once_and_in_its_order)
         assert_sent(n, HEARTBEAT, (uint8_t)(n % 11));
 }
 
-TEST(a_full_queue_takes_one_more_as_soon_as_one_has_left)
+TEST(full_queue_accepts_a_frame_when_one_has_left)
 {
     uint32_t start;
 
@@ -52,7 +52,7 @@ TEST(a_full_queue_takes_one_more_as_soon_as_one_has_left)
     TEST_ASSERT_LESS_THAN_UINT32(start + 1000, controller.now_us);
 }
 
-TEST(a_queue_with_room_makes_nobody_wait)
+TEST(queue_with_room_accepts_a_frame_at_once)
 {
     block();
     TEST_ASSERT_TRUE(put(HEARTBEAT, 0));
@@ -64,7 +64,7 @@ TEST(a_queue_with_room_makes_nobody_wait)
     }
 }
 
-TEST(a_queue_with_room_waits_for_no_frame_to_leave)
+TEST(queue_with_room_does_not_wait_for_departures)
 {
     uint32_t start;
 
@@ -78,7 +78,7 @@ TEST(a_queue_with_room_waits_for_no_frame_to_leave)
     TEST_ASSERT_LESS_OR_EQUAL_UINT32(start + 500, controller.now_us);
 }
 
-TEST(a_queue_that_stays_full_takes_no_more_and_counts_it)
+TEST(full_queue_refuses_and_counts_a_frame)
 {
     block();
     for (uint8_t n = 0; n < 10; n++)
@@ -89,7 +89,7 @@ TEST(a_queue_that_stays_full_takes_no_more_and_counts_it)
 }
 
 /* A controller need not take a frame for which it has a buffer: see can_put. */
-TEST(a_full_queue_overwrites_nothing_where_the_controller_takes_no_more)
+TEST(full_queue_keeps_its_frames_if_the_controller_refuses)
 {
     for (uint32_t inside = 0; inside <= 1; inside++) {
         setUp();
@@ -104,7 +104,7 @@ TEST(a_full_queue_overwrites_nothing_where_the_controller_takes_no_more)
     }
 }
 
-TEST(what_is_dropped_is_counted_and_the_count_stays_at_255)
+TEST(dropped_frames_are_counted_up_to_255)
 {
     block();
     for (uint8_t n = 0; n < 5; n++)
@@ -120,7 +120,7 @@ TEST(what_is_dropped_is_counted_and_the_count_stays_at_255)
     TEST_ASSERT_EQUAL_UINT8(255, queue.dropped);
 }
 
-/* What is out of date: nothing leaves that has waited for longer than promised. */
+/* Outdated frames: none leaves that has waited for longer than LINK_SEND_MS. */
 
 static void wait_since_last_left(uint32_t ms)
 {
@@ -129,7 +129,7 @@ static void wait_since_last_left(uint32_t ms)
     controller.now_us = 1000 * (now_ms() + ms);
 }
 
-TEST(what_has_waited_for_as_long_as_promised_is_still_sent)
+TEST(frame_that_waited_up_to_the_limit_is_sent)
 {
     block();
     TEST_ASSERT_TRUE(put(HEALTH, 0));
@@ -138,7 +138,7 @@ TEST(what_has_waited_for_as_long_as_promised_is_still_sent)
     TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
 }
 
-TEST(what_has_waited_for_longer_is_dropped_and_the_new_one_goes_straight_away)
+TEST(outdated_frame_is_dropped_and_the_new_one_is_sent)
 {
     block();
     TEST_ASSERT_TRUE(put(HEALTH, 0));
@@ -150,7 +150,7 @@ TEST(what_has_waited_for_longer_is_dropped_and_the_new_one_goes_straight_away)
     TEST_ASSERT_EQUAL_HEX32(MEMORY, controller.buffers[0].id);
 }
 
-TEST(a_controller_that_keeps_what_is_out_of_date_holds_the_new_one_up)
+TEST(outdated_frame_that_is_not_aborted_delays_new_ones)
 {
     block();
     controller.keeps = true;
@@ -162,7 +162,7 @@ TEST(a_controller_that_keeps_what_is_out_of_date_holds_the_new_one_up)
     TEST_ASSERT_EQUAL_UINT8(1, queue.count);
 }
 
-TEST(an_aborted_frame_does_not_reset_the_age_of_the_others)
+TEST(abort_does_not_reset_the_age_of_other_frames)
 {
     uint32_t start;
 
@@ -175,7 +175,7 @@ TEST(an_aborted_frame_does_not_reset_the_age_of_the_others)
     TEST_ASSERT_EQUAL_UINT8(1 + 3, queue.dropped);
 }
 
-TEST(a_long_silence_makes_nothing_out_of_date)
+TEST(queue_drops_nothing_after_a_long_pause)
 {
     TEST_ASSERT_TRUE(put(HEALTH, 0));
     pass_ms(2);
@@ -186,7 +186,7 @@ TEST(a_long_silence_makes_nothing_out_of_date)
     TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
 }
 
-TEST(as_long_as_something_leaves_nothing_is_out_of_date)
+TEST(queue_drops_nothing_while_frames_leave)
 {
     controller.frame_us = 8000;
     for (uint8_t n = 0; n < 6; n++)
@@ -200,7 +200,7 @@ TEST(as_long_as_something_leaves_nothing_is_out_of_date)
     TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
 }
 
-TEST(an_empty_queue_drops_nothing)
+TEST(empty_queue_drops_nothing)
 {
     queue.moved_ms = now_ms() - 1000;
     TEST_ASSERT_TRUE(put(HEALTH, 0));
@@ -219,7 +219,7 @@ static void fill_queue(uint32_t frame_us)
         TEST_ASSERT_TRUE(put(HEARTBEAT, n));
 }
 
-TEST(an_urgent_frame_waits_no_longer_than_promised)
+TEST(urgent_frame_wait_is_bounded_at_125_kbit_s)
 {
     uint32_t start;
 
@@ -229,7 +229,7 @@ TEST(an_urgent_frame_waits_no_longer_than_promised)
     TEST_ASSERT_LESS_OR_EQUAL_UINT32(start + LINK_SEND_MS + 1, now_ms());
 }
 
-TEST(a_frame_leaves_in_time_to_let_the_next_one_in)
+TEST(full_queue_accepts_a_frame_within_3_ms_at_125_kbit_s)
 {
     uint32_t start;
 
@@ -240,7 +240,7 @@ TEST(a_frame_leaves_in_time_to_let_the_next_one_in)
     TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
 }
 
-TEST(a_frame_is_stuck_only_once_it_has_had_time_to_leave)
+TEST(urgent_frame_waits_for_one_under_way_at_125_kbit_s)
 {
     can_queue_begin(&queue, 125000);
     controller.frame_us = 1990;

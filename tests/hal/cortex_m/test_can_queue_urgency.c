@@ -1,7 +1,7 @@
-/* What is urgent: it goes last on a bus that takes frames, and first on one that does not. */
+/* An urgent frame leaves last on a bus that takes frames, and first on one that does not. */
 #include "can_queue_rig.h"
 
-TEST(on_a_bus_that_takes_frames_the_urgent_one_lets_them_all_go_first)
+TEST(urgent_frame_waits_for_older_frames_on_a_free_bus)
 {
     for (uint8_t n = 0; n < 9; n++)
         TEST_ASSERT_TRUE(put(HEARTBEAT, n));
@@ -12,7 +12,7 @@ TEST(on_a_bus_that_takes_frames_the_urgent_one_lets_them_all_go_first)
     assert_sent(9, DRIVE, 9);
 }
 
-TEST(even_a_single_one_goes_first)
+TEST(equally_urgent_frame_waits_behind_a_single_older_one)
 {
     TEST_ASSERT_TRUE(put(HEALTH, 0));
     TEST_ASSERT_TRUE(put(ANSWER, 1));
@@ -22,7 +22,7 @@ TEST(even_a_single_one_goes_first)
 }
 
 /* A frame is stuck once it has not left for longer than one can take: 0.27 ms at 500 kbit/s, which makes 1 whole ms. */
-TEST(frames_that_leave_in_a_millisecond_are_let_go_first)
+TEST(urgent_frame_waits_for_frames_that_leave_within_1_ms)
 {
     uint32_t start = controller.now_us;
 
@@ -36,7 +36,7 @@ TEST(frames_that_leave_in_a_millisecond_are_let_go_first)
     assert_sent(2, DRIVE, 2);
 }
 
-TEST(a_bus_without_room_for_the_others_is_not_waited_for)
+TEST(urgent_frame_does_not_wait_on_a_blocked_bus)
 {
     uint32_t start;
 
@@ -52,8 +52,8 @@ TEST(a_bus_without_room_for_the_others_is_not_waited_for)
     assert_sent(0, DRIVE, 2);
 }
 
-/* With others' frames between ours, each of ours leaves, but all of them would take too long. */
-TEST(many_that_leave_slowly_are_waited_for_as_long_as_an_idle_bus_needs)
+/* Frames of other nodes between ours: each of ours leaves, but all of them would take too long. */
+TEST(urgent_frame_waits_as_long_as_an_idle_bus_needs)
 {
     uint32_t start;
     unsigned before;
@@ -72,7 +72,7 @@ TEST(many_that_leave_slowly_are_waited_for_as_long_as_an_idle_bus_needs)
     assert_sent(before + 4, DRIVE, 9);
 }
 
-TEST(what_is_as_urgent_as_what_waits_stays_behind_it)
+TEST(equally_urgent_frame_stays_behind_queued_ones)
 {
     block();
     TEST_ASSERT_TRUE(put(HEALTH, 0));
@@ -83,7 +83,7 @@ TEST(what_is_as_urgent_as_what_waits_stays_behind_it)
     TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
 }
 
-TEST(each_that_waits_is_asked_whether_it_is_more_urgent)
+TEST(urgency_is_compared_with_every_queued_frame)
 {
     block();
     queue.first = 6;
@@ -102,8 +102,8 @@ TEST(each_that_waits_is_asked_whether_it_is_more_urgent)
     TEST_ASSERT_EQUAL_HEX32(DRIVE, controller.buffers[2].id);
 }
 
-/* A frame that has left the queue is not asked any more, nor is a buffer that is free. */
-TEST(what_no_longer_waits_is_not_asked)
+/* Nor are frames that have left the queue. */
+TEST(free_buffers_are_not_compared_for_urgency)
 {
     controller.ids_elsewhere = 1;
     block();
@@ -116,7 +116,7 @@ TEST(what_no_longer_waits_is_not_asked)
     TEST_ASSERT_EQUAL_HEX32(DRIVE, controller.buffers[2].id);
 }
 
-TEST(the_least_urgent_gives_way_wherever_it_is)
+TEST(urgent_frame_aborts_the_least_urgent_buffer)
 {
     static const uint32_t ids[3][3] = {{HEALTH, MEMORY, ANSWER}, {MEMORY, HEALTH, ANSWER}, {MEMORY, ANSWER, HEALTH}};
 
@@ -130,7 +130,7 @@ TEST(the_least_urgent_gives_way_wherever_it_is)
     }
 }
 
-TEST(nothing_gives_way_while_a_buffer_is_free)
+TEST(no_frame_is_aborted_while_a_buffer_is_free)
 {
     fill_controller(HEALTH, HEALTH, HEALTH);
     controller.waiting = 3;
@@ -139,7 +139,7 @@ TEST(nothing_gives_way_while_a_buffer_is_free)
     TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
 }
 
-TEST(a_controller_that_gives_nothing_up_is_waited_for_no_longer_than_promised)
+TEST(queue_put_times_out_if_the_controller_aborts_nothing)
 {
     uint32_t start;
 
@@ -148,7 +148,7 @@ TEST(a_controller_that_gives_nothing_up_is_waited_for_no_longer_than_promised)
     start = controller.now_us;
     TEST_ASSERT_FALSE(put(DRIVE, 1));
     TEST_ASSERT_UINT32_WITHIN(300, start + 1000 * (LINK_SEND_MS + 1), controller.now_us);
-    TEST_ASSERT_EQUAL_UINT8(2, queue.dropped);   /* the one that was to give way, and the drive */
+    TEST_ASSERT_EQUAL_UINT8(2, queue.dropped);   /* the one that was to be aborted, and the drive */
     TEST_ASSERT_FALSE(put(DRIVE, 2));
-    TEST_ASSERT_EQUAL_UINT8(2 + 3 + 2, queue.dropped);   /* all of it is out of date by now, and the same again */
+    TEST_ASSERT_EQUAL_UINT8(2 + 3 + 2, queue.dropped);   /* all three buffers are outdated by now, and the same two again */
 }

@@ -1,4 +1,4 @@
-/* A Cortex-M as a port: what it is asked is handed on to the chip, the flash store and the record of a crash. */
+/* The Cortex-M port: it passes requests to the chip, the flash store and the crash record. */
 #include "hal/can_body/port.h"
 
 #include <string.h>
@@ -97,7 +97,7 @@ void setUp(void)
     memset(&board, 0, sizeof board);
 }
 
-TEST(it_opens_as_what_it_was_built_for)
+TEST(port_opens_with_the_values_of_its_build)
 {
     struct port port;
 
@@ -111,7 +111,7 @@ TEST(it_opens_as_what_it_was_built_for)
     TEST_ASSERT_TRUE(port.clock_exact);
 }
 
-TEST(a_reset_after_a_crash_is_told_as_one)
+TEST(reset_after_a_crash_is_reported_as_crash)
 {
     struct port port;
 
@@ -121,7 +121,7 @@ TEST(a_reset_after_a_crash_is_told_as_one)
     TEST_ASSERT_FALSE(port.clock_exact);
 }
 
-TEST(the_led_shines_until_the_link_is_open)
+TEST(led_is_on_until_the_link_is_open)
 {
     struct port port;
 
@@ -144,14 +144,14 @@ static unsigned changes_in_a_second(bool outage)
     return changes;
 }
 
-TEST(each_sign_of_life_feeds_the_watchdog)
+TEST(port_alive_feeds_the_watchdog)
 {
     port_alive(false);
     port_alive(true);
     TEST_ASSERT_EQUAL_UINT(2, board.feeds);
 }
 
-TEST(the_led_blinks_at_1_hz_and_in_an_outage_at_4)
+TEST(led_blinks_at_1_hz_and_at_4_hz_in_an_outage)
 {
     (void)changes_in_a_second(false);
     TEST_ASSERT_EQUAL_UINT(2, changes_in_a_second(false));
@@ -159,13 +159,13 @@ TEST(the_led_blinks_at_1_hz_and_in_an_outage_at_4)
     TEST_ASSERT_EQUAL_UINT(8, changes_in_a_second(true));
 }
 
-TEST(its_clock_is_the_machines)
+TEST(port_clock_is_the_clock_of_the_machine)
 {
     board.now_ms = 0xFFFFFFFE;
     TEST_ASSERT_EQUAL_HEX32(0xFFFFFFFE, port_clock_ms());
 }
 
-TEST(the_memory_is_loaded_from_the_flash)
+TEST(memory_is_loaded_from_flash)
 {
     uint8_t memory[CELL_COUNT] = {0};
 
@@ -176,7 +176,7 @@ TEST(the_memory_is_loaded_from_the_flash)
     TEST_ASSERT_EQUAL(HAL_E_STORE, port_load(memory));
 }
 
-TEST(the_memory_is_stored_in_the_flash_which_may_be_erased_at_rest)
+TEST(memory_store_may_erase_flash_only_at_rest)
 {
     const uint8_t memory[CELL_COUNT] = {0, SIDE_LEFT, SIDE_RIGHT};
 
@@ -190,7 +190,7 @@ TEST(the_memory_is_stored_in_the_flash_which_may_be_erased_at_rest)
     TEST_ASSERT_EQUAL(HAL_E_STORE, port_store(memory, PORT_QUICKLY));
 }
 
-TEST(what_a_body_keeps_is_stored_in_the_pages_before_the_memory)
+TEST(body_records_have_flash_pages_of_their_own)
 {
     uint8_t bytes[CELL_COUNT] = {0, SIDE_RIGHT};
 
@@ -206,7 +206,7 @@ TEST(what_a_body_keeps_is_stored_in_the_pages_before_the_memory)
     TEST_ASSERT_EQUAL(HAL_E_STORE, port_store_more(1, bytes));
 }
 
-TEST(without_a_flash_nothing_is_kept_and_nothing_fails)
+TEST(load_and_store_succeed_without_a_flash)
 {
     uint8_t memory[CELL_COUNT] = {0};
 
@@ -219,8 +219,8 @@ TEST(without_a_flash_nothing_is_kept_and_nothing_fails)
     TEST_ASSERT_EQUAL_UINT(0, board.opens + board.saves);
 }
 
-/* What RAM held at power-up goes on by a generator of numbers, with the timer's value: known answers from 0. */
-TEST(entropy_is_stirred_with_the_timer_each_time)
+/* A linear congruential generator that starts from the contents of RAM and adds the timer's value: known answers from 0. */
+TEST(entropy_mixes_in_the_timer_value)
 {
     SYSTICK.val = 0;
     TEST_ASSERT_EQUAL_HEX32(0x3C6EF35F, port_entropy());

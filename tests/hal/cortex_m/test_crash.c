@@ -23,7 +23,7 @@ static void crash_at(const uint32_t *frame)
     crash_keep(CRASH_BUS_FAULT, frame, stack, stack + 16);
 }
 
-TEST(a_core_without_fault_registers_is_not_asked_for_them)
+TEST(fault_registers_are_not_read_on_cortex_m0)
 {
     SCB.cpuid = 0x410CC601;   /* Cortex-M0+ r0p1 */
     crash_at(&stack[4]);
@@ -33,12 +33,12 @@ TEST(a_core_without_fault_registers_is_not_asked_for_them)
         TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[i]);
 }
 
-TEST(after_power_on_there_is_no_crash)
+TEST(no_crash_is_known_after_power_on)
 {
     TEST_ASSERT_NULL(crash_last());
 }
 
-TEST(a_crash_is_known_after_the_reset)
+TEST(crash_is_reported_after_software_reset)
 {
     crash_at(&stack[4]);
     TEST_ASSERT_EQUAL(RESET_CRASH, crash_reset_cause(RESET_SOFTWARE));
@@ -46,7 +46,7 @@ TEST(a_crash_is_known_after_the_reset)
     TEST_ASSERT_EQUAL_UINT32(CRASH_BUS_FAULT, crash_last()->cause);
 }
 
-TEST(a_crash_keeps_all_registers)
+TEST(crash_saves_all_registers)
 {
     const uint32_t *registers;
 
@@ -68,7 +68,7 @@ TEST(a_crash_keeps_all_registers)
     TEST_ASSERT_EQUAL_HEX32(0xDEADBEEF, registers[CRASH_BFAR]);
 }
 
-TEST(a_stack_pointer_out_of_the_stack_is_kept_and_not_followed)
+TEST(stack_pointer_outside_the_stack_is_not_dereferenced)
 {
     static const uint32_t elsewhere[8] = {1, 2, 3, 4, 5, 6, 7, 8};
 
@@ -78,22 +78,22 @@ TEST(a_stack_pointer_out_of_the_stack_is_kept_and_not_followed)
     TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[CRASH_PC]);
 }
 
-TEST(a_frame_below_the_stack_is_not_followed)
+TEST(exception_frame_below_the_stack_is_not_read)
 {
     crash_keep(CRASH_BUS_FAULT, &stack[4], stack + 5, stack + 16);
     (void)crash_reset_cause(RESET_SOFTWARE);
     TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[CRASH_R0]);
 }
 
-TEST(a_frame_that_ends_beyond_the_stack_is_not_followed)
+TEST(exception_frame_beyond_the_stack_end_is_not_read)
 {
     crash_at(&stack[9]);
     (void)crash_reset_cause(RESET_SOFTWARE);
     TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[CRASH_R0]);
 }
 
-/* The pointer of a stack that ran wild: behind it there is less room than a frame takes before addresses start over at 0. */
-TEST(a_frame_at_the_end_of_the_address_space_is_not_followed)
+/* A runaway stack pointer: less room than a frame takes before addresses wrap to 0. */
+TEST(exception_frame_at_the_last_address_is_not_read)
 {
     crash_at((const uint32_t *)(UINTPTR_MAX - 7u));
     (void)crash_reset_cause(RESET_SOFTWARE);
@@ -101,7 +101,7 @@ TEST(a_frame_at_the_end_of_the_address_space_is_not_followed)
     TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[CRASH_R0]);
 }
 
-TEST(a_frame_that_just_fits_is_kept)
+TEST(exception_frame_that_just_fits_is_read)
 {
     crash_keep(CRASH_BUS_FAULT, &stack[4], &stack[4], &stack[12]);
     (void)crash_reset_cause(RESET_SOFTWARE);
@@ -109,8 +109,8 @@ TEST(a_frame_that_just_fits_is_kept)
     TEST_ASSERT_EQUAL_HEX32(0x61000000, crash_last()->values[CRASH_PSR]);
 }
 
-/* The RAM may hold on for as long as the supply was low. */
-TEST(power_on_forgets_the_crash_for_good)
+/* RAM may keep its contents through a short loss of power. */
+TEST(power_on_erases_the_crash_for_later_resets)
 {
     crash_at(&stack[4]);
     (void)crash_reset_cause(RESET_POWER_ON);
@@ -122,7 +122,7 @@ TEST(power_on_forgets_the_crash_for_good)
     TEST_ASSERT_NULL(crash_last());
 }
 
-TEST(an_old_crash_is_still_told_but_was_not_the_cause)
+TEST(old_crash_stays_known_but_is_not_the_reset_cause)
 {
     crash_at(&stack[4]);
     (void)crash_reset_cause(RESET_SOFTWARE);
@@ -130,14 +130,14 @@ TEST(an_old_crash_is_still_told_but_was_not_the_cause)
     TEST_ASSERT_NOT_NULL(crash_last());
 }
 
-TEST(power_on_forgets_the_crash)
+TEST(power_on_erases_the_crash)
 {
     crash_at(&stack[4]);
     TEST_ASSERT_EQUAL(RESET_POWER_ON, crash_reset_cause(RESET_POWER_ON));
     TEST_ASSERT_NULL(crash_last());
 }
 
-TEST(a_reset_of_another_kind_is_told_as_it_is)
+TEST(other_reset_causes_are_unchanged)
 {
     static const enum reset_cause causes[] = {RESET_PIN, RESET_WATCHDOG, RESET_SOFTWARE, RESET_POWER_ON};
 
@@ -145,14 +145,14 @@ TEST(a_reset_of_another_kind_is_told_as_it_is)
         TEST_ASSERT_EQUAL(causes[i], crash_reset_cause(causes[i]));
 }
 
-TEST(a_button_pressed_right_after_a_crash_does_not_hide_the_crash)
+TEST(pin_reset_keeps_the_crash)
 {
     crash_at(&stack[4]);
     TEST_ASSERT_EQUAL(RESET_PIN, crash_reset_cause(RESET_PIN));
     TEST_ASSERT_NOT_NULL(crash_last());
 }
 
-TEST(a_crash_has_as_many_values_as_the_dbc_has_names)
+TEST(crash_has_as_many_values_as_the_dbc)
 {
     crash_at(&stack[4]);
     (void)crash_reset_cause(RESET_SOFTWARE);
@@ -160,7 +160,7 @@ TEST(a_crash_has_as_many_values_as_the_dbc_has_names)
     TEST_ASSERT_EQUAL(CRASH_VALUES_MAX, CRASH_REGISTER_COUNT);
 }
 
-TEST(crash_causes_and_registers_are_those_of_the_dbc)
+TEST(crash_causes_and_registers_match_the_dbc)
 {
     TEST_ASSERT_EQUAL(OCTET_CRASH_CAUSE_NMI_CHOICE, CRASH_NMI);
     TEST_ASSERT_EQUAL(OCTET_CRASH_CAUSE_HARD_FAULT_CHOICE, CRASH_HARD_FAULT);

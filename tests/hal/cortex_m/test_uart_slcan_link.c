@@ -7,8 +7,8 @@
 
 enum { TEXT_MAX = 1024, LOOK_US = 10, BYTE_US = 87, FIFO_MAX = 32, DAMAGED = '\x80', NEVER = 0 };
 
-/* The fake line: a byte each way every 87 us, of which the port holds one or some; what comes then is lost, and noticed.
- * Time passes with each look at the clock. */
+/* The fake line: a byte each way every 87 us. The port holds `depth` received bytes; more are lost as an overrun.
+ * Time passes with each read of the clock. */
 static struct {
     uint32_t now_us, next_us, look_us, byte_us;
     char in[TEXT_MAX], out[TEXT_MAX];
@@ -89,7 +89,7 @@ void setUp(void)
     TEST_ASSERT_EQUAL(0, link_open(&link_here, "", ids, 2));
 }
 
-static void comes(const char *text)
+static void feed(const char *text)
 {
     size_t len = strlen(text);
 
@@ -105,63 +105,63 @@ static int receive(uint32_t wait_ms)
     return link_receive(link_here, &frame, wait_ms);
 }
 
-TEST(it_opens_at_115200_baud)
+TEST(serial_link_opens_at_115200_baud)
 {
     TEST_ASSERT_EQUAL_UINT32(115200, fake.baud);
 }
 
-TEST(a_line_is_a_frame)
+TEST(line_is_received_as_a_frame)
 {
-    comes("t0C1201FE\r");
+    feed("t0C1201FE\r");
     TEST_ASSERT_EQUAL(1, receive(20));
     TEST_ASSERT_EQUAL_HEX32(0x0C1, frame.id);
     TEST_ASSERT_EQUAL_UINT8(2, frame.len);
     TEST_ASSERT_EQUAL_HEX8(0xFE, frame.data[1]);
 }
 
-TEST(silence_is_waited_out)
+TEST(receive_returns_silence_after_the_wait)
 {
     TEST_ASSERT_EQUAL(0, receive(20));
     TEST_ASSERT_UINT32_WITHIN(100, 20000, fake.now_us);
 }
 
 /* A millisecond may pass unseen, as while the flash is written. */
-TEST(a_wait_ends_even_if_nobody_looks_in_its_last_millisecond)
+TEST(wait_ends_though_the_clock_skips_a_millisecond)
 {
     fake.look_us = 1500;
     TEST_ASSERT_EQUAL(0, receive(20));
     TEST_ASSERT_UINT32_WITHIN(2000, 20000, fake.now_us);
 }
 
-TEST(what_was_half_received_is_forgotten_when_it_is_opened_again)
+TEST(reopening_discards_a_partial_line)
 {
     static const uint16_t ids[] = {0x0C1};
 
-    comes("t0C1201");
+    feed("t0C1201");
     TEST_ASSERT_EQUAL(0, receive(20));
     TEST_ASSERT_EQUAL(0, link_open(&link_here, "", ids, 1));
-    comes("t0C10\r");
+    feed("t0C10\r");
     TEST_ASSERT_EQUAL(1, receive(20));
     TEST_ASSERT_EQUAL_UINT8(0, frame.len);
 }
 
-TEST(half_a_line_waits_for_the_other_half)
+TEST(partial_line_waits_for_its_rest)
 {
-    comes("t0C1201");
+    feed("t0C1201");
     TEST_ASSERT_EQUAL(0, receive(20));
-    comes("FE\r");
+    feed("FE\r");
     TEST_ASSERT_EQUAL(1, receive(20));
 }
 
-TEST(a_damaged_byte_makes_one_garbled_line)
+TEST(damaged_byte_garbles_one_line)
 {
-    comes("t0C12\x80" "1FE\rt0C10\r");
+    feed("t0C12\x80" "1FE\rt0C10\r");
     TEST_ASSERT_EQUAL(LINK_E_GARBLED, receive(20));
     TEST_ASSERT_EQUAL(1, receive(20));
     TEST_ASSERT_EQUAL(0, receive(20));
 }
 
-static void send_some(unsigned count)
+static void send_frames(unsigned count)
 {
     static const struct frame some = {.id = 0x081, .len = 8, .data = {1, 2, 3, 4, 5, 6, 7, 8}};
 
@@ -169,24 +169,24 @@ static void send_some(unsigned count)
         TEST_ASSERT_EQUAL(0, link_send(link_here, &some));
 }
 
-TEST(a_frame_goes_out_as_a_line)
+TEST(frame_is_sent_as_a_line)
 {
-    send_some(1);
+    send_frames(1);
     TEST_ASSERT_EQUAL_STRING_LEN("t08180102030405060708\r", fake.out, fake.out_len);
 }
 
-TEST(what_comes_while_sending_is_not_lost)
+TEST(bytes_received_while_sending_are_kept)
 {
-    comes("t0C1801020304050607FF\rt0C10\r");
-    send_some(3);
+    feed("t0C1801020304050607FF\rt0C10\r");
+    send_frames(3);
     TEST_ASSERT_EQUAL(1, receive(0));
     TEST_ASSERT_EQUAL_HEX8(0xFF, frame.data[7]);
     TEST_ASSERT_EQUAL(1, receive(0));
 }
 
-TEST(what_is_pumped_is_not_lost)
+TEST(line_pump_loses_no_received_byte)
 {
-    comes("t0C10\r");
+    feed("t0C10\r");
     for (unsigned i = 0; i < 100; i++) {
         line_pump();
         (void)machine_ms();
@@ -194,14 +194,14 @@ TEST(what_is_pumped_is_not_lost)
     TEST_ASSERT_EQUAL(1, receive(0));
 }
 
-TEST(more_than_there_is_room_for_is_garbled_and_then_all_is_well)
+TEST(overrun_is_garbled_and_later_frames_arrive)
 {
     unsigned garbled = 0, whole = 0;
 
     for (unsigned i = 0; i < 10; i++)
-        comes("t0C1801020304050607FF\r");
-    send_some(10);
-    comes("\rt0C11AA\r");
+        feed("t0C1801020304050607FF\r");
+    send_frames(10);
+    feed("\rt0C11AA\r");
     for (int result = receive(20); result != 0; result = receive(20)) {
         garbled += result == LINK_E_GARBLED;
         whole += result == 1;
@@ -211,35 +211,35 @@ TEST(more_than_there_is_room_for_is_garbled_and_then_all_is_well)
     TEST_ASSERT_EQUAL_HEX8(0xAA, frame.data[0]);
 }
 
-TEST(lines_lost_as_a_whole_are_noticed_too)
+TEST(lost_whole_lines_are_counted_as_garbled)
 {
     unsigned garbled = 0;
 
     for (unsigned i = 0; i < 12; i++)
-        comes("t0C15AABBCCDDEE\r");   /* 16 bytes: eight fill the room exactly */
-    send_some(13);
+        feed("t0C15AABBCCDDEE\r");   /* 16 bytes: eight fill the room exactly */
+    send_frames(13);
     TEST_ASSERT_EQUAL(1, receive(20));   /* there is room again */
-    comes("\r");
+    feed("\r");
     for (int result = receive(20); result != 0; result = receive(20))
         garbled += result == LINK_E_GARBLED;
     TEST_ASSERT_EQUAL_UINT(1, garbled);
 }
 
-TEST(what_a_port_holds_is_taken_at_one_look)
+TEST(serial_link_reads_a_full_fifo_in_one_call)
 {
     fake.depth = FIFO_MAX;
-    comes("t0C1801020304050607FF\r");
+    feed("t0C1801020304050607FF\r");
     fake.now_us += 100 * BYTE_US;
     TEST_ASSERT_EQUAL(1, receive(0));
     TEST_ASSERT_EQUAL_HEX8(0xFF, frame.data[7]);
 }
 
 /* As in QEMU, whose serial port has no bit rate. */
-TEST(a_port_that_always_has_a_byte_loses_none)
+TEST(serial_link_loses_no_byte_of_a_continuous_stream)
 {
     fake.byte_us = 0;
     for (unsigned i = 0; i < 10; i++)
-        comes("t0C1801020304050607FF\r");
+        feed("t0C1801020304050607FF\r");
     for (unsigned i = 0; i < 10; i++)
         TEST_ASSERT_EQUAL(1, receive(0));
     TEST_ASSERT_EQUAL(0, receive(0));
@@ -247,8 +247,8 @@ TEST(a_port_that_always_has_a_byte_loses_none)
 
 static const struct frame SHORT = {.id = 0x123, .len = 1, .data = {0xAB}};
 
-/* A frame does not leave while the line is blocked from a byte on; afterwards it does. */
-static void send_once_in_vain(unsigned blocked_from)
+/* Sends a frame while the line is blocked from this byte on, and again when it is not. */
+static void send_while_blocked(unsigned blocked_from)
 {
     fake.blocked_from = blocked_from;
     TEST_ASSERT_EQUAL(LINK_E_FULL, link_send(link_here, &SHORT));
@@ -256,33 +256,33 @@ static void send_once_in_vain(unsigned blocked_from)
     TEST_ASSERT_EQUAL(0, link_send(link_here, &SHORT));
 }
 
-TEST(a_line_that_never_began_needs_no_end)
+TEST(unsent_line_needs_no_terminator)
 {
-    send_once_in_vain(1);
+    send_while_blocked(1);
     TEST_ASSERT_EQUAL_STRING_LEN("t1231AB\r", fake.out, fake.out_len);
 }
 
-TEST(a_line_that_does_not_take_it_is_given_up_in_time)
+TEST(send_to_a_blocked_line_times_out)
 {
     fake.blocked_from = 1;
     TEST_ASSERT_EQUAL(LINK_E_FULL, link_send(link_here, &frame));
     TEST_ASSERT_UINT32_WITHIN(100, 1000 * (LINK_SEND_MS + 1), fake.now_us);
 }
 
-TEST(a_line_cut_short_is_ended_before_the_next)
+TEST(cut_line_is_terminated_before_the_next)
 {
-    send_once_in_vain(4);
+    send_while_blocked(4);
     TEST_ASSERT_EQUAL(0, link_send(link_here, &SHORT));
     TEST_ASSERT_EQUAL_STRING_LEN("t12\rt1231AB\rt1231AB\r", fake.out, fake.out_len);
 }
 
-TEST(a_line_cut_short_after_its_first_byte_is_ended_too)
+TEST(line_cut_after_its_first_byte_is_terminated)
 {
-    send_once_in_vain(2);
+    send_while_blocked(2);
     TEST_ASSERT_EQUAL_STRING_LEN("t\rt1231AB\r", fake.out, fake.out_len);
 }
 
-TEST(its_health_is_always_fine)
+TEST(serial_link_reports_an_active_bus)
 {
     static const struct link_health fine = {.state = BUS_ACTIVE};
     struct link_health health;
@@ -293,7 +293,7 @@ TEST(its_health_is_always_fine)
     TEST_ASSERT_EQUAL_UINT8(0, health.tx_errors | health.rx_errors | health.bus_offs | health.dropped);
 }
 
-TEST(closing_stops_the_serial_port)
+TEST(link_close_stops_the_serial_port)
 {
     link_close(NULL);
     TEST_ASSERT_TRUE(fake.on);

@@ -1,24 +1,23 @@
+#include "flash_store_rig.h"
+
+#include "tests/test.h"
+#include "hal/flash_store/crc32.h"
 #include "hal/flash_store/flash_store.h"
 
 #include <string.h>
 
-#include "tests/test.h"
-#include "fake_flash.h"
-
-#include "flash_store_rig.h"
-
-TEST(a_blank_flash_holds_no_memory)
+TEST(blank_flash_holds_no_memory)
 {
     TEST_ASSERT_EQUAL(0, start());
 }
 
-TEST(what_was_saved_is_found)
+TEST(saved_memory_is_loaded)
 {
     save_many(1);
     assert_found(0);
 }
 
-TEST(the_newest_of_many_is_found)
+TEST(newest_of_many_records_is_loaded)
 {
     FOR_EACH_KIND
         for (unsigned count = 1; count <= 5 * CHANGES; count++) {
@@ -31,7 +30,7 @@ TEST(the_newest_of_many_is_found)
 static const uint8_t SECOND_OF_ALL[] = {0x02, 0x00, 0x00, 0x00, 0x00, 0x01, 0x02, 0x01, 0x02, 0x01, 0x02, 0x02, 0xED, 0x7A, 0xC2, 0x36};
 static const uint8_t LAST_OF_ALL[] = {0xFF, 0xFF, 0xFF, 0xFF, 0x00, 0x01, 0x02, 0x01, 0x02, 0x01, 0x02, 0x02, 0xE2, 0xDD, 0xD3, 0x5E};
 
-TEST(the_record_layout_has_not_changed)
+TEST(record_has_its_documented_bytes)
 {
     static const uint8_t memory[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 2};
 
@@ -40,7 +39,7 @@ TEST(the_record_layout_has_not_changed)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(SECOND_OF_ALL, &fake_flash.bytes[0][2 * 16], sizeof SECOND_OF_ALL);
 }
 
-TEST(a_longer_unit_is_filled_up)
+TEST(longer_unit_is_padded_with_ones)
 {
     for (kind = KINDS; kind->unit < 32; kind++)
         continue;
@@ -50,7 +49,7 @@ TEST(a_longer_unit_is_filled_up)
     TEST_ASSERT_EQUAL_HEX8(2, fake_flash.bytes[0][2 * 32]);
 }
 
-TEST(numbers_wrap)
+TEST(sequence_numbers_wrap)
 {
     FOR_EACH_KIND {
         setUp();
@@ -63,7 +62,7 @@ TEST(numbers_wrap)
     }
 }
 
-TEST(the_store_accepts_any_bytes)
+TEST(store_accepts_any_bytes)
 {
     static const uint8_t none[CELL_COUNT] = {9, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF};
 
@@ -73,7 +72,7 @@ TEST(the_store_accepts_any_bytes)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(none, found, CELL_COUNT);
 }
 
-TEST(what_is_stored_already_is_not_written_again)
+TEST(unchanged_memory_is_not_written_again)
 {
     FOR_EACH_KIND {
         setUp();
@@ -87,14 +86,14 @@ TEST(what_is_stored_already_is_not_written_again)
     }
 }
 
-TEST(what_was_stored_earlier_is_written_again)
+TEST(earlier_memory_is_written_again)
 {
     save_many(3);
     TEST_ASSERT_EQUAL(0, save(1));
     assert_found(1);
 }
 
-TEST(a_change_of_any_one_byte_is_stored)
+TEST(change_of_any_byte_is_stored)
 {
     uint8_t memory[CELL_COUNT] = {0};
 
@@ -107,7 +106,7 @@ TEST(a_change_of_any_one_byte_is_stored)
     }
 }
 
-TEST(what_does_not_read_back_any_more_is_written_again)
+TEST(corrupted_record_is_written_again)
 {
     for (unsigned byte = 0; byte < 16; byte++) {
         setUp();
@@ -118,7 +117,7 @@ TEST(what_does_not_read_back_any_more_is_written_again)
     }
 }
 
-TEST(random_bytes_are_no_memory_and_the_robot_starts)
+TEST(random_flash_content_is_no_memory)
 {
     memset(fake_flash.bytes, 0x3C, sizeof fake_flash.bytes);
     TEST_ASSERT_EQUAL(HAL_E_STORE, start());
@@ -132,8 +131,22 @@ TEST(pages_of_zeros_hold_no_memory)
     TEST_ASSERT_EQUAL(HAL_E_STORE, start());
 }
 
+/* As firmware without page marks leaves it. */
+TEST(page_with_a_record_instead_of_its_mark_is_erased)
+{
+    memcpy(fake_flash.bytes[1], SECOND_OF_ALL, sizeof SECOND_OF_ALL);
+    TEST_ASSERT_EQUAL(1, start());
+    for (unsigned n = 0; n < CHANGES; n++)
+        TEST_ASSERT_EQUAL(0, save(n));
+    memcpy(fake_flash.bytes[0], SECOND_OF_ALL, sizeof SECOND_OF_ALL);
+    memset(fake_flash.bytes[0] + fake_flash_place(), 0xFF, FAKE_PAGE_MAX - fake_flash_place());
+    fake_flash.erases = 0;
+    TEST_ASSERT_EQUAL(0, save(CHANGES));
+    TEST_ASSERT_EQUAL_UINT(1, fake_flash.erases);
+}
+
 /* Its CRC is right: that of four bytes 0xFF and eight zeros is 0xFFFFFFFF. */
-TEST(zeros_behind_the_beginning_of_an_erase_are_no_memory)
+TEST(zeros_after_a_partial_erase_are_no_memory)
 {
     FOR_EACH_KIND {
         setUp();
@@ -142,7 +155,7 @@ TEST(zeros_behind_the_beginning_of_an_erase_are_no_memory)
     }
 }
 
-TEST(a_number_whose_crc_looks_like_none_is_left_out)
+TEST(store_skips_a_sequence_number_whose_crc_reads_as_blank)
 {
     static const uint8_t before[] = {0xFE, 0xFF, 0xFF, 0xFF, 0x00, 0x01, 0x02, 0x01, 0x02, 0x01, 0x02, 0x02, 0x8D, 0x91, 0x76, 0xC5};
     static const uint8_t zeros[CELL_COUNT];
@@ -155,7 +168,7 @@ TEST(a_number_whose_crc_looks_like_none_is_left_out)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(zeros, found, CELL_COUNT);
 }
 
-TEST(one_flipped_bit_makes_the_record_before_it_count)
+TEST(flipped_bit_makes_the_previous_record_count)
 {
     for (unsigned bit = 0; bit < 8 * 16; bit++) {
         setUp();
@@ -165,9 +178,9 @@ TEST(one_flipped_bit_makes_the_record_before_it_count)
     }
 }
 
-/* The places of a page: what is in use, what fills them, and how often the store tries another. */
+/* The record places of a page: which are in use, how they are padded, and how often the store tries another. */
 
-TEST(a_place_whose_last_word_alone_is_written_is_in_use)
+TEST(record_place_with_only_its_last_word_written_is_skipped)
 {
     FOR_EACH_KIND {
         uint8_t *last_word;
@@ -183,7 +196,7 @@ TEST(a_place_whose_last_word_alone_is_written_is_in_use)
     }
 }
 
-TEST(whatever_fills_the_last_place_the_next_one_is_filled_with_ones)
+TEST(record_padding_is_ones_whatever_precedes_it)
 {
     for (kind = KINDS; kind->unit < 32; kind++)
         continue;
@@ -195,7 +208,7 @@ TEST(whatever_fills_the_last_place_the_next_one_is_filled_with_ones)
     TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, &fake_flash.bytes[0][2 * 32 + 16], 16);
 }
 
-TEST(an_erase_that_fails_on_a_blank_page_is_a_failure_too)
+TEST(failed_erase_of_a_blank_page_fails_the_save)
 {
     fake_flash.erase_fails = true;
     TEST_ASSERT_EQUAL(0, start());
@@ -204,7 +217,7 @@ TEST(an_erase_that_fails_on_a_blank_page_is_a_failure_too)
 }
 
 /* Three in the page, the mark of the other one, and one there. */
-TEST(a_save_is_tried_four_times)
+TEST(save_tries_four_record_places)
 {
     TEST_ASSERT_EQUAL(0, start());
     fake_flash.write_fails = true;
@@ -213,8 +226,8 @@ TEST(a_save_is_tried_four_times)
     TEST_ASSERT_EQUAL_UINT(3 + 1 + 1, fake_flash.writes);
 }
 
-/* Firmware that knows no marks passes it over: zeros, with the CRC of zeros inverted. */
-TEST(the_mark_has_not_changed)
+/* Zeros with the inverted CRC of zeros: firmware without page marks skips it as damaged. */
+TEST(page_mark_has_its_documented_bytes)
 {
     static const uint8_t mark[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x90, 0x39, 0x2A, 0x84};
 
@@ -222,8 +235,8 @@ TEST(the_mark_has_not_changed)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(mark, fake_flash.bytes[0], sizeof mark);
 }
 
-/* The tries took the numbers after the wrap, and may read well at the next start. */
-TEST(what_was_stored_is_written_again_when_numbers_wrapped_in_a_failed_save)
+/* The failed tries took the numbers after the wrap, and may read well at the next start. */
+TEST(memory_is_rewritten_if_numbers_wrap_in_a_failed_save)
 {
     static const uint8_t memory[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 2};
     static const uint8_t last_of_all[] = {0xFF, 0xFF, 0xFF, 0xFF, 0, 1, 2, 1, 2, 1, 2, 2, 0xE2, 0xDD, 0xD3, 0x5E};
@@ -239,10 +252,40 @@ TEST(what_was_stored_is_written_again_when_numbers_wrapped_in_a_failed_save)
 }
 
 /* The newest record is in page 1, and has come there since the start. */
-TEST(a_first_page_that_wears_out_never_costs_the_memory_in_the_second)
+TEST(store_keeps_the_memory_in_the_second_page_when_the_first_wears_out)
 {
     save_many(2 * CHANGES);
     fake_flash.worn[0] = 0xFF;
     TEST_ASSERT_EQUAL(HAL_E_STORE, save(99));
     assert_found(2 * CHANGES - 1);
+}
+
+static uint32_t crc_of(const char *text)
+{
+    return crc32((const uint8_t *)text, strlen(text));
+}
+
+/* The check value of CRC-32/ISO-HDLC in the catalogue of parametrised CRC algorithms; zlib's crc32 gives all of these. */
+TEST(crc32_matches_published_values)
+{
+    TEST_ASSERT_EQUAL_HEX32(0xCBF43926, crc_of("123456789"));
+    TEST_ASSERT_EQUAL_HEX32(0x00000000, crc_of(""));
+    TEST_ASSERT_EQUAL_HEX32(0xE8B7BE43, crc_of("a"));
+    TEST_ASSERT_EQUAL_HEX32(0x414FA339, crc_of("The quick brown fox jumps over the lazy dog"));
+}
+
+TEST(crc_distinguishes_runs_of_zeros_and_ones)
+{
+    static const uint8_t zeros[4] = {0, 0, 0, 0}, ones[4] = {0xFF, 0xFF, 0xFF, 0xFF};
+
+    TEST_ASSERT_EQUAL_HEX32(0x2144DF1C, crc32(zeros, sizeof zeros));
+    TEST_ASSERT_EQUAL_HEX32(0xFFFFFFFF, crc32(ones, sizeof ones));
+}
+
+TEST(crc_covers_only_the_given_count_of_bytes)
+{
+    static const uint8_t bytes[3] = {'a', 'b', 'c'};
+
+    TEST_ASSERT_EQUAL_HEX32(0xE8B7BE43, crc32(bytes, 1));
+    TEST_ASSERT_EQUAL_HEX32(0x352441C2, crc32(bytes, 3));
 }

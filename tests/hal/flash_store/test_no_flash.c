@@ -1,7 +1,7 @@
 #include "hal/flash_store/flash.h"
 #include "tests/test.h"
 
-TEST(there_is_no_flash_and_nothing_can_be_done_with_it)
+TEST(missing_flash_fails_every_operation)
 {
     uint32_t word = 7;
 

@@ -37,14 +37,14 @@ TEST(senses_are_answered_with_a_drive)
     TEST_ASSERT_EQUAL_UINT32(OCTET_DRIVE_FRAME_ID, out[0].id);
 }
 
-TEST(a_command_is_answered_before_its_report)
+TEST(command_answer_precedes_its_report)
 {
     TEST_ASSERT_EQUAL_size_t(9, exchange(command_of(OPCODE_STOP)));
     TEST_ASSERT_EQUAL_UINT32(OCTET_ANSWER_FRAME_ID, out[0].id);
     TEST_ASSERT_EQUAL_UINT32(OCTET_HEARTBEAT_FRAME_ID, out[1].id);
 }
 
-TEST(answers_stay_where_they_are)
+TEST(answers_stay_at_the_same_address)
 {
     exchange(senses_frame(1, 1));
     TEST_ASSERT_EQUAL_PTR(out, octet_answers(octet));
@@ -62,7 +62,7 @@ static struct frame clear_way(unsigned ticks)
     return protected_frame(frame);
 }
 
-TEST(a_started_robot_drives)
+TEST(started_robot_drives)
 {
     struct octet_drive_t drive;
 
@@ -72,7 +72,7 @@ TEST(a_started_robot_drives)
     TEST_ASSERT_GREATER_THAN_INT16(0, drive.left);
 }
 
-TEST(in_lockstep_senses_again_are_answered_as_before)
+TEST(lockstep_repeated_senses_get_the_same_answer)
 {
     struct frame before;
 
@@ -91,17 +91,17 @@ TEST(stale_senses_do_not_reach_the_robot)
     TEST_ASSERT_EQUAL_UINT16(20, octet->robot.part_ms);   /* one tick */
 }
 
-TEST(a_robot_begins_stopped)
+TEST(robot_begins_stopped)
 {
     TEST_ASSERT_FALSE(octet->robot.running);
 }
 
-TEST(a_robot_begins_with_what_was_stored)
+TEST(robot_begins_with_stored_memory)
 {
     TEST_ASSERT_EQUAL_UINT8_ARRAY(STORED, octet->robot.brain.memory.cell, CELL_COUNT);
 }
 
-TEST(from_what_is_no_memory_nothing_is_known)
+TEST(library_ignores_stored_bytes_that_are_no_memory)
 {
     static const uint8_t none[CELL_COUNT] = {0, 3}, nothing[CELL_COUNT] = {0};
 
@@ -110,7 +110,7 @@ TEST(from_what_is_no_memory_nothing_is_known)
     TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, octet->robot.brain.memory.cell, CELL_COUNT);
 }
 
-TEST(two_robots_do_not_know_each_other)
+TEST(robots_in_one_process_share_no_state)
 {
     struct octet *other = octet_open(2, STORED);
 
@@ -119,7 +119,7 @@ TEST(two_robots_do_not_know_each_other)
     octet_close(other);
 }
 
-TEST(closing_no_robot_is_fine)
+TEST(octet_close_accepts_null)
 {
     octet_close(NULL);
 }
@@ -134,7 +134,7 @@ static const uint8_t *data_of(uint32_t id, size_t count)
     return NULL;
 }
 
-TEST(its_clock_is_exact)
+TEST(health_reports_an_exact_clock)
 {
     struct octet_health_t health;
     size_t count = exchange(command_of(OPCODE_STOP));
@@ -144,7 +144,7 @@ TEST(its_clock_is_exact)
 }
 
 /* As behind a bus, where it says so when it comes up. */
-TEST(the_first_boot_message_that_is_heard_is_the_second_one)
+TEST(first_boot_message_has_counter_1)
 {
     struct octet_boot_t boot;
     size_t count = exchange(command_of(OPCODE_STOP));
@@ -153,7 +153,7 @@ TEST(the_first_boot_message_that_is_heard_is_the_second_one)
     TEST_ASSERT_EQUAL_UINT8(1, boot.counter);
 }
 
-TEST(a_copy_put_back_makes_it_what_it_was)
+TEST(restored_copy_continues_identically)
 {
     uint8_t copy[sizeof *octet];
     struct frame before;
@@ -169,7 +169,7 @@ TEST(a_copy_put_back_makes_it_what_it_was)
     TEST_ASSERT_EQUAL_MEMORY(&before, &out[0], sizeof before);
 }
 
-TEST(after_an_outage_any_senses_are_fresh)
+TEST(any_senses_are_fresh_after_an_outage)
 {
     struct frame start = command_frame((struct octet_command_t){.opcode = OPCODE_START, .counter = 1, .owner = 1});
 

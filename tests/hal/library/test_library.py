@@ -5,7 +5,7 @@ import subprocess
 from host_sim.sim.in_process_link import LIBRARY
 
 
-def test_the_library_exports_its_own_functions_and_nothing_else():
+def test_library_exports_its_own_functions_only():
     symbols = subprocess.check_output(["nm", "--dynamic", "--defined-only", LIBRARY], text=True)
 
     names = [line.split()[-1] for line in symbols.splitlines()]

@@ -9,22 +9,22 @@
 
 static const uint16_t IDS[LINK_IDS_MAX + 1];
 
-char said[SAID_MAX];
+char printed[PRINTED_MAX];
 
-/* Stderr goes to a file that nobody else sees. */
+/* Stderr goes to a private file. */
 int open_listening(struct link **link, const char *name, size_t id_count)
 {
     int console = dup(STDERR_FILENO);
-    FILE *heard = tmpfile();
-    TEST_ASSERT_NOT_NULL(heard);
-    dup2(fileno(heard), STDERR_FILENO);
+    FILE *captured = tmpfile();
+    TEST_ASSERT_NOT_NULL(captured);
+    dup2(fileno(captured), STDERR_FILENO);
     errno = ERANGE;   /* of something that failed before */
     int result = link_open(link, name, IDS, id_count);
     dup2(console, STDERR_FILENO);
     close(console);
-    rewind(heard);
-    said[fread(said, 1, sizeof said - 1, heard)] = '\0';
-    fclose(heard);
+    rewind(captured);
+    printed[fread(printed, 1, sizeof printed - 1, captured)] = '\0';
+    fclose(captured);
     return result;
 }
 

@@ -6,9 +6,9 @@
 
 #include "hal/link/link.h"
 
-enum { SAID_MAX = 2 * PATH_MAX };
+enum { PRINTED_MAX = 2 * PATH_MAX };
 
-extern char said[SAID_MAX];   /* by the last open */
+extern char printed[PRINTED_MAX];   /* by the last open */
 
 int open_listening(struct link **link, const char *name, size_t id_count);
         /* As link_open, for so many identifiers. */

@@ -66,5 +66,5 @@ static void close_far(void)
 }
 
 const struct rig RIG_FD = {"fd", false, open_fd, put, take, put_garbage, close_far};
-/* A virtual bus takes all that is sent and garbles nothing; socket_faults.c does that to the same code. */
+/* A virtual bus takes all that is sent and garbles nothing; test_socket_errors.c does that to the same code. */
 const struct rig RIG_SOCKETCAN = {"socketcan", true, open_socketcan, put, take, NULL, close_far};

@@ -1,4 +1,4 @@
-/* Waiting, with a clock that passes only as the test says. */
+/* Waiting, with a fake clock. */
 #include "hal/link/link_kind.h"
 
 #include <poll.h>
@@ -50,7 +50,7 @@ void setUp(void)
     time_ns = 10 * (int64_t)NS_PER_S + 999999999;
 }
 
-TEST(what_is_left_is_rounded_up_to_milliseconds)
+TEST(remaining_time_is_rounded_up_to_milliseconds)
 {
     static const struct {
         int64_t after_ns;
@@ -65,7 +65,7 @@ TEST(what_is_left_is_rounded_up_to_milliseconds)
     }
 }
 
-TEST(a_deadline_may_be_seconds_away)
+TEST(deadline_may_be_seconds_away)
 {
     const int64_t deadline = deadline_in_ms(2000);
 
@@ -75,7 +75,7 @@ TEST(a_deadline_may_be_seconds_away)
     TEST_ASSERT_EQUAL_UINT32(0, deadline_left_ms(deadline));
 }
 
-TEST(it_waits_for_input_as_long_as_is_left)
+TEST(await_input_waits_for_the_remaining_time)
 {
     polls[0] = (struct poll_of_test){.passes_ns = 2500000000, .result = 0};
     TEST_ASSERT_FALSE(deadline_await_input(FD, deadline_in_ms(2500)));
@@ -84,14 +84,14 @@ TEST(it_waits_for_input_as_long_as_is_left)
     TEST_ASSERT_EQUAL_INT64(500000000, polls[0].waited.tv_nsec);
 }
 
-TEST(input_ends_the_wait)
+TEST(await_input_returns_at_input)
 {
     polls[0] = (struct poll_of_test){.passes_ns = 1, .result = 1};
     TEST_ASSERT_TRUE(deadline_await_input(FD, deadline_in_ms(10)));
     TEST_ASSERT_EQUAL_UINT(1, polled);
 }
 
-TEST(a_signal_does_not_end_the_wait)
+TEST(await_input_continues_after_a_signal)
 {
     polls[0] = (struct poll_of_test){.passes_ns = NS_PER_S + 1, .result = -1};
     polls[1] = (struct poll_of_test){.passes_ns = 0, .result = 1};
@@ -101,7 +101,7 @@ TEST(a_signal_does_not_end_the_wait)
     TEST_ASSERT_EQUAL_INT64(NS_PER_S - 1, polls[1].waited.tv_nsec);
 }
 
-TEST(a_wait_that_is_cut_short_goes_on_to_the_last_nanosecond)
+TEST(shortened_wait_continues_to_the_last_nanosecond)
 {
     polls[0] = (struct poll_of_test){.passes_ns = NS_PER_S - 1, .result = 0};
     polls[1] = (struct poll_of_test){.passes_ns = 1, .result = 0};
@@ -112,13 +112,13 @@ TEST(a_wait_that_is_cut_short_goes_on_to_the_last_nanosecond)
     TEST_ASSERT_EQUAL_INT64(1, polls[1].waited.tv_nsec);
 }
 
-TEST(a_deadline_that_has_passed_is_not_waited_for)
+TEST(passed_deadline_is_not_waited_for)
 {
     TEST_ASSERT_FALSE(deadline_await_input(FD, deadline_in_ms(0)));
     TEST_ASSERT_EQUAL_UINT(0, polled);
 }
 
-TEST(a_wait_that_ends_late_is_not_begun_again)
+TEST(late_wait_is_not_repeated)
 {
     polls[0] = (struct poll_of_test){.passes_ns = NS_PER_S, .result = 0};
     TEST_ASSERT_FALSE(deadline_await_input(FD, deadline_in_ms(10)));

@@ -1,4 +1,4 @@
-/* link.h, about ends: opening and closing, a far end that is gone, a queue that is full, an interface that comes and goes. */
+/* link.h: opening and closing, a closed peer, a full queue, an interface that comes and goes. */
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 
 enum { QUEUE_MAX = 1000000, FULL_SENDS = 10 };
 
-TEST_IF(a_far_end_that_is_gone_ends_a_receive_at_once, is_pair)
+TEST_IF(receive_ends_at_once_when_the_peer_closes, is_pair)
 {
     struct frame frame;
     rig->close();
@@ -19,7 +19,7 @@ TEST_IF(a_far_end_that_is_gone_ends_a_receive_at_once, is_pair)
     TEST_ASSERT_TRUE(now_ms() - start < LATE_MS);
 }
 
-TEST_IF(a_far_end_that_left_frames_unread_is_gone_as_well, is_pair)
+TEST_IF(peer_that_closes_with_unread_frames_closes_the_link, is_pair)
 {
     struct frame frame;
     TEST_ASSERT_EQUAL_INT(0, link_send(near, &HELLO));
@@ -28,7 +28,7 @@ TEST_IF(a_far_end_that_left_frames_unread_is_gone_as_well, is_pair)
     TEST_ASSERT_EQUAL_INT(LINK_E_CLOSED, link_receive(near, &frame, SOON_MS));
 }
 
-TEST_IF(a_far_end_that_is_gone_fails_a_send, is_pair)
+TEST_IF(send_to_a_closed_peer_fails, is_pair)
 {
     rig->close();
 
@@ -46,7 +46,7 @@ static int fill(void)
     return result;
 }
 
-TEST_IF(a_full_queue_is_given_up_in_time, is_pair)
+TEST_IF(send_to_a_full_queue_times_out, is_pair)
 {
     TEST_ASSERT_EQUAL_INT(LINK_E_FULL, fill());
 
@@ -67,7 +67,7 @@ TEST_IF(frames_pass_again_after_a_full_queue, is_pair)
     assert_far_takes(&(struct frame){.id = 0x100});
 }
 
-TEST(a_link_opens_again_after_a_close)
+TEST(link_reopens_after_close)
 {
     close_near();
     rig->close();
@@ -84,7 +84,7 @@ static int open_descriptors(void)
     return count;
 }
 
-TEST(closing_gives_back_every_descriptor)
+TEST(link_close_releases_every_descriptor)
 {
     close_near();
     rig->close();
@@ -97,7 +97,7 @@ TEST(closing_gives_back_every_descriptor)
     TEST_ASSERT_EQUAL_INT(before, open_descriptors());
 }
 
-TEST(a_link_that_cannot_know_says_that_the_bus_is_fine)
+TEST(link_without_bus_state_reports_an_active_bus)
 {
     struct link_health health;
 
@@ -107,7 +107,7 @@ TEST(a_link_that_cannot_know_says_that_the_bus_is_fine)
     TEST_ASSERT_EQUAL_UINT(0, health.tx_errors + health.rx_errors + health.bus_offs + health.dropped);
 }
 
-TEST(closing_no_link_is_fine)
+TEST(link_close_accepts_null)
 {
     link_close(NULL);
 }
@@ -121,7 +121,7 @@ static void use_own_interface(void)
     open_near();
 }
 
-TEST_IF(an_interface_that_goes_down_and_up_carries_on, is_interface)
+TEST_IF(link_works_again_after_its_interface_went_down, is_interface)
 {
     struct frame frame;
     use_own_interface();
@@ -137,7 +137,7 @@ TEST_IF(an_interface_that_goes_down_and_up_carries_on, is_interface)
     TEST_ASSERT_EQUAL_INT(0, system("ip link del octet0"));
 }
 
-TEST_IF(an_interface_that_vanishes_is_closed, is_interface)
+TEST_IF(removed_interface_closes_the_link, is_interface)
 {
     struct frame frame;
     use_own_interface();
@@ -147,37 +147,37 @@ TEST_IF(an_interface_that_vanishes_is_closed, is_interface)
     TEST_ASSERT_EQUAL_INT(LINK_E_CLOSED, link_send(near, &HELLO));
 }
 
-TEST_IF(an_interface_that_is_not_there_is_refused, is_interface)
+TEST_IF(missing_interface_is_refused, is_interface)
 {
     struct link *link = NULL;
     TEST_ASSERT_EQUAL_INT(LINK_E_OPEN, link_open(&link, "socketcan:nosuch0", (const uint16_t[]){0x123}, 1));
     TEST_ASSERT_NULL(link);
 }
 
-/* link.h, about frames: they arrive as they were, in their order, and what is not wanted is filtered where that is possible. */
+/* link.h: frames arrive unchanged and in order, and unwanted ones are filtered if that is supported. */
 
-TEST(a_frame_from_the_far_end_arrives_as_it_was)
+TEST(received_frame_is_unchanged)
 {
     rig->put(&HELLO);
 
     assert_receives(&HELLO);
 }
 
-TEST(a_frame_to_the_far_end_arrives_as_it_was)
+TEST(sent_frame_is_unchanged)
 {
     TEST_ASSERT_EQUAL_INT(0, link_send(near, &HELLO));
 
     assert_far_takes(&HELLO);
 }
 
-TEST(what_is_sent_does_not_come_back)
+TEST(link_does_not_receive_its_own_frames)
 {
     TEST_ASSERT_EQUAL_INT(0, link_send(near, &HELLO));
 
     assert_silent_for(WAIT_MS);
 }
 
-TEST(every_length_passes_both_ways)
+TEST(frames_of_every_length_pass_both_ways)
 {
     for (uint8_t len = 0; len <= 8; len++) {
         struct frame frame = {.id = 0x123, .len = len};
@@ -207,7 +207,7 @@ TEST_IF(garbage_counts_once_and_the_next_frame_arrives, is_pair)
     assert_silent_for(0);
 }
 
-/* Where nothing filters, all arrives, with its flags. */
+/* Without filters all frames arrive, with their flags. */
 static void assert_unwanted(const struct frame *frame)
 {
     rig->put(frame);
@@ -217,14 +217,14 @@ static void assert_unwanted(const struct frame *frame)
     assert_silent_for(0);
 }
 
-TEST(other_identifiers_are_filtered_where_that_is_possible)
+TEST(unwanted_identifiers_are_filtered_if_supported)
 {
     assert_unwanted(&(struct frame){.id = 0x122});
     assert_unwanted(&(struct frame){.id = 0x000});
     assert_unwanted(&(struct frame){.id = 0x7FF});
 }
 
-TEST(extended_and_remote_frames_are_filtered_where_that_is_possible)
+TEST(extended_and_remote_frames_are_filtered_if_supported)
 {
     assert_unwanted(&(struct frame){.id = 0x123 | FRAME_EXTENDED});
     assert_unwanted(&(struct frame){.id = 0x123 | FRAME_REMOTE});
@@ -240,21 +240,21 @@ TEST(extended_and_remote_frames_can_be_sent)
     }
 }
 
-/* link.h, about time: a receive waits for as long as it was told, whatever happens meanwhile. */
+/* link.h: a receive waits for exactly the time asked for. */
 
-TEST(silence_is_said_after_the_wait)
+TEST(receive_returns_silence_after_the_wait)
 {
     assert_silent_for(WAIT_MS);
 }
 
-TEST(a_changed_wait_is_kept)
+TEST(changed_wait_takes_effect)
 {
     assert_silent_for(WAIT_MS);
     assert_silent_for(2 * WAIT_MS);
     assert_silent_for(1);
 }
 
-TEST(a_wait_of_zero_just_looks)
+TEST(receive_with_no_wait_returns_at_once)
 {
     assert_silent_for(0);
     rig->put(&HELLO);
@@ -273,7 +273,7 @@ static void set_alarm_each_ms(int ms)
     TEST_ASSERT_EQUAL_INT(0, setitimer(ITIMER_REAL, &timer, NULL));
 }
 
-TEST(signals_do_not_cut_a_wait_short)
+TEST(signals_do_not_shorten_a_wait)
 {
     struct sigaction action = {.sa_handler = on_alarm};
     TEST_ASSERT_EQUAL_INT(0, sigaction(SIGALRM, &action, NULL));
@@ -283,7 +283,7 @@ TEST(signals_do_not_cut_a_wait_short)
     set_alarm_each_ms(0);
 }
 
-TEST(a_signal_late_in_a_wait_does_not_prolong_it)
+TEST(late_signal_does_not_prolong_a_wait)
 {
     struct frame frame;
     struct sigaction action = {.sa_handler = on_alarm};
@@ -293,5 +293,5 @@ TEST(a_signal_late_in_a_wait_does_not_prolong_it)
     set_alarm_each_ms(5 * WAIT_MS);
     TEST_ASSERT_EQUAL_INT(0, link_receive(near, &frame, 6 * WAIT_MS));
     set_alarm_each_ms(0);
-    TEST_ASSERT_TRUE(now_ms() - start < 6 * WAIT_MS + LATE_MS);   /* begun anew by each signal, it would never end */
+    TEST_ASSERT_TRUE(now_ms() - start < 6 * WAIT_MS + LATE_MS);   /* a wait restarted by each signal would never end */
 }

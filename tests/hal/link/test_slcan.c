@@ -37,7 +37,7 @@ static void assert_encodes(const char *expected, const struct frame *frame)
     TEST_ASSERT_EQUAL_STRING(expected, text);
 }
 
-/* Each alone, then with a good frame after it. */
+/* The line alone, then with a good frame after it. */
 static void assert_garbled_once(const char *line)
 {
     char text[128];
@@ -49,7 +49,7 @@ static void assert_garbled_once(const char *line)
     TEST_ASSERT_EQUAL_UINT_MESSAGE(1, tally.frames, line);
 }
 
-TEST(a_data_line_is_a_frame)
+TEST(data_line_is_decoded)
 {
     assert_decodes("t1233AABBCC\r", &(struct frame){0x123, 3, {0xAA, 0xBB, 0xCC}});
     assert_decodes("t7FF0\r", &(struct frame){0x7FF, 0, {0}});
@@ -62,14 +62,14 @@ TEST(hex_may_be_lower_case)
     assert_decodes("t7fa2abfF\r", &(struct frame){0x7FA, 2, {0xAB, 0xFF}});
 }
 
-TEST(extended_and_remote_lines_bear_flags)
+TEST(extended_and_remote_lines_set_flags)
 {
     assert_decodes("T1FFFFFFF1A5\r", &(struct frame){0x1FFFFFFF | FRAME_EXTENDED, 1, {0xA5}});
     assert_decodes("r1238\r", &(struct frame){0x123 | FRAME_REMOTE, 8, {0}});
     assert_decodes("R000001230\r", &(struct frame){0x123 | FRAME_EXTENDED | FRAME_REMOTE, 0, {0}});
 }
 
-TEST(time_after_the_data_is_passed_over)
+TEST(timestamp_is_ignored)
 {
     assert_decodes("t1231AAEA5F\r", &(struct frame){0x123, 1, {0xAA}});
     assert_decodes("r1231EA5F\r", &(struct frame){0x123 | FRAME_REMOTE, 1, {0}});
@@ -77,7 +77,7 @@ TEST(time_after_the_data_is_passed_over)
                    &(struct frame){0x123 | FRAME_EXTENDED, 8, {0, 0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77}});
 }
 
-TEST(replies_and_set_up_commands_mean_nothing)
+TEST(replies_and_setup_commands_are_ignored)
 {
     struct tally tally = decode("\r\r\az\rZ\rC\rS6\rO\rL\rY2\rs031C\rV\rN\rF\rZ1\rM00000000\rmFFFFFFFF\r");
 
@@ -85,12 +85,12 @@ TEST(replies_and_set_up_commands_mean_nothing)
     TEST_ASSERT_EQUAL_UINT(0, tally.garbled);
 }
 
-TEST(a_frame_follows_set_up_commands)
+TEST(frame_after_setup_commands_is_decoded)
 {
     assert_decodes("C\rS6\rO\r\at1230\r", &(struct frame){0x123, 0, {0}});
 }
 
-TEST(a_half_line_counts_once)
+TEST(incomplete_line_is_garbled_once)
 {
     assert_garbled_once("t\r");
     assert_garbled_once("t12\r");
@@ -101,25 +101,25 @@ TEST(a_half_line_counts_once)
     assert_garbled_once("t1232A\a");
 }
 
-TEST(the_tail_of_a_line_counts_once)
+TEST(rest_of_a_cut_line_is_garbled_once)
 {
     assert_garbled_once("3AABBCC\r");
     assert_garbled_once("CC11\r");
     assert_garbled_once("F0\r");
 }
 
-TEST(two_lines_run_together_count_once)
+TEST(merged_lines_are_garbled_once)
 {
     assert_garbled_once("t1232At1230\r");
 }
 
-TEST(a_line_too_long_counts_once)
+TEST(overlong_line_is_garbled_once)
 {
     assert_garbled_once("T0000012380011223344556677EA5F0\r");
     assert_garbled_once("t1230ttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttt\r");
 }
 
-TEST(a_line_of_any_length_counts_once)
+TEST(line_of_any_length_is_garbled_once)
 {
     struct slcan_decoder decoder = {0};
     struct frame frame;
@@ -129,15 +129,15 @@ TEST(a_line_of_any_length_counts_once)
     }
 }
 
-TEST(more_than_the_time_after_the_data_is_garbled)
+TEST(timestamp_of_wrong_length_is_garbled)
 {
     assert_garbled_once("t1231AAE\r");
     assert_garbled_once("t1231AAEA5\r");
     assert_garbled_once("t1231AAEA5F0\r");
 }
 
-/* What a longer line has left in the decoder is no part of a shorter one. */
-TEST(a_line_cut_short_is_garbled_whatever_came_before_it)
+/* The decoder still holds the longer line before it. */
+TEST(cut_line_is_garbled_after_a_longer_line)
 {
     static const char *const cut[] = {"t\r", "t12\r", "t123\r", "t12321\r", "t1232112\r", "t12300\r", "T1234567\r", "t1230012\r"};
 
@@ -153,7 +153,7 @@ TEST(a_line_cut_short_is_garbled_whatever_came_before_it)
     }
 }
 
-TEST(what_no_frame_can_hold_is_garbled)
+TEST(line_with_impossible_identifier_or_length_is_garbled)
 {
     assert_garbled_once("t8000\r");
     assert_garbled_once("T200000000\r");
@@ -170,7 +170,7 @@ TEST(what_no_frame_can_hold_is_garbled)
     assert_garbled_once("\x80\xFF\r");
 }
 
-TEST(what_is_garbled_leaves_the_frame_alone)
+TEST(garbled_line_leaves_the_frame_unchanged)
 {
     struct tally tally = decode("t7FF1A5\rt1231\r");
 
@@ -178,7 +178,7 @@ TEST(what_is_garbled_leaves_the_frame_alone)
     TEST_ASSERT_EQUAL_HEX8(0xA5, tally.last.data[0]);
 }
 
-TEST(frames_are_written_in_upper_case)
+TEST(frames_are_encoded_in_upper_case)
 {
     assert_encodes("t7FA2ABFF\r", &(struct frame){0x7FA, 2, {0xAB, 0xFF}});
     assert_encodes("t0010\r", &(struct frame){0x001, 0, {0}});
@@ -187,13 +187,13 @@ TEST(frames_are_written_in_upper_case)
     assert_encodes("R000001232\r", &(struct frame){0x123 | FRAME_REMOTE | FRAME_EXTENDED, 2, {0}});
 }
 
-TEST(the_longest_line_fits)
+TEST(longest_line_fits)
 {
     assert_encodes("T1FFFFFFF8FFFFFFFFFFFFFFFF\r",
                    &(struct frame){0xFFFFFFFF & ~FRAME_REMOTE, 8, {255, 255, 255, 255, 255, 255, 255, 255}});
 }
 
-TEST(each_written_line_reads_back)
+TEST(encoded_line_decodes_to_the_same_frame)
 {
     for (uint8_t len = 0; len <= 8; len++) {
         struct frame frame = {.id = 0x100u + len, .len = len};
@@ -204,13 +204,13 @@ TEST(each_written_line_reads_back)
     }
 }
 
-TEST(the_flags_are_no_part_of_the_identifier)
+TEST(flags_are_not_part_of_the_identifier)
 {
     assert_decodes("T000001220\r", &(struct frame){0x122 | FRAME_EXTENDED, 0, {0}});
     assert_decodes("r1220\r", &(struct frame){0x122 | FRAME_REMOTE, 0, {0}});
 }
 
-TEST(a_reply_cut_short_counts_once)
+TEST(incomplete_reply_is_garbled_once)
 {
     static const char *const cut[] = {"S\r", "Y\r", "s031\r", "s\r", "M0000000\r", "m\r"};
 

@@ -1,5 +1,5 @@
-/* A serial line that takes less than it is given and reads badly, played by fakes. While a frame is sent time passes only where
-   the link rests: a busy machine changes nothing. */
+/* A fake serial line with partial writes and failing reads. While a frame is sent, time passes only where the link sleeps: a
+   busy machine changes nothing. */
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -21,7 +21,7 @@ static const uint16_t WANTED[] = {0x123};
 
 static size_t room;       /* bytes that the line takes, then it is full */
 static size_t piece;      /* at most so many at once, either way */
-static struct {           /* what each call says before the line takes or gives anything */
+static struct {           /* how the first calls fail */
     int error;            /* 0: as if no byte had passed */
     int times;
     int each_ms;          /* that it takes */
@@ -121,20 +121,20 @@ static void put(const char *text)
     TEST_ASSERT_EQUAL_INT(strlen(text), __real_write(far, text, strlen(text)));
 }
 
-TEST(opening_sends_nothing)
+TEST(link_open_sends_nothing)
 {
     assert_far_reads("");
 }
 
-TEST(a_line_taken_in_pieces_arrives_whole)
+TEST(partial_writes_send_the_line_whole)
 {
     piece = 3;
     TEST_ASSERT_EQUAL_INT(0, send_frame(&HELLO));
     assert_far_reads("t1232ABCD\r");
 }
 
-/* It takes as long as the signals do. */
-TEST(an_interrupted_write_goes_on_without_a_rest)
+/* The send takes as long as the signals do. */
+TEST(interrupted_write_is_retried_without_a_pause)
 {
     static const int cases_ms[] = {0, 1, LINK_SEND_MS - 1};
     for (size_t i = 0; i < sizeof cases_ms / sizeof *cases_ms; i++) {
@@ -147,7 +147,7 @@ TEST(an_interrupted_write_goes_on_without_a_rest)
     assert_far_reads("t1232ABCD\rt1232ABCD\rt1232ABCD\r");
 }
 
-TEST(a_signal_at_the_last_moment_is_the_end)
+TEST(interrupt_at_the_deadline_ends_the_send)
 {
     write_fault.error = EINTR;
     write_fault.times = 1;
@@ -157,7 +157,7 @@ TEST(a_signal_at_the_last_moment_is_the_end)
     assert_far_reads("");
 }
 
-TEST(a_full_line_is_tried_each_millisecond_and_given_up_in_time)
+TEST(full_line_is_retried_each_millisecond_until_timeout)
 {
     write_fault.error = EAGAIN;
     write_fault.times = 3;
@@ -169,7 +169,7 @@ TEST(a_full_line_is_tried_each_millisecond_and_given_up_in_time)
     TEST_ASSERT_EQUAL_INT(LINK_SEND_MS, took_ms);
 }
 
-TEST(a_line_that_takes_nothing_or_fails_is_closed)
+TEST(failed_write_closes_the_link)
 {
     static const int errors[] = {0, EPERM, EIO, ENODEV, EBADF, EPIPE};
     for (size_t i = 0; i < sizeof errors / sizeof *errors; i++) {
@@ -180,7 +180,7 @@ TEST(a_line_that_takes_nothing_or_fails_is_closed)
     }
 }
 
-TEST(a_line_cut_short_is_ended_before_the_next)
+TEST(cut_line_is_terminated_before_the_next)
 {
     room = 4;
     TEST_ASSERT_EQUAL_INT(LINK_E_FULL, send_frame(&HELLO));
@@ -190,7 +190,7 @@ TEST(a_line_cut_short_is_ended_before_the_next)
     assert_far_reads("t123\rt1000\rt1000\r");
 }
 
-TEST(a_line_stays_cut_short_while_nothing_passes)
+TEST(cut_line_stays_cut_while_the_line_is_full)
 {
     room = 4;
     TEST_ASSERT_EQUAL_INT(LINK_E_FULL, send_frame(&HELLO));
@@ -200,7 +200,7 @@ TEST(a_line_stays_cut_short_while_nothing_passes)
     assert_far_reads("t123\rt1000\r");
 }
 
-TEST(a_line_that_ends_or_fails_is_closed)
+TEST(failed_read_closes_the_link)
 {
     static const int errors[] = {0, EPERM, EIO, ENODEV, EBADF};
     struct frame frame;
@@ -211,7 +211,7 @@ TEST(a_line_that_ends_or_fails_is_closed)
     }
 }
 
-TEST(a_read_that_is_interrupted_or_finds_nothing_goes_on)
+TEST(interrupted_or_empty_read_is_retried)
 {
     static const int errors[] = {EINTR, EAGAIN};
     struct frame frame;
@@ -224,14 +224,14 @@ TEST(a_read_that_is_interrupted_or_finds_nothing_goes_on)
     }
 }
 
-TEST(lines_that_mean_nothing_do_not_end_the_wait)
+TEST(other_slcan_lines_do_not_end_a_receive)
 {
     struct frame frame;
     put("C\rS6\rO\r\a\rz\r");
     TEST_ASSERT_EQUAL_INT(0, link_receive(near, &frame, 20));
 }
 
-TEST(a_line_that_comes_in_pieces_is_one_frame)
+TEST(line_received_in_pieces_is_one_frame)
 {
     struct frame frame;
     put("t1232A");
@@ -241,7 +241,7 @@ TEST(a_line_that_comes_in_pieces_is_one_frame)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(HELLO.data, frame.data, 8);
 }
 
-TEST(a_line_is_read_byte_by_byte_if_need_be)
+TEST(link_receives_a_line_that_comes_byte_by_byte)
 {
     struct frame frame;
     piece = 1;
@@ -250,7 +250,7 @@ TEST(a_line_is_read_byte_by_byte_if_need_be)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(HELLO.data, frame.data, 8);
 }
 
-TEST(of_lines_that_come_at_once_each_counts)
+TEST(lines_received_at_once_are_all_decoded)
 {
     struct frame frame;
     put("t1232A\rt1232A\rt1232ABCD\r");
@@ -260,7 +260,7 @@ TEST(of_lines_that_come_at_once_each_counts)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(HELLO.data, frame.data, 8);
 }
 
-TEST(the_line_is_set_to_its_usual_speed)
+TEST(default_baud_rate_is_115200)
 {
     struct termios line;
     TEST_ASSERT_EQUAL_INT(0, tcgetattr(far, &line));

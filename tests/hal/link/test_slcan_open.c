@@ -1,4 +1,4 @@
-/* How a serial line is opened: a terminal, whose settings are kept by fakes that can refuse them. */
+/* Opening a serial line: a terminal, whose settings go to fakes that can refuse them. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
@@ -26,7 +26,7 @@ void *__wrap_calloc(size_t count, size_t size);
 int __real_close(int fd);
 int __wrap_close(int fd);
 
-static bool strikes(enum call call)
+static bool should_fail(enum call call)
 {
     if (call == refused) errno = EIO;
     return call == refused;
@@ -36,12 +36,12 @@ int __wrap_tcgetattr(int fd, struct termios *out)
 {
     (void)fd;
     *out = before;
-    return strikes(TCGETATTR) ? -1 : 0;
+    return should_fail(TCGETATTR) ? -1 : 0;
 }
 
 int __wrap_cfsetspeed(struct termios *line, speed_t speed)
 {
-    return strikes(CFSETSPEED) ? -1 : __real_cfsetspeed(line, speed);
+    return should_fail(CFSETSPEED) ? -1 : __real_cfsetspeed(line, speed);
 }
 
 int __wrap_tcsetattr(int fd, int when, const struct termios *line)
@@ -49,15 +49,15 @@ int __wrap_tcsetattr(int fd, int when, const struct termios *line)
     (void)fd;
     TEST_ASSERT_EQUAL(TCSANOW, when);
     after = *line;
-    return strikes(TCSETATTR) ? -1 : 0;
+    return should_fail(TCSETATTR) ? -1 : 0;
 }
 
 void *__wrap_calloc(size_t count, size_t size)
 {
-    return strikes(CALLOC) ? NULL : __real_calloc(count, size);
+    return should_fail(CALLOC) ? NULL : __real_calloc(count, size);
 }
 
-/* Which may have trouble of its own. */
+/* A close that changes errno. */
 int __wrap_close(int fd)
 {
     int result = __real_close(fd);
@@ -82,7 +82,7 @@ static int open_line(const char *name)
     return open_listening(&link_opened, name, 1);
 }
 
-/* What the next thing that is opened will have. */
+/* The descriptor that the next open will return. */
 static int free_descriptor(void)
 {
     int fd = dup(STDERR_FILENO);
@@ -98,7 +98,7 @@ static void assert_raw(void)
     TEST_ASSERT_EQUAL_HEX(CS8, after.c_cflag & (CSIZE | PARENB | CSTOPB));
 }
 
-TEST(bytes_pass_as_they_are_however_the_line_was_set)
+TEST(serial_line_is_set_to_raw_mode)
 {
     TEST_ASSERT_EQUAL_INT(0, open_line("slcan:/dev/ptmx"));
     assert_raw();
@@ -108,7 +108,7 @@ TEST(bytes_pass_as_they_are_however_the_line_was_set)
     assert_raw();
 }
 
-TEST(no_modem_is_asked_for_its_consent)
+TEST(serial_line_ignores_modem_control_lines)
 {
     TEST_ASSERT_EQUAL_INT(0, open_line("slcan:/dev/ptmx"));
     TEST_ASSERT_EQUAL_HEX(CLOCAL | CREAD, after.c_cflag & (CLOCAL | CREAD | CRTSCTS));
@@ -118,7 +118,7 @@ TEST(no_modem_is_asked_for_its_consent)
     TEST_ASSERT_EQUAL_HEX(CLOCAL | CREAD, after.c_cflag & (CLOCAL | CREAD | CRTSCTS));
 }
 
-TEST(each_speed_can_be_named)
+TEST(link_name_selects_every_baud_rate)
 {
     static const struct {
         const char *name;
@@ -138,7 +138,7 @@ TEST(each_speed_can_be_named)
     }
 }
 
-TEST(the_line_is_read_and_written_without_waiting_and_not_inherited)
+TEST(serial_line_is_non_blocking_and_close_on_exec)
 {
     int fd = free_descriptor();
     TEST_ASSERT_EQUAL_INT(0, link_open(&link_opened, "slcan:/dev/ptmx", NULL, 0));
@@ -146,7 +146,7 @@ TEST(the_line_is_read_and_written_without_waiting_and_not_inherited)
     TEST_ASSERT_EQUAL_HEX(FD_CLOEXEC, fcntl(fd, F_GETFD));
 }
 
-TEST(without_standard_input_it_opens_as_well)
+TEST(serial_line_opens_as_descriptor_0)
 {
     int input = dup(STDIN_FILENO);
     close(STDIN_FILENO);
@@ -157,25 +157,25 @@ TEST(without_standard_input_it_opens_as_well)
     close(input);
 }
 
-TEST(what_refuses_the_line_is_said_and_nothing_stays_open)
+TEST(failed_open_prints_the_error_and_leaks_nothing)
 {
     int count = open_descriptors();
     for (refused = TCGETATTR; refused <= CALLOC; refused++) {
         TEST_ASSERT_EQUAL_INT(LINK_E_OPEN, open_line("slcan:/dev/ptmx"));
         TEST_ASSERT_NULL(link_opened);
-        TEST_ASSERT_EQUAL_STRING("link slcan:/dev/ptmx: Input/output error\n", said);
+        TEST_ASSERT_EQUAL_STRING("link slcan:/dev/ptmx: Input/output error\n", printed);
         TEST_ASSERT_EQUAL_INT(count, open_descriptors());
     }
 }
 
-TEST(a_line_that_is_not_there_is_refused_with_the_reason)
+TEST(missing_line_is_refused_with_the_reason)
 {
     TEST_ASSERT_EQUAL_INT(LINK_E_OPEN, open_line("slcan:/no/such/line"));
-    TEST_ASSERT_EQUAL_STRING("link slcan:/no/such/line: No such file or directory\n", said);
+    TEST_ASSERT_EQUAL_STRING("link slcan:/no/such/line: No such file or directory\n", printed);
 }
 
-/* Slashes beside each other are as one. */
-TEST(a_path_may_have_any_length_that_the_system_knows)
+/* Repeated slashes count as one. */
+TEST(path_length_is_limited_by_path_max)
 {
     static const char end[] = "/dev/ptmx";
     char name[sizeof "slcan:" + PATH_MAX] = "slcan:";

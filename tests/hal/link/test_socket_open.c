@@ -1,5 +1,4 @@
-/* How sockets are opened, which identifiers a CAN interface lets through, and what refuses either. The interface and the
-   kernel's part are played by fakes. */
+/* Opening sockets, the identifier filters of a CAN interface, and errors of both. Interface and kernel are fakes. */
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/can.h>
@@ -22,7 +21,7 @@ static struct can_filter filters[LINK_IDS_MAX];
 static size_t filter_count;
 static struct sockaddr_can bound;
 static enum call refused;
-static int type_of_socket;   /* as the system says it */
+static int type_of_socket;   /* for getsockopt */
 static struct link *link_opened;
 
 int __wrap_socket(int domain, int type, int protocol);
@@ -37,7 +36,7 @@ int __wrap_fcntl(int fd, int command, int flags);
 int __real_close(int fd);
 int __wrap_close(int fd);
 
-static bool strikes(enum call call)
+static bool should_fail(enum call call)
 {
     if (call == refused) errno = EIO;
     return call == refused;
@@ -48,16 +47,16 @@ int __wrap_socket(int domain, int type, int protocol)
     TEST_ASSERT_EQUAL(AF_CAN, domain);
     TEST_ASSERT_EQUAL_HEX(SOCK_RAW | SOCK_CLOEXEC, type);
     TEST_ASSERT_EQUAL(CAN_RAW, protocol);
-    return strikes(SOCKET) ? -1 : dup(STDERR_FILENO);
+    return should_fail(SOCKET) ? -1 : dup(STDERR_FILENO);
 }
 
 unsigned __wrap_if_nametoindex(const char *name)
 {
     TEST_ASSERT_EQUAL_STRING("can7", name);
-    return strikes(IF_NAMETOINDEX) ? 0 : INTERFACE;
+    return should_fail(IF_NAMETOINDEX) ? 0 : INTERFACE;
 }
 
-/* Before it is bound: nothing unwanted comes in between. */
+/* Before bind: no unwanted frame arrives in between. */
 int __wrap_setsockopt(int fd, int level, int name, const void *value, socklen_t size)
 {
     (void)fd;
@@ -67,7 +66,7 @@ int __wrap_setsockopt(int fd, int level, int name, const void *value, socklen_t 
     TEST_ASSERT_LESS_OR_EQUAL(sizeof filters, size);
     memcpy(filters, value, size);
     filter_count = size / sizeof *filters;
-    return strikes(SETSOCKOPT) ? -1 : 0;
+    return should_fail(SETSOCKOPT) ? -1 : 0;
 }
 
 int __wrap_bind(int fd, const struct sockaddr *address, socklen_t size)
@@ -75,12 +74,12 @@ int __wrap_bind(int fd, const struct sockaddr *address, socklen_t size)
     (void)fd;
     TEST_ASSERT_EQUAL(sizeof bound, size);
     memcpy(&bound, address, size);
-    return strikes(BIND) ? -1 : 0;
+    return should_fail(BIND) ? -1 : 0;
 }
 
 void *__wrap_calloc(size_t count, size_t size)
 {
-    return strikes(CALLOC) ? NULL : __real_calloc(count, size);
+    return should_fail(CALLOC) ? NULL : __real_calloc(count, size);
 }
 
 int __wrap_getsockopt(int fd, int level, int name, void *value, socklen_t *size)
@@ -95,10 +94,10 @@ int __wrap_getsockopt(int fd, int level, int name, void *value, socklen_t *size)
 
 int __wrap_fcntl(int fd, int command, int flags)
 {
-    return strikes(FCNTL) ? -1 : __real_fcntl(fd, command, flags);
+    return should_fail(FCNTL) ? -1 : __real_fcntl(fd, command, flags);
 }
 
-/* Which may have trouble of its own. */
+/* A close that changes errno. */
 int __wrap_close(int fd)
 {
     int result = __real_close(fd);
@@ -120,7 +119,7 @@ void tearDown(void)
     link_close(link_opened);
 }
 
-/* As linux/can.h has it: any filter that fits. */
+/* By the rule of linux/can.h: any filter that matches. */
 static bool passes(canid_t id)
 {
     for (size_t i = 0; i < filter_count; i++)
@@ -128,14 +127,14 @@ static bool passes(canid_t id)
     return false;
 }
 
-TEST(it_is_bound_to_the_interface_that_was_named)
+TEST(socket_is_bound_to_the_named_interface)
 {
     TEST_ASSERT_EQUAL_INT(0, open_listening(&link_opened, "socketcan:can7", 1));
     TEST_ASSERT_EQUAL(AF_CAN, bound.can_family);
     TEST_ASSERT_EQUAL(INTERFACE, bound.can_ifindex);
 }
 
-TEST(exactly_the_wanted_identifiers_pass)
+TEST(filter_passes_exactly_the_wanted_identifiers)
 {
     static const uint16_t wanted[] = {0x000, 0x101, 0x7FF, LINK_FAMILY | 0x680};
     TEST_ASSERT_EQUAL_INT(0, link_open(&link_opened, "socketcan:can7", wanted, 4));
@@ -147,7 +146,7 @@ TEST(exactly_the_wanted_identifiers_pass)
     }
 }
 
-TEST(without_standard_input_it_opens_as_well)
+TEST(socket_opens_as_descriptor_0)
 {
     int input = dup(STDIN_FILENO);
     close(STDIN_FILENO);
@@ -158,14 +157,14 @@ TEST(without_standard_input_it_opens_as_well)
     close(input);
 }
 
-TEST(what_refuses_it_is_said_and_nothing_stays_open)
+TEST(failed_socket_open_prints_the_step_and_leaks_nothing)
 {
     int before = open_descriptors();
     for (refused = SOCKET; refused <= CALLOC; refused++) {
         memset(&bound, 0, sizeof bound);
         TEST_ASSERT_EQUAL_INT(LINK_E_OPEN, open_listening(&link_opened, "socketcan:can7", 1));
         TEST_ASSERT_NULL(link_opened);
-        TEST_ASSERT_EQUAL_STRING("link socketcan:can7: Input/output error\n", said);
+        TEST_ASSERT_EQUAL_STRING("link socketcan:can7: Input/output error\n", printed);
         TEST_ASSERT_EQUAL_INT(before, open_descriptors());
     }
 }
@@ -180,7 +179,7 @@ static int open_descriptor(void)
     return fd;
 }
 
-TEST(a_socket_of_whole_frames_is_taken_and_waits)
+TEST(inherited_packet_socket_is_set_to_blocking)
 {
     static const int types[] = {SOCK_SEQPACKET, SOCK_RAW};
     for (size_t i = 0; i < 2; i++) {
@@ -192,18 +191,18 @@ TEST(a_socket_of_whole_frames_is_taken_and_waits)
     }
 }
 
-TEST(a_descriptor_that_cannot_be_used_is_said_and_stays_open)
+TEST(unusable_descriptor_is_reported_and_left_open)
 {
     type_of_socket = SOCK_RAW;
     for (refused = CALLOC; refused <= FCNTL; refused++) {
         int fd = open_descriptor();
         TEST_ASSERT_NULL(link_opened);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said, ": Input/output error\n"), said);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(printed, ": Input/output error\n"), printed);
         TEST_ASSERT_EQUAL_INT(0, close(fd));
     }
 }
 
-TEST(closing_gives_the_socket_back)
+TEST(link_close_releases_the_descriptor)
 {
     int before = open_descriptors();
     TEST_ASSERT_EQUAL_INT(0, open_listening(&link_opened, "socketcan:can7", 1));

@@ -1,4 +1,4 @@
-/* The body of a robot of its own on pins, a port and telemetry that the tests hold. */
+/* The body of a robot on fake pins, a fake port and fake telemetry. */
 #include "pins_rig.h"
 
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "tests/test.h"
 
 struct fake_pins pins;
-struct fake_telemetry told;
+struct fake_telemetry telemetry;
 struct fake_port port;
 struct hal *hal;
 struct input in;
@@ -25,7 +25,7 @@ uint16_t pins_bursts(void) { return pins.bursts; }
 bool pins_bumped(void) { return pins.bumped; }
 bool pins_button(void) { return pins.pressed; }
 
-/* What was on during the beat that ends now is what the converter has. */
+/* The converter samples with the LEDs as they were in the beat that ends. */
 static uint16_t sampled;
 
 void pins_wait(void)
@@ -40,28 +40,28 @@ void pins_measure(uint16_t light[FEEL_COUNT])
         light[i] = sampled;
 }
 
-int telemetry_open(const struct port *opened) { (void)opened; return told.opens; }
-void telemetry_senses(const struct senses *senses) { told.said = *senses; }
+int telemetry_open(const struct port *opened) { (void)opened; return telemetry.opens; }
+void telemetry_senses(const struct senses *senses) { telemetry.sent = *senses; }
 
-bool telemetry_wants_ranges(void) { return told.wants_ranges; }
-void telemetry_stored(int result) { told.stored = result; }
+bool telemetry_wants_ranges(void) { return telemetry.wants_ranges; }
+void telemetry_stored(int result) { telemetry.stored = result; }
 
 void telemetry_output(const struct output *out, bool asked)
 {
-    told.out = *out;
-    told.outputs++;
-    told.asked = asked;
+    telemetry.out = *out;
+    telemetry.outputs++;
+    telemetry.asked = asked;
 }
 
 enum input_kind telemetry_receive(struct input *taken)
 {
-    enum input_kind kind = told.next;
+    enum input_kind kind = telemetry.next;
 
-    if (pins.beats < told.from_beat)
+    if (pins.beats < telemetry.from_beat)
         return INPUT_SILENCE;
-    told.next = INPUT_SILENCE;
+    telemetry.next = INPUT_SILENCE;
     if (kind != INPUT_SILENCE)
-        *taken = told.in;
+        *taken = telemetry.in;
     return kind;
 }
 
@@ -101,16 +101,16 @@ int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort)
 void setUp(void)
 {
     memset(&pins, 0, sizeof pins);
-    memset(&told, 0, sizeof told);
+    memset(&telemetry, 0, sizeof telemetry);
     memset(&port, 0, sizeof port);
     pins.battery_mv = GOOD_MV;
     TEST_ASSERT_EQUAL_INT(0, hal_open(&hal, 0, NULL));
     (void)hal_receive(hal, &in);
-    rest_with(false);
-    told.outputs = 0;
+    send_rest(false);
+    telemetry.outputs = 0;
 }
 
-void rest_with(bool running)
+void send_rest(bool running)
 {
     const struct output out = {.has_drive = true, .report.running = running, .drive = {.reason = REASON_STOP}};
 
@@ -134,18 +134,18 @@ void drive(int16_t left_mm_s, int16_t right_mm_s)
     TEST_ASSERT_EQUAL_INT(0, hal_send(hal, &out));
 }
 
-void stay(unsigned ticks)
+void run_ticks(unsigned ticks)
 {
     for (unsigned i = 0; i < ticks; i++)
         (void)sense();
 }
 
-int told_by_a_press_within(unsigned ticks)
+int opcode_after_press_within(unsigned ticks)
 {
     int kind = INPUT_SENSES;
 
     pins.pressed = true;
-    stay(10);
+    run_ticks(10);
     pins.pressed = false;
     for (unsigned i = 0; i < ticks && kind == INPUT_SENSES; i++)
         kind = hal_receive(hal, &in);

@@ -1,4 +1,4 @@
-/* pins_rig.h: what the body of a robot of its own finds, and what it did with that. */
+/* pins_rig.h: fake pins, telemetry and port of a robot with a body of its own. */
 #ifndef OCTET_TEST_PINS_RIG_H
 #define OCTET_TEST_PINS_RIG_H
 
@@ -19,12 +19,12 @@ extern struct fake_telemetry {
     struct input in;
     enum input_kind next;
     unsigned from_beat;   /* when it comes */
-    struct senses said;
+    struct senses sent;
     unsigned outputs;
     struct output out;    /* the last */
     bool asked, wants_ranges;
     int opens, stored;
-} told;
+} telemetry;
 
 extern struct fake_port {
     unsigned stores, alive;
@@ -40,11 +40,11 @@ extern struct hal *hal;
 extern struct input in;   /* what was received last */
 
 const struct senses *sense(void);
-void stay(unsigned ticks);
-void rest_with(bool running);
+void run_ticks(unsigned ticks);
+void send_rest(bool running);
 void drive(int16_t left_mm_s, int16_t right_mm_s);
 
-int told_by_a_press_within(unsigned ticks);
+int opcode_after_press_within(unsigned ticks);
         /* The button is held for ten ticks and let go: the opcode of the command that comes then. */
 
 #endif

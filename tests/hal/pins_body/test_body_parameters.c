@@ -53,7 +53,7 @@ static uint32_t got(uint8_t which)
     return parameters.value;
 }
 
-TEST(while_it_measures_nothing_else_is_set)
+TEST(set_is_refused_while_measuring)
 {
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_MEASURE, MEASURE_MOTORS, false));
     TEST_ASSERT_EQUAL_INT(RESULT_OWNED, asked(OPCODE_SET, BODY_LAG_MS, 61, false));
@@ -62,7 +62,7 @@ TEST(while_it_measures_nothing_else_is_set)
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_LAG_MS, 61, false));
 }
 
-TEST(an_uncalibrated_body_is_as_planned)
+TEST(uncalibrated_body_has_nominal_values)
 {
     struct proximity proximity;
     struct wheel wheels[PINS_SIDES] = {{.known = false}};
@@ -78,7 +78,7 @@ TEST(an_uncalibrated_body_is_as_planned)
     TEST_ASSERT_EQUAL_UINT8(160, parameters_value(&parameters, BODY_TRACK_MM));
 }
 
-TEST(sensors_and_wheels_go_by_what_is_set)
+TEST(parameters_apply_to_sensors_and_wheels)
 {
     struct proximity proximity;
     struct wheel wheels[PINS_SIDES] = {{.known = false}};
@@ -98,7 +98,7 @@ TEST(sensors_and_wheels_go_by_what_is_set)
     TEST_ASSERT_EQUAL_INT16(-10, wheels[1].lag_more_ms);
 }
 
-TEST(a_dead_band_is_rounded_at_its_half)
+TEST(dead_band_is_rounded_to_nearest)
 {
     struct proximity proximity;
     struct wheel wheels[PINS_SIDES] = {{.known = false}};
@@ -110,14 +110,14 @@ TEST(a_dead_band_is_rounded_at_its_half)
     TEST_ASSERT_EQUAL_INT16(7274 - WHEEL_DEAD, wheels[1].dead_more);   /* 7274.496 */
 }
 
-TEST(each_record_is_read_once_and_what_it_does_not_need_is_zero)
+TEST(records_are_read_once_and_padded_with_zeros)
 {
     TEST_ASSERT_EQUAL_UINT(PORT_MORE, loads);
     TEST_ASSERT_EQUAL_INT(0, calibration_store(&parameters.values));
     TEST_ASSERT_EQUAL_HEX8(0, records[0][6] | records[0][7] | records[1][5] | records[1][6] | records[1][7]);
 }
 
-TEST(what_is_set_is_there_after_a_reset_and_what_cannot_be_is_not)
+TEST(set_values_survive_a_reset_unless_out_of_range)
 {
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_NEAR_RIGHT, 76, false));
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_TRACK_MM, 163, false));
@@ -135,7 +135,7 @@ TEST(what_is_set_is_there_after_a_reset_and_what_cannot_be_is_not)
     TEST_ASSERT_EQUAL_UINT32(60, got(BODY_LAG_MS));
 }
 
-TEST(values_out_of_range_are_refused_and_nothing_is_stored)
+TEST(out_of_range_values_are_refused_and_not_stored)
 {
     TEST_ASSERT_EQUAL_INT(RESULT_OUT_OF_RANGE, asked(OPCODE_SET, BODY_TRACK_MM, 89, false));
     TEST_ASSERT_EQUAL_INT(RESULT_OUT_OF_RANGE, asked(OPCODE_SET, BODY_TRACK_MM, 251, false));
@@ -145,7 +145,7 @@ TEST(values_out_of_range_are_refused_and_nothing_is_stored)
     TEST_ASSERT_EQUAL_UINT32(160, got(BODY_TRACK_MM));
 }
 
-TEST(a_robot_that_runs_keeps_what_it_has)
+TEST(running_robot_refuses_set)
 {
     TEST_ASSERT_EQUAL_INT(RESULT_OWNED, asked(OPCODE_SET, BODY_TRACK_MM, 163, true));
     TEST_ASSERT_EQUAL_INT(RESULT_OWNED, asked(OPCODE_SET, BODY_MEASURE, MEASURE_MOTORS, true));
@@ -153,7 +153,7 @@ TEST(a_robot_that_runs_keeps_what_it_has)
     TEST_ASSERT_EQUAL_UINT32(0, got(BODY_MEASURE));
 }
 
-TEST(what_cannot_be_stored_is_not_used)
+TEST(unstored_values_are_not_used)
 {
     failing = 2;
     TEST_ASSERT_EQUAL_INT(RESULT_UNSTORED, asked(OPCODE_SET, BODY_LAG_MS, 50, false));
@@ -164,7 +164,7 @@ TEST(what_cannot_be_stored_is_not_used)
     TEST_ASSERT_EQUAL_UINT32(160, got(BODY_TRACK_MM));
 }
 
-TEST(a_measurement_is_begun_and_told_of)
+TEST(measure_parameter_starts_a_measurement_and_reads_as_it)
 {
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_MEASURE, MEASURE_TRACK, false));
     TEST_ASSERT_EQUAL_UINT32(0, parameters.value);
@@ -176,7 +176,7 @@ TEST(a_measurement_is_begun_and_told_of)
     TEST_ASSERT_EQUAL_UINT32(0, got(BODY_REFUSED));
 }
 
-TEST(what_was_measured_is_stored_once_and_said_where_that_fails)
+TEST(measured_values_are_stored_once_and_failure_is_reported)
 {
     parameters_store(&parameters);
     TEST_ASSERT_EQUAL_UINT(0, stores);
@@ -191,7 +191,7 @@ TEST(what_was_measured_is_stored_once_and_said_where_that_fails)
     TEST_ASSERT_EQUAL_UINT32(BODY_REFUSED, got(BODY_REFUSED));
 }
 
-TEST(other_commands_are_the_robots)
+TEST(body_passes_other_commands_to_the_robot)
 {
     struct output none = {.answer = RESULT_UNKNOWN_PARAMETER};
 

@@ -32,7 +32,7 @@ static void assert_refused(unsigned number, int32_t found)
         TEST_ASSERT_EQUAL_UINT8(KEPT, values.value[i]);
 }
 
-/* Returns how many ticks it took. */
+/* Returns the number of ticks. */
 static unsigned measure_light(void)
 {
     unsigned beats = 1;
@@ -44,7 +44,7 @@ static unsigned measure_light(void)
     return beats / TICK;
 }
 
-TEST(light_is_the_mean_of_sixteen_ticks_after_ten)
+TEST(light_is_the_mean_of_16_ticks_after_10)
 {
     for (unsigned i = 0; i < FEEL_COUNT; i++)
         back[i] = (uint16_t)(1000 + 24 * i);
@@ -58,7 +58,7 @@ TEST(light_is_the_mean_of_sixteen_ticks_after_ten)
     TEST_ASSERT_EQUAL_UINT8(0, calibration.refused);
 }
 
-TEST(a_sensor_that_receives_nothing_or_too_much_is_refused_and_all_stays)
+TEST(implausible_light_is_refused_and_keeps_all_values)
 {
     for (unsigned i = 0; i < FEEL_COUNT; i++)
         back[i] = 1200;
@@ -71,7 +71,7 @@ TEST(a_sensor_that_receives_nothing_or_too_much_is_refused_and_all_stays)
     assert_refused(BODY_NEAR_RIGHT, 255);
 }
 
-TEST(a_sensor_that_the_body_does_not_have_is_not_measured)
+TEST(absent_sensor_is_not_measured)
 {
     for (unsigned i = 0; i < FEEL_COUNT; i++)
         back[i] = i == 0 || i == 4 ? 0 : 1200;
@@ -83,7 +83,7 @@ TEST(a_sensor_that_the_body_does_not_have_is_not_measured)
     TEST_ASSERT_EQUAL_UINT8(KEPT, value(BODY_NEAR_LEFT));
 }
 
-TEST(a_sensor_that_receives_nothing_in_one_tick_of_sixteen_counts_so)
+TEST(single_dark_tick_lowers_the_mean_light)
 {
     unsigned ticks = 0;
 
@@ -97,8 +97,7 @@ TEST(a_sensor_that_receives_nothing_in_one_tick_of_sixteen_counts_so)
     TEST_ASSERT_EQUAL_UINT8(94, value(BODY_NEAR_FRONT));   /* 93.75 */
 }
 
-/* Two motors that make so many counts in a beat on each stair, and lack so many after the step; backward, they make
- * this percentage of them. */
+/* Two motors: counts per beat at low and at high duty, counts that lag after the step, and the percentage backward. */
 struct motors {
     int low[PINS_SIDES], high[PINS_SIDES], lack[PINS_SIDES], back[PINS_SIDES];
     uint32_t low_mv, high_mv;
@@ -143,7 +142,7 @@ static bool measure_motors(const int low[PINS_SIDES], const int high[PINS_SIDES]
     });
 }
 
-TEST(two_stairs_tell_dead_band_feed_forward_and_lag)
+TEST(motor_values_follow_from_two_duty_steps)
 {
     TEST_ASSERT_TRUE(measure_motors((int[]){6, 7}, (int[]){24, 28}, (int[]){200, 280}, NOMINAL_MV));
     TEST_ASSERT_EQUAL_UINT8(99, value(BODY_FORWARD_LEFT));     /* 65536 / 7.2 V x 5 ms / 91.6 um .. = 99.4 */
@@ -154,7 +153,7 @@ TEST(two_stairs_tell_dead_band_feed_forward_and_lag)
     TEST_ASSERT_EQUAL_UINT8(KEPT, value(BODY_TRACK_MM));
 }
 
-TEST(motors_that_are_slower_backward_get_the_mean_of_both_directions)
+TEST(motor_values_are_the_mean_of_both_directions)
 {
     const struct motors motors = {{10, 10}, {40, 40}, {400, 400}, {60, 60}, NOMINAL_MV, NOMINAL_MV};
 
@@ -164,7 +163,7 @@ TEST(motors_that_are_slower_backward_get_the_mean_of_both_directions)
     TEST_ASSERT_EQUAL_UINT8(67, value(BODY_LAG_MS));           /* 320 / 24 periods */
 }
 
-TEST(a_motor_that_turns_in_one_direction_only_is_refused)
+TEST(motor_with_unequal_directions_is_refused)
 {
     TEST_ASSERT_FALSE(measure(&(struct motors){{6, 6}, {24, 24}, {200, 200}, {100, 0}, NOMINAL_MV, NOMINAL_MV}));
     assert_refused(BODY_FORWARD_RIGHT, 0);
@@ -172,14 +171,14 @@ TEST(a_motor_that_turns_in_one_direction_only_is_refused)
     assert_refused(BODY_FORWARD_LEFT, 0);
 }
 
-TEST(a_battery_that_sags_under_load_is_reckoned_with)
+TEST(sagging_battery_is_compensated)
 {
     TEST_ASSERT_TRUE(measure_motors((int[]){6, 6}, (int[]){24, 24}, (int[]){200, 200}, NOMINAL_MV * 15 / 16));
     TEST_ASSERT_EQUAL_UINT8(90, value(BODY_FORWARD_LEFT));     /* (0.75 x 15 / 16 - 0.25) / 0.5 of 99.4: 90.05 */
     TEST_ASSERT_EQUAL_UINT8(99, value(BODY_DEAD_LEFT));        /* 250 - 453.1 x 6 / 18 = 98.96 */
 }
 
-TEST(what_motors_are_like_is_rounded_at_its_half)
+TEST(motor_values_are_rounded_to_nearest)
 {
     TEST_ASSERT_TRUE(measure_motors((int[]){8, 8}, (int[]){24, 24}, (int[]){480, 480}, 7056));
     TEST_ASSERT_EQUAL_UINT8(108, value(BODY_FORWARD_LEFT));    /* 108.44 */
@@ -190,7 +189,7 @@ TEST(what_motors_are_like_is_rounded_at_its_half)
 }
 
 /* An encoder with loose wires counts anything. */
-TEST(motors_that_count_wildly_are_refused)
+TEST(implausible_encoder_counts_are_refused)
 {
     static const int wild[][2] = {{40, 41}, {300, 327}, {-300, 300}, {60, 80}, {-300, -280}};
 
@@ -201,7 +200,7 @@ TEST(motors_that_count_wildly_are_refused)
     TEST_ASSERT_FALSE(measure_motors((int[]){6, -24}, (int[]){24, -6}, (int[]){200, -60 * STAIR - 500}, NOMINAL_MV));
 }
 
-TEST(motors_that_do_not_turn_or_not_faster_or_backward_are_refused)
+TEST(still_constant_or_backward_motors_are_refused)
 {
     TEST_ASSERT_FALSE(measure_motors((int[]){0, 0}, (int[]){0, 0}, (int[]){0, 0}, NOMINAL_MV));
     assert_refused(BODY_FORWARD_LEFT, 0);
@@ -211,7 +210,7 @@ TEST(motors_that_do_not_turn_or_not_faster_or_backward_are_refused)
     assert_refused(BODY_FORWARD_RIGHT, 0);
 }
 
-TEST(a_dead_band_or_a_lag_that_cannot_be_is_refused_by_its_own_name)
+TEST(impossible_dead_band_or_lag_is_refused_by_name)
 {
     TEST_ASSERT_FALSE(measure_motors((int[]){9, 9}, (int[]){27, 27}, (int[]){200, 200}, NOMINAL_MV));
     assert_refused(BODY_DEAD_LEFT, 0);
@@ -244,7 +243,7 @@ static unsigned measure_track(unsigned counts_each, unsigned begins_at)
     return beat;
 }
 
-TEST(the_track_is_what_the_wheels_make_between_the_first_and_the_fifth_sight_of_a_wall)
+TEST(track_is_measured_over_four_turns)
 {
     (void)measure_track(5, TURN_COUNTS / 2);
     TEST_ASSERT_EQUAL_UINT8(160, value(BODY_TRACK_MM));
@@ -252,7 +251,7 @@ TEST(the_track_is_what_the_wheels_make_between_the_first_and_the_fifth_sight_of_
     TEST_ASSERT_EQUAL_UINT8(0, calibration.refused);
 }
 
-TEST(a_wall_that_is_seen_from_the_start_does_not_count_until_it_comes_again)
+TEST(wall_seen_at_the_start_is_not_counted)
 {
     unsigned beats = measure_track(5, 0);
 
@@ -260,7 +259,7 @@ TEST(a_wall_that_is_seen_from_the_start_does_not_count_until_it_comes_again)
     TEST_ASSERT_EQUAL_UINT(5 * TURN_COUNTS / 10, beats / 10 * 10);
 }
 
-TEST(two_walls_in_a_turn_make_half_the_track_which_is_refused)
+TEST(two_walls_per_turn_are_refused)
 {
     bool ended = false;
 
@@ -274,7 +273,7 @@ TEST(two_walls_in_a_turn_make_half_the_track_which_is_refused)
     assert_refused(BODY_TRACK_MM, 80);
 }
 
-TEST(a_track_is_rounded_at_its_half)
+TEST(track_is_rounded_to_nearest)
 {
     calibrate_begin(&calibration, MEASURE_TRACK);
     look.senses = true;
@@ -286,7 +285,7 @@ TEST(a_track_is_rounded_at_its_half)
     TEST_ASSERT_EQUAL_UINT8(103, value(BODY_TRACK_MM));   /* 28,123 counts: 102.5002 */
 }
 
-TEST(without_a_wall_it_gives_up)
+TEST(track_measurement_without_a_wall_times_out)
 {
     unsigned beats = 0;
 
@@ -298,7 +297,7 @@ TEST(without_a_wall_it_gives_up)
     assert_refused(BODY_TRACK_MM, 0);
 }
 
-TEST(interrupted_it_says_so_and_at_rest_there_is_nothing_to_interrupt)
+TEST(interrupt_refuses_a_running_measurement_only)
 {
     calibration = (struct calibration){.refused = BODY_LAG_MS};
     calibrate_interrupt(&calibration);
@@ -311,8 +310,8 @@ TEST(interrupted_it_says_so_and_at_rest_there_is_nothing_to_interrupt)
     TEST_ASSERT_EQUAL_INT16(0, calibrate_mm_s(&calibration));
 }
 
-/* A number that looks random. */
-static uint32_t drawn(uint32_t range)
+/* A pseudo-random number. */
+static uint32_t random_below(uint32_t range)
 {
     static uint32_t state = 1;
 
@@ -320,33 +319,33 @@ static uint32_t drawn(uint32_t range)
     return (state >> 8) % range;
 }
 
-/* The judge is the sanitizer: no sum may overflow, whatever the converter reads and the encoders count. */
-TEST(any_voltages_and_counts_are_measured_or_refused)
+/* For the sanitizer: no sum may overflow, whatever the converter reads and the encoders count. */
+TEST(random_voltages_and_counts_are_measured_or_refused)
 {
     for (unsigned run = 0; run < 2000; run++) {
-        uint16_t speed[PINS_SIDES] = {(uint16_t)drawn(65536), (uint16_t)drawn(65536)};
-        uint32_t slower = drawn(2) == 0 ? 1 : 1000;
+        uint16_t speed[PINS_SIDES] = {(uint16_t)random_below(65536), (uint16_t)random_below(65536)};
+        uint32_t slower = random_below(2) == 0 ? 1 : 1000;
 
         calibrate_begin(&calibration, (uint8_t)(run % 16 == 0 ? MEASURE_TRACK : MEASURE_MOTORS));
         look.senses = true;
         do {
             for (unsigned side = 0; side < PINS_SIDES; side++)
-                look.counts[side] = (uint16_t)(look.counts[side] + speed[side] / slower + drawn(3));
-            look.battery_mv = drawn(2) == 0 ? drawn(MOST_MV + 1) : drawn(2) * MOST_MV;
-            look.wall = drawn(2000) == 0;
+                look.counts[side] = (uint16_t)(look.counts[side] + speed[side] / slower + random_below(3));
+            look.battery_mv = random_below(2) == 0 ? random_below(MOST_MV + 1) : random_below(2) * MOST_MV;
+            look.wall = random_below(2000) == 0;
         } while (!calibrate_beat(&calibration, &look, &values));
         for (unsigned number = CALIBRATION_FIRST; number < BODY_PARAMETER_END; number++)
             TEST_ASSERT_TRUE(value(number) == KEPT || calibration_fit((uint8_t)number, value(number)));
     }
 }
 
-TEST(a_battery_that_comes_back_makes_no_dead_band_overflow)
+TEST(recovering_battery_causes_no_dead_band_overflow)
 {
     TEST_ASSERT_FALSE(measure(&(struct motors){{40, 40}, {80, 80}, {0, 0}, {100, 100}, 0, MOST_MV}));
     assert_refused(BODY_DEAD_LEFT, -1030);
 }
 
-TEST(wheels_that_race_make_no_track_overflow)
+TEST(racing_wheels_cause_no_track_overflow)
 {
     calibrate_begin(&calibration, MEASURE_TRACK);
     look.senses = true;

@@ -1,4 +1,4 @@
-/* What a robot of its own says and hears on a bus, over a link that the tests hold. */
+/* What a robot with a body of its own sends and receives on a bus, over a fake link. */
 #include <string.h>
 
 #include "hal/can_body/port.h"
@@ -9,8 +9,8 @@
 
 enum { ROOM = 64 };
 
-static struct frame said[ROOM], heard[ROOM];
-static size_t said_count, heard_count, taken;
+static struct frame sent[ROOM], received[ROOM];
+static size_t sent_count, received_count, taken;
 static int result;
 static struct input in;
 
@@ -26,9 +26,9 @@ int link_receive(struct link *link, struct frame *out, uint32_t wait_ms)
 {
     (void)link;
     TEST_ASSERT_EQUAL_UINT32(0, wait_ms);
-    if (taken == heard_count)
+    if (taken == received_count)
         return 0;
-    *out = heard[taken++];
+    *out = received[taken++];
     return out->len > 8 ? LINK_E_GARBLED : 1;
 }
 
@@ -36,7 +36,7 @@ int link_send(struct link *link, const struct frame *frame)
 {
     (void)link;
     if (result == 0)
-        said[said_count++] = *frame;
+        sent[sent_count++] = *frame;
     return result;
 }
 
@@ -51,22 +51,22 @@ void setUp(void)
     const struct port port = {.node = 2, .link = ""};
 
     result = 0;
-    said_count = heard_count = taken = 0;
+    sent_count = received_count = taken = 0;
     TEST_ASSERT_EQUAL_INT(0, telemetry_open(&port));
 }
 
 static const struct frame *last(uint32_t id_of_node_1)
 {
-    for (size_t i = said_count; i > 0; i--)
-        if (said[i - 1].id == id_of_node_1 + 1)
-            return &said[i - 1];
-    TEST_FAIL_MESSAGE("it did not say that");
+    for (size_t i = sent_count; i > 0; i--)
+        if (sent[i - 1].id == id_of_node_1 + 1)
+            return &sent[i - 1];
+    TEST_FAIL_MESSAGE("it was not sent");
     return NULL;
 }
 
-static void hear(uint32_t id, const uint8_t *data, uint8_t len)
+static void feed(uint32_t id, const uint8_t *data, uint8_t len)
 {
-    struct frame *frame = &heard[heard_count++];
+    struct frame *frame = &received[received_count++];
 
     *frame = (struct frame){.id = id, .len = len};
     memcpy(frame->data, data, sizeof frame->data);
@@ -74,118 +74,118 @@ static void hear(uint32_t id, const uint8_t *data, uint8_t len)
         e2e_protect(frame);
 }
 
-static void order(uint8_t opcode, uint8_t counter)
+static void feed_command(uint8_t opcode, uint8_t counter)
 {
     struct octet_command_t command = {.opcode = opcode, .counter = counter, .owner = 9, .lockstep = 1, .seed = 5};
     uint8_t data[8] = {0};
 
     (void)octet_command_pack(data, &command, sizeof data);
-    hear(OCTET_COMMAND_FRAME_ID + 1, data, OCTET_COMMAND_LENGTH);
+    feed(OCTET_COMMAND_FRAME_ID + 1, data, OCTET_COMMAND_LENGTH);
 }
 
-TEST(each_drive_answers_the_senses_before_it)
+TEST(drive_has_the_counter_of_its_senses)
 {
     const struct output out = {.has_drive = true, .drive = {.tick = 77, .left_mm_s = -5}};
     struct senses senses = {.tick = 77, .feel = 9, .look = true, .beacon_mm = 1000, .odometer_left = 4095, .bump = true};
-    struct octet_senses_t told;
+    struct octet_senses_t senses_sent;
     struct octet_drive_t drive;
     uint8_t counter;
 
     telemetry_senses(&senses);
     telemetry_output(&out, false);
-    (void)octet_senses_unpack(&told, last(OCTET_SENSES_FRAME_ID)->data, 8);
+    (void)octet_senses_unpack(&senses_sent, last(OCTET_SENSES_FRAME_ID)->data, 8);
     (void)octet_drive_unpack(&drive, last(OCTET_DRIVE_FRAME_ID)->data, 8);
     TEST_ASSERT_TRUE(e2e_is_whole(last(OCTET_SENSES_FRAME_ID), OCTET_SENSES_LENGTH));
-    TEST_ASSERT_EQUAL_UINT8(77, told.tick);
-    TEST_ASSERT_EQUAL_UINT8(9, told.feel);
-    TEST_ASSERT_EQUAL_UINT16(1000, told.beacon);
-    TEST_ASSERT_EQUAL_UINT16(4095, told.odometer_left);
-    TEST_ASSERT_TRUE(told.look && told.bump);
-    TEST_ASSERT_EQUAL_UINT8(told.counter, drive.counter);
-    counter = told.counter;
+    TEST_ASSERT_EQUAL_UINT8(77, senses_sent.tick);
+    TEST_ASSERT_EQUAL_UINT8(9, senses_sent.feel);
+    TEST_ASSERT_EQUAL_UINT16(1000, senses_sent.beacon);
+    TEST_ASSERT_EQUAL_UINT16(4095, senses_sent.odometer_left);
+    TEST_ASSERT_TRUE(senses_sent.look && senses_sent.bump);
+    TEST_ASSERT_EQUAL_UINT8(senses_sent.counter, drive.counter);
+    counter = senses_sent.counter;
     telemetry_senses(&senses);
-    (void)octet_senses_unpack(&told, last(OCTET_SENSES_FRAME_ID)->data, 8);
-    TEST_ASSERT_EQUAL_UINT8((counter + 1) % E2E_COUNTERS, told.counter);
+    (void)octet_senses_unpack(&senses_sent, last(OCTET_SENSES_FRAME_ID)->data, 8);
+    TEST_ASSERT_EQUAL_UINT8((counter + 1) % E2E_COUNTERS, senses_sent.counter);
 }
 
-TEST(it_says_once_that_it_has_come_up)
+TEST(telemetry_sends_boot_once)
 {
     struct senses senses = {.tick = 1};
     size_t boots = 0;
 
     for (unsigned i = 0; i < 3; i++)
         telemetry_senses(&senses);
-    for (size_t i = 0; i < said_count; i++)
-        boots += said[i].id == OCTET_BOOT_FRAME_ID + 1;
+    for (size_t i = 0; i < sent_count; i++)
+        boots += sent[i].id == OCTET_BOOT_FRAME_ID + 1;
     TEST_ASSERT_EQUAL_size_t(1, boots);
 }
 
-TEST(a_command_is_heard_and_answered_and_again_when_it_comes_again)
+TEST(repeated_command_is_answered_again)
 {
     const struct output out = {.has_answer = true, .answer = RESULT_DONE};
 
-    order(OPCODE_START, 1);
+    feed_command(OPCODE_START, 1);
     TEST_ASSERT_EQUAL_INT(INPUT_COMMAND, telemetry_receive(&in));
     TEST_ASSERT_EQUAL_INT(OPCODE_START, in.command.opcode);
     telemetry_output(&out, true);
     (void)last(OCTET_ANSWER_FRAME_ID);
-    said_count = 0;
-    order(OPCODE_START, 1);
+    sent_count = 0;
+    feed_command(OPCODE_START, 1);
     TEST_ASSERT_EQUAL_INT(INPUT_SILENCE, telemetry_receive(&in));
     (void)last(OCTET_ANSWER_FRAME_ID);
 }
 
-TEST(what_the_button_asked_for_is_not_answered_on_the_bus)
+TEST(button_command_gets_no_answer_on_the_bus)
 {
     const struct output out = {.has_answer = true, .answer = RESULT_DONE};
 
     telemetry_output(&out, false);
-    TEST_ASSERT_EQUAL_size_t(0, said_count);
+    TEST_ASSERT_EQUAL_size_t(0, sent_count);
 }
 
-TEST(a_stop_for_a_twin_is_not_answered)
+TEST(stop_for_a_twin_is_not_answered)
 {
     const struct output out = {.has_answer = true, .answer = RESULT_DONE};
     enum input_kind kind = INPUT_SILENCE;
     uint8_t data[8] = {0};
 
-    while (kind == INPUT_SILENCE && heard_count < ROOM) {
-        hear(OCTET_DRIVE_FRAME_ID + 1, data, OCTET_DRIVE_LENGTH);
+    while (kind == INPUT_SILENCE && received_count < ROOM) {
+        feed(OCTET_DRIVE_FRAME_ID + 1, data, OCTET_DRIVE_LENGTH);
         kind = telemetry_receive(&in);
     }
     TEST_ASSERT_EQUAL_INT(INPUT_COMMAND, kind);
     TEST_ASSERT_EQUAL_INT(OPCODE_STOP, in.command.opcode);
     telemetry_output(&out, true);
-    for (size_t i = 0; i < said_count; i++)
-        TEST_ASSERT_NOT_EQUAL_HEX32(OCTET_ANSWER_FRAME_ID + 1, said[i].id);
+    for (size_t i = 0; i < sent_count; i++)
+        TEST_ASSERT_NOT_EQUAL_HEX32(OCTET_ANSWER_FRAME_ID + 1, sent[i].id);
 }
 
 /* Returns whether a twin stops it. */
-static bool meets_a_twin(void)
+static bool is_stopped_by_twin(void)
 {
     enum input_kind kind = INPUT_SILENCE;
     uint8_t data[8] = {0};
 
     for (unsigned i = 0; i < 5 && kind == INPUT_SILENCE; i++) {
-        hear(OCTET_DRIVE_FRAME_ID + 1, data, OCTET_DRIVE_LENGTH);
+        feed(OCTET_DRIVE_FRAME_ID + 1, data, OCTET_DRIVE_LENGTH);
         kind = telemetry_receive(&in);
     }
     return kind == INPUT_COMMAND;
 }
 
-TEST(a_twin_stops_it_again_once_the_button_has_started_it)
+TEST(twin_stops_the_robot_again_after_a_button_start)
 {
     const struct output stopped = {.has_answer = true, .answer = RESULT_DONE};
     const struct output started = {.has_answer = true, .answer = RESULT_DONE, .report.running = true};
 
-    TEST_ASSERT_TRUE(meets_a_twin());
+    TEST_ASSERT_TRUE(is_stopped_by_twin());
     telemetry_output(&stopped, true);
-    TEST_ASSERT_FALSE(meets_a_twin());
+    TEST_ASSERT_FALSE(is_stopped_by_twin());
     telemetry_output(&started, false);
-    TEST_ASSERT_TRUE(meets_a_twin());
+    TEST_ASSERT_TRUE(is_stopped_by_twin());
 }
 
-TEST(what_was_put_off_and_what_could_not_be_stored_is_reported)
+TEST(postponed_and_failed_stores_are_reported)
 {
     const struct output report = {.has_answer = true, .has_report = true, .whole_report = true};
     struct octet_health_t health;
@@ -204,28 +204,28 @@ TEST(what_was_put_off_and_what_could_not_be_stored_is_reported)
     TEST_ASSERT_FALSE(health.unstored);
 }
 
-TEST(senses_of_another_body_are_not_ours)
+TEST(senses_and_ranges_from_the_bus_are_ignored)
 {
     uint8_t data[8] = {0};
 
-    hear(OCTET_SENSES_FRAME_ID + 1, data, OCTET_SENSES_LENGTH);
-    hear(OCTET_RANGES_FRAME_ID + 1, data, OCTET_RANGES_LENGTH);
-    order(OPCODE_REPORT, 1);
+    feed(OCTET_SENSES_FRAME_ID + 1, data, OCTET_SENSES_LENGTH);
+    feed(OCTET_RANGES_FRAME_ID + 1, data, OCTET_RANGES_LENGTH);
+    feed_command(OPCODE_REPORT, 1);
     TEST_ASSERT_EQUAL_INT(INPUT_COMMAND, telemetry_receive(&in));
     TEST_ASSERT_EQUAL_INT(OPCODE_REPORT, in.command.opcode);
 }
 
-TEST(no_more_than_four_frames_are_taken_at_once)
+TEST(telemetry_reads_at_most_four_frames_per_call)
 {
     uint8_t data[8] = {0};
 
     for (unsigned i = 0; i < 6; i++)
-        hear(OCTET_SENSES_FRAME_ID + 1, data, i == 1 ? 9 : OCTET_SENSES_LENGTH);
+        feed(OCTET_SENSES_FRAME_ID + 1, data, i == 1 ? 9 : OCTET_SENSES_LENGTH);
     TEST_ASSERT_EQUAL_INT(INPUT_SILENCE, telemetry_receive(&in));
     TEST_ASSERT_EQUAL_size_t(4, taken);
 }
 
-TEST(a_bus_that_takes_nothing_is_counted_and_holds_nobody_up)
+TEST(unsent_senses_are_counted)
 {
     const struct output report = {.has_answer = true, .has_report = true, .whole_report = true};
     struct senses senses = {.tick = 1};
@@ -235,13 +235,13 @@ TEST(a_bus_that_takes_nothing_is_counted_and_holds_nobody_up)
     telemetry_senses(&senses);
     result = 0;
     telemetry_output(&report, true);
-    for (size_t i = 0; i < said_count; i++)
-        if (said[i].id == OCTET_FAULTS_FRAME_ID + 1 && octet_faults_unpack(&faults, said[i].data, 8) == 0 && faults.page == 0)
+    for (size_t i = 0; i < sent_count; i++)
+        if (sent[i].id == OCTET_FAULTS_FRAME_ID + 1 && octet_faults_unpack(&faults, sent[i].data, 8) == 0 && faults.page == 0)
             TEST_ASSERT_EQUAL_UINT8(1, faults.unsent);
     (void)last(OCTET_FAULTS_FRAME_ID);
 }
 
-TEST(without_a_bus_there_is_no_body)
+TEST(failed_link_open_returns_body_error)
 {
     const struct port port = {.node = 2, .link = ""};
 

@@ -1,18 +1,144 @@
-/* What is saved is loaded, and nothing else is. */
+/* The file store loads only what it saved. */
+#include "tests/test.h"
+#include "hal/port/posix/file_store.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <errno.h>
 
-#include "file_store_rig.h"
+/* A file store in a folder of its own, on a disk whose n-th call can fail. After each test, every file is
+   closed, and nothing is left but the memory. */
 
-TEST(nothing_was_ever_stored)
+int __real_close(int fd);
+        /* A call that does not count. */
+
+static const uint8_t OLD[] = {0, 1, 2, 3, 4, 5, 6, 7};
+static const uint8_t NEW[] = {7, 6, 5, 4, 3, 2, 1, 0};
+
+static char folder[32], path[64], fresh[64], last_opened[PATH_MAX];
+static int calls, fail_at, error;   /* of the system so far; the one that fails, or 0; and why */
+static int free_descriptor;
+
+int __real_open(const char *name, int flags, ...);
+int __wrap_open(const char *name, int flags, ...);
+ssize_t __real_read(int fd, void *to, size_t size);
+ssize_t __wrap_read(int fd, void *to, size_t size);
+ssize_t __real_write(int fd, const void *from, size_t size);
+ssize_t __wrap_write(int fd, const void *from, size_t size);
+int __real_fsync(int fd);
+int __wrap_fsync(int fd);
+int __wrap_close(int fd);
+int __real_rename(const char *from, const char *to);
+int __wrap_rename(const char *from, const char *to);
+
+static bool should_fail(void)
+{
+    errno = error;
+    return ++calls == fail_at;
+}
+
+/* A process that is started meanwhile must not inherit the file. */
+int __wrap_open(const char *name, int flags, ...)
+{
+    TEST_ASSERT_EQUAL_HEX(O_CLOEXEC, flags & O_CLOEXEC);
+    va_list arguments;
+    va_start(arguments, flags);
+    snprintf(last_opened, sizeof last_opened, "%s", name);
+    mode_t mode = flags & O_CREAT ? va_arg(arguments, mode_t) : 0;
+    va_end(arguments);
+    return should_fail() ? -1 : __real_open(name, flags, mode);
+}
+
+ssize_t __wrap_read(int fd, void *to, size_t size)
+{
+    return should_fail() ? -1 : __real_read(fd, to, size);
+}
+
+/* The disk is full half way through. */
+ssize_t __wrap_write(int fd, const void *from, size_t size)
+{
+    return __real_write(fd, from, should_fail() ? size / 2 : size);
+}
+
+int __wrap_fsync(int fd)
+{
+    return should_fail() ? -1 : __real_fsync(fd);
+}
+
+int __wrap_close(int fd)
+{
+    int result = __real_close(fd);
+    return should_fail() ? -1 : result;
+}
+
+int __wrap_rename(const char *from, const char *to)
+{
+    return should_fail() ? -1 : __real_rename(from, to);
+}
+
+static int next_descriptor(void)
+{
+    int fd = dup(STDERR_FILENO);
+    __real_close(fd);
+    return fd;
+}
+
+void setUp(void)
+{
+    fail_at = 0;
+    error = EIO;
+    free_descriptor = next_descriptor();
+    strcpy(folder, "/tmp/octet-store-XXXXXX");
+    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/memory", folder);
+    snprintf(fresh, sizeof fresh, "%s/memory.new", folder);
+}
+
+void tearDown(void)
+{
+    fail_at = 0;
+    TEST_ASSERT_EQUAL_INT(free_descriptor, next_descriptor());   /* each was closed */
+    unlink(path);
+    TEST_ASSERT_EQUAL_INT(0, rmdir(folder));   /* nothing else was left */
+}
+
+/* Puts them where the memory is. */
+static void write_file(const void *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    TEST_ASSERT_NOT_NULL(file);
+    TEST_ASSERT_EQUAL_size_t(size, fwrite(bytes, 1, size, file));
+    TEST_ASSERT_EQUAL_INT(0, fclose(file));
+}
+
+static void assert_stored(const uint8_t expected[CELL_COUNT])
+{
+    uint8_t memory[CELL_COUNT] = {0};
+    TEST_ASSERT_EQUAL_INT(1, file_store_load(path, memory));
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, memory, CELL_COUNT);
+}
+
+/* Loading gives this result, and writes nothing. */
+static void assert_load_leaves_memory_alone(int expected)
+{
+    uint8_t memory[CELL_COUNT];
+    memset(memory, 0xEE, sizeof memory);
+    TEST_ASSERT_EQUAL_INT(expected, file_store_load(path, memory));
+    TEST_ASSERT_EACH_EQUAL_HEX8(0xEE, memory, CELL_COUNT);
+}
+
+TEST(load_without_a_file_leaves_the_memory_unchanged)
 {
     assert_load_leaves_memory_alone(0);
 }
 
-TEST(what_was_saved_is_loaded)
+TEST(saved_memory_is_loaded_from_the_file)
 {
     TEST_ASSERT_EQUAL_INT(0, file_store_save(path, OLD));
     assert_stored(OLD);
@@ -20,7 +146,7 @@ TEST(what_was_saved_is_loaded)
     assert_stored(NEW);
 }
 
-TEST(the_file_is_the_bytes_alone)
+TEST(memory_file_holds_only_the_eight_bytes)
 {
     struct stat file;
     TEST_ASSERT_EQUAL_INT(0, file_store_save(path, NEW));
@@ -29,7 +155,7 @@ TEST(the_file_is_the_bytes_alone)
     TEST_ASSERT_EQUAL_INT(CELL_COUNT, file.st_size);
 }
 
-TEST(everybody_may_read_the_file_and_its_owner_write_it)
+TEST(memory_file_has_mode_0644)
 {
     struct stat file;
     mode_t before = umask(0);
@@ -40,13 +166,13 @@ TEST(everybody_may_read_the_file_and_its_owner_write_it)
     TEST_ASSERT_EQUAL_HEX(0644, file.st_mode & 0777);
 }
 
-TEST(the_folder_of_the_file_is_brought_to_the_disk_last)
+TEST(save_opens_the_folder_last)
 {
     TEST_ASSERT_EQUAL_INT(0, file_store_save(path, NEW));
     TEST_ASSERT_EQUAL_STRING(folder, last_opened);
 }
 
-TEST(what_a_save_that_was_cut_off_left_beside_it_does_no_harm)
+TEST(leftover_of_an_interrupted_save_is_replaced)
 {
     const uint8_t left[2 * CELL_COUNT] = {9, 9, 9, 9, 9, 9, 9, 9, 9};
     write_file(left, sizeof left);
@@ -55,7 +181,7 @@ TEST(what_a_save_that_was_cut_off_left_beside_it_does_no_harm)
     assert_stored(NEW);
 }
 
-TEST(a_robot_without_standard_input_stores_as_well)
+TEST(save_works_without_standard_input)
 {
     int input = dup(STDIN_FILENO);
     __real_close(STDIN_FILENO);
@@ -65,7 +191,7 @@ TEST(a_robot_without_standard_input_stores_as_well)
     __real_close(input);
 }
 
-TEST(a_file_of_another_size_is_no_memory)
+TEST(file_of_wrong_size_is_no_memory)
 {
     const size_t sizes[] = {0, 7, 9, 64};
     const uint8_t bytes[64] = {0};
@@ -75,19 +201,19 @@ TEST(a_file_of_another_size_is_no_memory)
     }
 }
 
-TEST(a_file_of_another_size_is_replaced_by_a_save)
+TEST(save_replaces_a_file_of_wrong_size)
 {
     write_file("short", 5);
     TEST_ASSERT_EQUAL_INT(0, file_store_save(path, NEW));
     assert_stored(NEW);
 }
 
-TEST(a_folder_that_is_not_there_refuses_a_save)
+TEST(save_into_a_missing_folder_fails)
 {
     TEST_ASSERT_EQUAL_INT(HAL_E_STORE, file_store_save("/no/such/folder/memory", NEW));
 }
 
-TEST(a_path_too_long_refuses_a_save)
+TEST(save_to_an_overlong_path_fails)
 {
     char name[5000];
     memset(name, 'x', sizeof name);
@@ -95,8 +221,8 @@ TEST(a_path_too_long_refuses_a_save)
     TEST_ASSERT_EQUAL_INT(HAL_E_STORE, file_store_save(name, NEW));
 }
 
-/* With the name of the file beside it, and with slashes beside each other, which are as one. */
-TEST(a_path_may_be_as_long_as_the_system_knows)
+/* Including the name of the temporary file; repeated slashes count as one. */
+TEST(save_path_length_is_limited_by_path_max)
 {
     const char end[] = "/memory";
     char name[PATH_MAX];
@@ -112,7 +238,7 @@ TEST(a_path_may_be_as_long_as_the_system_knows)
 
 /* The store against a disk that fails at the n-th call, for every n. */
 
-TEST(a_file_that_cannot_be_read_is_no_memory)
+TEST(unreadable_file_is_no_memory)
 {
     const int errors[] = {EPERM, EIO, EACCES};
     write_file(OLD, CELL_COUNT);
@@ -135,7 +261,7 @@ static bool save_fails_at(int n, int *result)
     return calls >= n;
 }
 
-TEST(a_refused_save_leaves_the_old_memory)
+TEST(failed_save_leaves_the_old_memory)
 {
     int result, refused = 0;
     write_file(OLD, CELL_COUNT);
@@ -147,7 +273,7 @@ TEST(a_refused_save_leaves_the_old_memory)
     TEST_ASSERT_EQUAL_INT(7, refused);   /* open, write, fsync, close, rename; open and fsync of the folder */
 }
 
-TEST(a_refused_first_save_leaves_nothing)
+TEST(failed_first_save_leaves_no_file)
 {
     int result, refused = 0;
     for (int n = 2; save_fails_at(n, &result); n++) {
@@ -159,7 +285,7 @@ TEST(a_refused_first_save_leaves_nothing)
     TEST_ASSERT_EQUAL_INT(7, refused);
 }
 
-TEST(a_refused_save_over_what_is_no_memory_makes_none_up)
+TEST(failed_save_over_a_damaged_file_creates_no_memory)
 {
     static const char rubbish[] = "short";
     int result;

@@ -1,17 +1,128 @@
-/* What the host brings as a port. */
+/* The port of the host. */
+#include "tests/test.h"
+#include "hal/can_body/port.h"
+
+#include <errno.h>
+#include <getopt.h>
 #include <limits.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <sys/prctl.h>
-#include <signal.h>
-#include <getopt.h>
+#include <sys/random.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
 
-#include "posix_port_rig.h"
+/* The host's port, with a fake clock and fake system calls, and what it prints. */
 
-/* First: none has been named yet. */
-TEST(without_a_file_there_is_no_memory_to_load_and_none_is_kept)
+int __real_prctl(int option, unsigned long value);
+
+enum { WORDS_MAX = 8 };
+
+static struct port port;
+static char printed[512];   /* on the stream that was redirected */
+static struct timespec now;
+static bool prctl_fails;
+static ssize_t getrandom_gives;   /* bytes, or -1; 0: as many as are asked for */
+
+int __wrap_prctl(int option, unsigned long value);
+ssize_t __real_getrandom(void *to, size_t size, unsigned flags);
+ssize_t __wrap_getrandom(void *to, size_t size, unsigned flags);
+
+int __wrap_clock_gettime(clockid_t clock, struct timespec *out);
+
+int __wrap_clock_gettime(clockid_t clock, struct timespec *out)
+{
+    TEST_ASSERT_EQUAL(CLOCK_MONOTONIC, clock);
+    *out = now;
+    return 0;
+}
+
+int __wrap_prctl(int option, unsigned long value)
+{
+    return prctl_fails ? -1 : __real_prctl(option, value);
+}
+
+ssize_t __wrap_getrandom(void *to, size_t size, unsigned flags)
+{
+    TEST_ASSERT_EQUAL_HEX(0, flags);   /* it waits until the system has gathered some */
+    return getrandom_gives ? getrandom_gives : __real_getrandom(to, size, flags);
+}
+
+void setUp(void)
+{
+    memset(&port, 0xA5, sizeof port);
+    prctl_fails = false;
+    getrandom_gives = 0;
+}
+
+/* Redirects a stream into a file, which is closed, or back. Returns what it was before. */
+static int redirect(FILE *stream, int to)
+{
+    int kept = dup(fileno(stream));
+
+    fflush(stream);
+    TEST_ASSERT_TRUE(dup2(to, fileno(stream)) >= 0);
+    close(to);
+    return kept;
+}
+
+/* Reads a file into `printed`, and closes it. */
+static void read_printed(int fd)
+{
+    ssize_t got = pread(fd, printed, sizeof printed - 1, 0);
+
+    printed[got > 0 ? got : 0] = '\0';
+    close(fd);
+}
+
+/* An empty private file. */
+static int open_scratch(void)
+{
+    char name[] = "/tmp/test_posix_port_XXXXXX";
+    int fd = mkstemp(name);
+
+    TEST_ASSERT_TRUE(fd >= 0);
+    unlink(name);
+    return fd;
+}
+
+/* port_open with these words, the last of them null; what it prints on stderr is in `printed`. */
+static int open_with(const char *first, ...)
+{
+    static char words[WORDS_MAX][64];
+    char *argv[WORDS_MAX + 1];
+    int argc = 0, file = open_scratch(), kept = redirect(stderr, dup(file)), result;
+    va_list more;
+
+    va_start(more, first);
+    for (const char *word = "octet-robot"; word != NULL; word = argc == 1 ? first : va_arg(more, const char *)) {
+        TEST_ASSERT_LESS_THAN(WORDS_MAX, argc);
+        snprintf(words[argc], sizeof words[argc], "%s", word);
+        argv[argc] = words[argc];
+        argc++;
+    }
+    va_end(more);
+    argv[argc] = NULL;
+    optind = 0;   /* getopt begins anew */
+    errno = ERANGE;   /* of something that failed before */
+    result = port_open(&port, argc, argv);
+    close(redirect(stderr, kept));
+    read_printed(file);
+    return result;
+}
+
+static void assert_printed(const char *text)
+{
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(printed, text), printed);
+}
+
+/* First: no file has been named yet. */
+TEST(port_without_a_memory_file_stores_nothing)
 {
     static const uint8_t memory[CELL_COUNT] = {0, 1};
     uint8_t loaded[CELL_COUNT];
@@ -21,20 +132,20 @@ TEST(without_a_file_there_is_no_memory_to_load_and_none_is_kept)
     TEST_ASSERT_EQUAL(0, port_load(loaded));
 }
 
-/* Whoever waits for it reads from a pipe. */
-TEST(it_says_at_once_that_it_is_ready)
+/* Stdout is a pipe for a program that waits for it. */
+TEST(port_prints_readiness_at_once)
 {
     int file = open_scratch(), kept;
 
     TEST_ASSERT_EQUAL(0, open_with("--node", "7", "fd:3", NULL));
     kept = redirect(stdout, dup(file));
     port_ready(&port);
-    read_said(file);
+    read_printed(file);
     close(redirect(stdout, kept));
-    TEST_ASSERT_EQUAL_STRING("octet-robot: node 7 listens on fd:3\n", said);
+    TEST_ASSERT_EQUAL_STRING("octet-robot: node 7 listens on fd:3\n", printed);
 }
 
-TEST(the_memory_goes_to_the_file_that_was_named)
+TEST(memory_is_stored_in_the_named_file)
 {
     static const uint8_t memory[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 2};
     char folder[] = "/tmp/test_posix_port_XXXXXX", path[64];
@@ -52,7 +163,7 @@ TEST(the_memory_goes_to_the_file_that_was_named)
     TEST_ASSERT_EQUAL(HAL_E_STORE, port_store(memory, PORT_AT_REST));
 }
 
-TEST(time_is_in_milliseconds_and_wraps)
+TEST(port_clock_counts_milliseconds_and_wraps)
 {
     now = (struct timespec){.tv_sec = 5, .tv_nsec = 1999999};
     TEST_ASSERT_EQUAL_UINT32(5001, port_clock_ms());
@@ -65,7 +176,7 @@ TEST(time_is_in_milliseconds_and_wraps)
     port_alive(true);   /* nobody watches a process on the host */
 }
 
-TEST(entropy_differs_and_does_without_the_system)
+TEST(entropy_differs_with_and_without_getrandom)
 {
     uint32_t first = port_entropy(), second = port_entropy();
 
@@ -80,7 +191,7 @@ TEST(entropy_differs_and_does_without_the_system)
     }
 }
 
-TEST(entropy_without_the_system_differs_from_process_to_process)
+TEST(entropy_without_getrandom_differs_between_processes)
 {
     int status;
     uint32_t ours;
@@ -97,7 +208,7 @@ TEST(entropy_without_the_system_differs_from_process_to_process)
 
 /* What the command line of a robot on the host means. */
 
-TEST(a_link_alone_is_node_1)
+TEST(default_node_is_1)
 {
     TEST_ASSERT_EQUAL(0, open_with("socketcan:vcan0", NULL));
     TEST_ASSERT_EQUAL_STRING("socketcan:vcan0", port.link);
@@ -105,10 +216,10 @@ TEST(a_link_alone_is_node_1)
     TEST_ASSERT_TRUE(port.clock_exact);
     TEST_ASSERT_EQUAL(RESET_POWER_ON, port.reset_cause);
     TEST_ASSERT_NULL(port.crash);
-    TEST_ASSERT_EQUAL_STRING("", said);
+    TEST_ASSERT_EQUAL_STRING("", printed);
 }
 
-TEST(every_node_of_a_bus_can_be_chosen)
+TEST(every_node_can_be_selected)
 {
     for (int node = 1; node <= NODE_MAX; node++) {
         char number[8];
@@ -120,47 +231,47 @@ TEST(every_node_of_a_bus_can_be_chosen)
     }
 }
 
-TEST(what_is_no_node_is_refused_and_said)
+TEST(invalid_node_numbers_are_refused_with_a_message)
 {
     static const char *const wrong[] = {"0", "-1", "32", "257", "", "x", "1x", "1 ", "1\xC3\xA4", "99999999999999999999"};
 
     TEST_ASSERT_EQUAL(31, NODE_MAX);
     for (unsigned i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         TEST_ASSERT_EQUAL_MESSAGE(HAL_E_USAGE, open_with("--node", wrong[i], "fd:3", NULL), wrong[i]);
-        assert_says("--node is 1..31, not");
+        assert_printed("--node is 1..31, not");
     }
 }
 
-TEST(without_a_link_or_with_two_it_tells_its_usage)
+TEST(missing_or_second_link_prints_the_usage)
 {
     TEST_ASSERT_EQUAL(HAL_E_USAGE, open_with(NULL));
-    assert_says("usage: octet-robot");
+    assert_printed("usage: octet-robot");
     TEST_ASSERT_EQUAL(HAL_E_USAGE, open_with("fd:3", "fd:4", NULL));
-    assert_says("usage: octet-robot");
+    assert_printed("usage: octet-robot");
 }
 
-TEST(the_usage_names_every_kind_of_link_and_every_node)
+TEST(usage_names_every_link_kind_and_node)
 {
     char nodes[16];
 
     TEST_ASSERT_EQUAL(HAL_E_USAGE, open_with(NULL));
-    assert_says("socketcan:IFACE, fd:N or slcan:PATH[@BAUD]");
+    assert_printed("socketcan:IFACE, fd:N or slcan:PATH[@BAUD]");
     snprintf(nodes, sizeof nodes, "1..%d (1)", NODE_MAX);
-    assert_says(nodes);
+    assert_printed(nodes);
 }
 
-TEST(an_unknown_option_is_refused_with_the_usage)
+TEST(unknown_option_prints_the_usage)
 {
     TEST_ASSERT_EQUAL(HAL_E_USAGE, open_with("--nodes", "3", "fd:3", NULL));
-    assert_says("usage: octet-robot");
+    assert_printed("usage: octet-robot");
 }
 
-TEST(help_is_its_usage_and_no_error)
+TEST(help_prints_the_usage_and_exits_0)
 {
     int status, file = open_scratch();
     pid_t child;
 
-    fflush(stdout);   /* else the child says what waits there, too */
+    fflush(stdout);   /* else the child prints the buffer again */
     child = fork();
 
     if (child == 0) {
@@ -173,11 +284,11 @@ TEST(help_is_its_usage_and_no_error)
     }
     TEST_ASSERT_EQUAL(child, waitpid(child, &status, 0));
     TEST_ASSERT_EQUAL(0, status);
-    read_said(file);
-    TEST_ASSERT_EQUAL_PTR_MESSAGE(said, strstr(said, "usage: octet-robot"), said);
+    read_printed(file);
+    TEST_ASSERT_EQUAL_PTR_MESSAGE(printed, strstr(printed, "usage: octet-robot"), printed);
 }
 
-TEST(with_its_parent_it_ends)
+TEST(with_parent_option_ends_the_robot_with_its_parent)
 {
     int sent = 0;
 

@@ -29,21 +29,21 @@ struct frame command_of(enum opcode opcode, uint8_t counter, uint8_t owner)
     return command_frame((struct octet_command_t){.opcode = (uint8_t)opcode, .counter = counter, .owner = owner});
 }
 
-enum input_kind hear(struct frame frame)
+enum input_kind feed(struct frame frame)
 {
     return wire_read(&wire, &frame, &in);
 }
 
 enum input_kind read_tick(unsigned ticks)
 {
-    return hear(senses_frame(NODE, ticks));
+    return feed(senses_frame(NODE, ticks));
 }
 
-void refuse(struct frame frame)
+void assert_ignored(struct frame frame)
 {
     const struct input before = in;
 
-    TEST_ASSERT_EQUAL(INPUT_SILENCE, hear(frame));
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, feed(frame));
     TEST_ASSERT_EQUAL_MEMORY(&before, &in, sizeof in);
 }
 
@@ -56,7 +56,7 @@ struct frame respond(struct output out)
 
 void start(uint8_t lockstep, uint32_t value)
 {
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_frame((struct octet_command_t){
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, feed(command_frame((struct octet_command_t){
                                          .opcode = OPCODE_START, .counter = 1, .owner = OWNER, .lockstep = lockstep})));
     respond((struct output){.has_answer = true, .answer_value = value});
 }

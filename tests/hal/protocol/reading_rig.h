@@ -17,13 +17,13 @@ void expect(enum fault fault, uint8_t count);
 
 struct frame command_of(enum opcode opcode, uint8_t counter, uint8_t owner);
 
-enum input_kind hear(struct frame frame);
+enum input_kind feed(struct frame frame);
         /* The wire reads a frame. */
 
 enum input_kind read_tick(unsigned ticks);
         /* The wire reads the senses of a tick, counted from 0 without end. */
 
-void refuse(struct frame frame);
+void assert_ignored(struct frame frame);
         /* The wire reads what must not get through. */
 
 struct frame respond(struct output out);

@@ -16,20 +16,20 @@ static uint8_t crc_of(struct frame some)
 }
 
 /* From the AUTOSAR specification of E2E profile 1, with its Data ID 0x0123: eight bytes 0, counter 0. */
-TEST(the_published_example)
+TEST(crc_equals_the_published_example)
 {
     frame = (struct frame){.id = 0x123, .len = 8};
     TEST_ASSERT_EQUAL_HEX8(0xCC, crc_of(frame));
 }
 
 /* The catalogue of CRCs has 0x37 for "123456789" with this polynomial from 0 to 0: here two digits in the identifier. */
-TEST(the_published_check_value)
+TEST(crc_equals_the_published_check_value)
 {
     frame = (struct frame){.id = '1' | '2' << 8, .len = 8, .data = {0, '3', '4', '5', '6', '7', '8', '9'}};
     TEST_ASSERT_EQUAL_HEX8(0x37, crc_of(frame));
 }
 
-TEST(byte_0_where_the_crc_is_kept_is_not_covered)
+TEST(crc_does_not_cover_byte_0)
 {
     const uint8_t crc = frame.data[0];
 
@@ -39,7 +39,7 @@ TEST(byte_0_where_the_crc_is_kept_is_not_covered)
     }
 }
 
-TEST(bytes_beyond_the_length_are_not_covered)
+TEST(crc_does_not_cover_bytes_beyond_the_length)
 {
     uint8_t crc;
 
@@ -49,20 +49,20 @@ TEST(bytes_beyond_the_length_are_not_covered)
     TEST_ASSERT_EQUAL_HEX8(crc, crc_of(frame));
 }
 
-TEST(a_frame_sent_to_the_next_node_is_not_whole)
+TEST(frame_for_the_next_node_is_not_whole)
 {
     frame.id++;
     TEST_ASSERT_FALSE(e2e_is_whole(&frame, 8));
 }
 
-TEST(a_frame_of_another_length_is_not_whole)
+TEST(frame_of_wrong_length_is_not_whole)
 {
     for (uint8_t len = 0; len < 8; len++)
         TEST_ASSERT_FALSE(e2e_is_whole(&frame, len));
     TEST_ASSERT_TRUE(e2e_is_whole(&frame, 8));
 }
 
-TEST(a_shorter_frame_is_not_whole_however_right_its_crc)
+TEST(shorter_frame_with_valid_crc_is_not_whole)
 {
     for (frame.len = 2; frame.len < 8; frame.len++) {
         e2e_protect(&frame);
@@ -71,7 +71,7 @@ TEST(a_shorter_frame_is_not_whole_however_right_its_crc)
     }
 }
 
-TEST(counter_15_is_none)
+TEST(counter_15_is_invalid)
 {
     frame.data[1] |= 15;
     e2e_protect(&frame);
@@ -103,7 +103,7 @@ static unsigned passes_with_flips_below(unsigned last, unsigned count)
     return passed;
 }
 
-TEST(every_flip_of_one_or_two_bits_is_found)
+TEST(crc_detects_every_flip_of_one_or_two_bits)
 {
     TEST_ASSERT_EQUAL_UINT(0, passes_with_flips_below(BITS, 1));
     TEST_ASSERT_EQUAL_UINT(0, passes_with_flips_below(BITS, 2));
@@ -111,12 +111,12 @@ TEST(every_flip_of_one_or_two_bits_is_found)
 }
 
 /* Eight bits of CRC cannot find all of them. */
-TEST(of_67525_flips_of_three_bits_all_but_296_are_found)
+TEST(crc_misses_296_of_67525_three_bit_flips)
 {
     TEST_ASSERT_EQUAL_UINT(296, passes_with_flips_below(BITS, 3));
 }
 
-TEST(counters_go_from_0_to_14_and_round_again)
+TEST(counters_wrap_after_14)
 {
     uint8_t counter = 0;
 
@@ -126,7 +126,7 @@ TEST(counters_go_from_0_to_14_and_round_again)
     }
 }
 
-TEST(how_far_one_counter_is_ahead_of_another)
+TEST(e2e_ahead_counts_steps_between_counters)
 {
     for (uint8_t from = 0; from < E2E_COUNTERS; from++) {
         uint8_t to = from;

@@ -1,7 +1,54 @@
-/* Whose commands count, and which. */
-#include "session_rig.h"
+/* Which commands a session accepts, and from whom. */
+#include "tests/test.h"
+#include "hal/protocol/e2e.h"
+#include "hal/protocol/session.h"
 
-TEST(without_an_owner_whatever_comes_is_taken)
+/* A session without an owner. */
+
+enum { OURS = 1, THEIRS = 2 };
+
+static struct session session;
+static enum result why;   /* the last command was refused */
+static unsigned missed;   /* ticks before the last senses; 999: not set */
+
+void setUp(void)
+{
+    session = (struct session){.owner = 0};
+    missed = 999;
+}
+
+static enum arrival command(enum opcode opcode, uint8_t counter, uint8_t owner)
+{
+    const struct request request = {.command = {.opcode = opcode}, .counter = counter, .owner = owner};
+
+    return session_request(&session, &request, &why);
+}
+
+/* From OURS, with counter 1, and the robot does it. */
+static enum arrival start(bool lockstep)
+{
+    const struct request request = {
+        .command = {.opcode = OPCODE_START}, .counter = 1, .owner = OURS, .lockstep = lockstep};
+    enum arrival arrival = session_request(&session, &request, &why);
+
+    session_executed(&session, RESULT_DONE);
+    return arrival;
+}
+
+/* Senses of that tick, with its counter. */
+static enum arrival tick(unsigned ticks)
+{
+    return session_senses(&session, (uint8_t)ticks, (uint8_t)(ticks % E2E_COUNTERS), &missed);
+}
+
+/* Such a command is refused with this reason. */
+static void assert_refused(enum result expected, enum opcode opcode, uint8_t counter, uint8_t owner)
+{
+    TEST_ASSERT_EQUAL(ARRIVAL_STALE, command(opcode, counter, owner));
+    TEST_ASSERT_EQUAL(expected, why);
+}
+
+TEST(session_without_owner_accepts_any_command)
 {
     TEST_ASSERT_EQUAL(ARRIVAL_FRESH, command(OPCODE_STOP, 9, THEIRS));
     session_executed(&session, RESULT_DONE);
@@ -9,7 +56,7 @@ TEST(without_an_owner_whatever_comes_is_taken)
     TEST_ASSERT_EQUAL_UINT8(0, session.owner);
 }
 
-TEST(a_start_that_the_robot_refused_makes_no_owner)
+TEST(refused_start_makes_no_owner)
 {
     command(OPCODE_START, 1, OURS);
     session_executed(&session, RESULT_UNKNOWN_PROFILE);
@@ -17,7 +64,7 @@ TEST(a_start_that_the_robot_refused_makes_no_owner)
     TEST_ASSERT_FALSE(session.lockstep);
 }
 
-TEST(only_start_says_whose_clock_counts)
+TEST(only_start_sets_lockstep)
 {
     start(1);
     TEST_ASSERT_TRUE(session.lockstep);
@@ -26,7 +73,7 @@ TEST(only_start_says_whose_clock_counts)
     TEST_ASSERT_TRUE(session.lockstep);
 }
 
-TEST(resume_makes_an_owner_again)
+TEST(resume_restores_the_owner)
 {
     start(1);
     command(OPCODE_STOP, 2, OURS);
@@ -37,15 +84,15 @@ TEST(resume_makes_an_owner_again)
     TEST_ASSERT_TRUE(session.lockstep);
 }
 
-TEST(an_owner_whose_senses_come_again_is_the_owner_again)
+TEST(returning_senses_restore_the_owner)
 {
     start(0);
     session.hears = false;
     tick(0);
-    refuses(RESULT_OWNED, OPCODE_ERASE, 2, THEIRS);
+    assert_refused(RESULT_OWNED, OPCODE_ERASE, 2, THEIRS);
 }
 
-TEST(the_owners_counter_goes_on_by_1_to_7)
+TEST(owner_counter_may_advance_by_1_to_7)
 {
     for (uint8_t counter = 0; counter < E2E_COUNTERS; counter++) {
         bool ahead = counter >= 2 && counter <= 8;
@@ -55,17 +102,17 @@ TEST(the_owners_counter_goes_on_by_1_to_7)
         if (ahead)
             TEST_ASSERT_EQUAL(ARRIVAL_FRESH, command(OPCODE_ERASE, counter, OURS));
         else
-            refuses(RESULT_OUT_OF_SEQUENCE, OPCODE_ERASE, counter, OURS);
+            assert_refused(RESULT_OUT_OF_SEQUENCE, OPCODE_ERASE, counter, OURS);
     }
 }
 
-TEST(an_owners_old_stop_does_not_stop_the_robot)
+TEST(old_stop_of_the_owner_is_refused)
 {
     start(0);
-    refuses(RESULT_OUT_OF_SEQUENCE, OPCODE_STOP, 0, OURS);
+    assert_refused(RESULT_OUT_OF_SEQUENCE, OPCODE_STOP, 0, OURS);
 }
 
-TEST(a_command_that_differs_in_anything_is_another)
+TEST(command_differing_in_any_field_is_no_repetition)
 {
     static const struct request first = {{OPCODE_SET, 1, 2}, 3, OURS, false};
     static const struct request others[] = {
@@ -81,7 +128,7 @@ TEST(a_command_that_differs_in_anything_is_another)
     }
 }
 
-TEST(the_first_command_is_none_again_whatever_it_is)
+TEST(first_command_is_no_repetition)
 {
     TEST_ASSERT_EQUAL(ARRIVAL_FRESH, command((enum opcode)0, 0, 0));
     TEST_ASSERT_EQUAL(ARRIVAL_AGAIN, command((enum opcode)0, 0, 0));
@@ -89,13 +136,13 @@ TEST(the_first_command_is_none_again_whatever_it_is)
 
 /* Which senses are fresh, in lockstep and on the robot's own clock. */
 
-TEST(any_tick_may_be_the_first)
+TEST(first_tick_may_have_any_number)
 {
     TEST_ASSERT_EQUAL(ARRIVAL_FRESH, tick(200));
     TEST_ASSERT_EQUAL_UINT(0, missed);
 }
 
-TEST(up_to_14_ticks_ahead_are_fresh)
+TEST(senses_up_to_14_ticks_ahead_are_fresh)
 {
     for (unsigned ahead = 0; ahead < 256; ahead++) {
         setUp();
@@ -104,20 +151,20 @@ TEST(up_to_14_ticks_ahead_are_fresh)
     }
 }
 
-TEST(ticks_that_were_left_out_are_counted)
+TEST(skipped_ticks_are_counted)
 {
     tick(254);
     tick(258);
     TEST_ASSERT_EQUAL_UINT(3, missed);
 }
 
-TEST(a_tick_of_a_round_ago_is_stale)
+TEST(tick_of_another_wrap_is_stale)
 {
     tick(0);
     TEST_ASSERT_EQUAL(ARRIVAL_STALE, tick(257));   /* tick 1, but not its counter */
 }
 
-TEST(the_counter_goes_on_with_the_tick)
+TEST(counter_must_advance_with_the_tick)
 {
     for (uint8_t counter = 0; counter < E2E_COUNTERS; counter++) {
         setUp();
@@ -126,14 +173,14 @@ TEST(the_counter_goes_on_with_the_tick)
     }
 }
 
-TEST(in_lockstep_the_last_tick_may_come_again)
+TEST(lockstep_accepts_the_last_tick_again)
 {
     start(1);
     tick(5);
     TEST_ASSERT_EQUAL(ARRIVAL_AGAIN, tick(5));
 }
 
-TEST(in_lockstep_the_last_tick_with_another_counter_is_stale)
+TEST(lockstep_last_tick_with_another_counter_is_stale)
 {
     start(1);
     tick(5);
@@ -141,14 +188,14 @@ TEST(in_lockstep_the_last_tick_with_another_counter_is_stale)
     TEST_ASSERT_EQUAL(ARRIVAL_STALE, session_senses(&session, 5, 4, &missed));
 }
 
-TEST(in_lockstep_another_tick_with_the_last_counter_is_stale)
+TEST(lockstep_other_tick_with_the_last_counter_is_stale)
 {
     start(1);
     tick(5);
     TEST_ASSERT_EQUAL(ARRIVAL_STALE, tick(5 + E2E_COUNTERS));
 }
 
-TEST(after_start_and_stop_any_tick_is_taken)
+TEST(start_and_stop_accept_any_next_tick)
 {
     tick(100);
     start(1);
@@ -157,7 +204,7 @@ TEST(after_start_and_stop_any_tick_is_taken)
     TEST_ASSERT_EQUAL(ARRIVAL_FRESH, tick(20));
 }
 
-TEST(after_a_refused_start_the_tick_must_go_on)
+TEST(refused_start_keeps_the_expected_tick)
 {
     tick(100);
     command(OPCODE_START, 1, OURS);

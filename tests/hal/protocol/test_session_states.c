@@ -83,7 +83,7 @@ void setUp(void)
     }
 }
 
-TEST(there_are_314_states)
+TEST(session_has_314_reachable_states)
 {
     TEST_ASSERT_EQUAL_size_t(314, state_count);
 }
@@ -98,8 +98,8 @@ static void with_all_senses(check_senses *check)
                 check(&states[i], ahead, counter);
 }
 
-/* A tick that was taken is not taken again, nor is one of the past. */
-static void check_that_ticks_go_on(const struct session *before, unsigned ahead, uint8_t counter)
+/* No tick is accepted again, nor one of the past. */
+static void check_ticks_advance(const struct session *before, unsigned ahead, uint8_t counter)
 {
     struct session session = *before;
     unsigned missed;
@@ -111,12 +111,12 @@ static void check_that_ticks_go_on(const struct session *before, unsigned ahead,
     TEST_ASSERT_TRUE(!before->lockstep || missed == 0);
 }
 
-TEST(no_tick_is_taken_twice_and_in_lockstep_none_is_left_out)
+TEST(ticks_are_accepted_once_and_never_skipped_in_lockstep)
 {
-    with_all_senses(check_that_ticks_go_on);
+    with_all_senses(check_ticks_advance);
 }
 
-static void check_that_stale_senses_change_nothing(const struct session *before, unsigned ahead, uint8_t counter)
+static void check_refused_senses_keep_state(const struct session *before, unsigned ahead, uint8_t counter)
 {
     struct session session = *before;
     unsigned missed;
@@ -125,12 +125,12 @@ static void check_that_stale_senses_change_nothing(const struct session *before,
         TEST_ASSERT_TRUE(are_equal(before, &session));
 }
 
-TEST(senses_that_are_not_taken_change_nothing)
+TEST(refused_senses_change_no_state)
 {
-    with_all_senses(check_that_stale_senses_change_nothing);
+    with_all_senses(check_refused_senses_keep_state);
 }
 
-TEST(the_next_senses_are_always_taken)
+TEST(next_senses_are_always_accepted)
 {
     for (size_t i = 0; i < state_count; i++) {
         struct session session = states[i];
@@ -156,8 +156,8 @@ static void with_all_requests(check_request *check)
         }
 }
 
-static void check_the_owners_rights(const struct session *before, const struct request *request, enum arrival arrival,
-                                    const struct session *after)
+static void check_owner_rights(const struct session *before, const struct request *request, enum arrival arrival,
+                               const struct session *after)
 {
     (void)after;
     if (before->owner != NOBODY && before->hears && request->owner != before->owner
@@ -165,26 +165,26 @@ static void check_the_owners_rights(const struct session *before, const struct r
         TEST_ASSERT_NOT_EQUAL(ARRIVAL_FRESH, arrival);
 }
 
-TEST(while_the_owners_senses_come_others_can_only_stop)
+TEST(other_senders_can_only_stop_an_owned_robot)
 {
-    with_all_requests(check_the_owners_rights);
+    with_all_requests(check_owner_rights);
 }
 
-static void check_that_what_is_refused_changes_nothing(const struct session *before, const struct request *request,
-                                                       enum arrival arrival, const struct session *after)
+static void check_refused_request_keeps_state(const struct session *before, const struct request *request,
+                                              enum arrival arrival, const struct session *after)
 {
     (void)request;
     if (arrival != ARRIVAL_FRESH)
         TEST_ASSERT_TRUE(are_equal(before, after));
 }
 
-TEST(requests_that_are_not_taken_change_nothing)
+TEST(refused_requests_change_no_state)
 {
-    with_all_requests(check_that_what_is_refused_changes_nothing);
+    with_all_requests(check_refused_request_keeps_state);
 }
 
-static void check_that_it_is_taken_once(const struct session *before, const struct request *request, enum arrival arrival,
-                                        const struct session *after)
+static void check_accepted_once(const struct session *before, const struct request *request, enum arrival arrival,
+                                const struct session *after)
 {
     struct session session = *after;
     enum result why;
@@ -196,13 +196,13 @@ static void check_that_it_is_taken_once(const struct session *before, const stru
     TEST_ASSERT_EQUAL(ARRIVAL_AGAIN, session_request(&session, request, &why));
 }
 
-TEST(a_request_is_taken_once)
+TEST(request_is_accepted_once)
 {
-    with_all_requests(check_that_it_is_taken_once);
+    with_all_requests(check_accepted_once);
 }
 
-static void check_that_only_a_start_makes_an_owner(const struct session *before, const struct request *request,
-                                                   enum arrival arrival, const struct session *after)
+static void check_owner_changes(const struct session *before, const struct request *request,
+                                enum arrival arrival, const struct session *after)
 {
     struct session session = *after;
     enum opcode opcode = request->command.opcode;
@@ -220,14 +220,14 @@ static void check_that_only_a_start_makes_an_owner(const struct session *before,
         TEST_ASSERT_EQUAL_UINT8(request->owner, session.owner);
 }
 
-TEST(start_and_resume_make_an_owner_and_stop_ends_it)
+TEST(start_and_resume_set_the_owner_and_stop_clears_it)
 {
-    with_all_requests(check_that_only_a_start_makes_an_owner);
+    with_all_requests(check_owner_changes);
 }
 
-/* Whoever has lost the count: a stop of another's is taken at once, and a start after an outage. */
-static void check_that_nobody_is_locked_out(const struct session *before, const struct request *request,
-                                            enum arrival arrival, const struct session *after)
+/* A sender with any counter: its stop is accepted at once if another owns the robot, and any command after an outage. */
+static void check_no_lockout(const struct session *before, const struct request *request,
+                             enum arrival arrival, const struct session *after)
 {
     struct session silent = after_outage(*before);
     enum result why;
@@ -238,13 +238,13 @@ static void check_that_nobody_is_locked_out(const struct session *before, const 
     TEST_ASSERT_NOT_EQUAL(ARRIVAL_STALE, session_request(&silent, request, &why));
 }
 
-TEST(nobody_is_locked_out)
+TEST(no_sender_is_locked_out)
 {
-    with_all_requests(check_that_nobody_is_locked_out);
+    with_all_requests(check_no_lockout);
 }
 
-static void check_that_the_owner_goes_on(const struct session *before, const struct request *request,
-                                         enum arrival arrival, const struct session *after)
+static void check_owner_counter(const struct session *before, const struct request *request,
+                                enum arrival arrival, const struct session *after)
 {
     (void)after;
     if (request->owner != before->owner)
@@ -255,7 +255,7 @@ static void check_that_the_owner_goes_on(const struct session *before, const str
         TEST_ASSERT_NOT_EQUAL(ARRIVAL_FRESH, arrival);
 }
 
-TEST(the_owners_next_requests_are_taken_and_none_of_the_past)
+TEST(owner_requests_are_accepted_only_if_ahead)
 {
-    with_all_requests(check_that_the_owner_goes_on);
+    with_all_requests(check_owner_counter);
 }

@@ -1,4 +1,4 @@
-/* What is damaged on its way is refused, and counted. */
+/* Damaged frames are refused and counted. */
 #include <string.h>
 
 #include "tests/test.h"
@@ -14,51 +14,51 @@ static void flip(struct frame *frame, unsigned bit)
         frame->data[(bit - ID_BITS) / 8] ^= (uint8_t)(1u << (bit - ID_BITS) % 8);
 }
 
-/* Each is counted: as damaged, or as foreign where the identifier became another's. */
-static void refuse_and_count(struct frame frame)
+/* The frame is counted as damaged, or as foreign if its identifier is another node's. */
+static void assert_refused_and_counted(struct frame frame)
 {
     memset(wire.faults, 0, sizeof wire.faults);
-    refuse(frame);
+    assert_ignored(frame);
     TEST_ASSERT_EQUAL_UINT(1, wire.faults[FAULT_DAMAGED] + wire.faults[FAULT_FOREIGN]);
     wire.faults[FAULT_DAMAGED] = wire.faults[FAULT_FOREIGN] = 0;
 }
 
-static void refuse_every_flip(const struct frame good)
+static void assert_every_flip_refused(const struct frame good)
 {
     for (unsigned i = 0; i < BITS; i++) {
         struct frame one = good;
 
         flip(&one, i);
-        refuse_and_count(one);
+        assert_refused_and_counted(one);
         for (unsigned j = 0; j < i; j++) {
             struct frame two = one;
 
             flip(&two, j);
-            refuse_and_count(two);
+            assert_refused_and_counted(two);
         }
     }
-    TEST_ASSERT_NOT_EQUAL(INPUT_SILENCE, hear(good));   /* the clean control */
+    TEST_ASSERT_NOT_EQUAL(INPUT_SILENCE, feed(good));   /* the clean control */
 }
 
 TEST(senses_with_one_or_two_flipped_bits_are_refused)
 {
-    refuse_every_flip(senses_frame(NODE, 123));
+    assert_every_flip_refused(senses_frame(NODE, 123));
 }
 
-TEST(a_command_with_one_or_two_flipped_bits_is_refused)
+TEST(command_with_one_or_two_flipped_bits_is_refused)
 {
-    refuse_every_flip(command_frame((struct octet_command_t){.opcode = OPCODE_START, .seed = 0x12345678}));
+    assert_every_flip_refused(command_frame((struct octet_command_t){.opcode = OPCODE_START, .seed = 0x12345678}));
 }
 
-TEST(a_frame_of_another_length_is_damaged)
+TEST(frame_of_wrong_length_is_damaged)
 {
     for (uint8_t len = 0; len < 8; len++) {
         struct frame senses = senses_frame(NODE, 0), command = command_of(OPCODE_STOP, 0, OWNER), ranges = ranges_frame(0);
 
         senses.len = command.len = ranges.len = len;
-        refuse(protected_frame(senses));
-        refuse(protected_frame(command));
-        refuse(protected_frame(ranges));
+        assert_ignored(protected_frame(senses));
+        assert_ignored(protected_frame(command));
+        assert_ignored(protected_frame(ranges));
     }
     expect(FAULT_DAMAGED, 24);
 }
@@ -69,22 +69,22 @@ TEST(damaged_senses_do_not_move_the_tick)
 
     read_tick(1);
     damaged.data[0] ^= 1;
-    refuse(damaged);
+    assert_ignored(damaged);
     expect(FAULT_DAMAGED, 1);
     TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(2));
 }
 
-TEST(a_damaged_command_does_not_use_up_its_counter)
+TEST(damaged_command_does_not_use_its_counter)
 {
     struct frame damaged = command_of(OPCODE_ERASE, 7, OWNER);
 
     damaged.data[7] ^= 1;
-    refuse(damaged);
+    assert_ignored(damaged);
     expect(FAULT_DAMAGED, 1);
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_of(OPCODE_ERASE, 7, OWNER)));
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, feed(command_of(OPCODE_ERASE, 7, OWNER)));
 }
 
-TEST(every_counter_stays_at_255)
+TEST(fault_counters_stay_at_255)
 {
     for (unsigned fault = 0; fault < FAULT_COUNT; fault++) {
         for (unsigned i = 0; i < 300; i++)
@@ -95,22 +95,22 @@ TEST(every_counter_stays_at_255)
 
 /* Which identifiers a robot listens for, and which frames it takes for its own. */
 
-TEST(each_node_hears_its_own_frames)
+TEST(node_receives_its_own_frames)
 {
     for (uint8_t node = 1; node <= NODE_MAX; node++) {
         wire_init(&wire, node);
-        TEST_ASSERT_EQUAL(INPUT_SENSES, hear(senses_frame(node, 0)));
+        TEST_ASSERT_EQUAL(INPUT_SENSES, feed(senses_frame(node, 0)));
     }
 }
 
-TEST(no_node_hears_anothers_frames)
+TEST(frames_of_other_nodes_are_foreign)
 {
     for (uint8_t node = 2; node <= NODE_MAX; node++)
-        refuse(senses_frame(node, 0));
+        assert_ignored(senses_frame(node, 0));
     expect(FAULT_FOREIGN, NODE_MAX - 1);
 }
 
-TEST(no_node_hears_what_is_meant_for_its_neighbours)
+TEST(frames_of_neighbouring_nodes_are_foreign)
 {
     static const uint32_t ids[] = {
         OCTET_SENSES_FRAME_ID, OCTET_RANGES_FRAME_ID, OCTET_COMMAND_FRAME_ID, OCTET_DRIVE_FRAME_ID, OCTET_HEARTBEAT_FRAME_ID,
@@ -119,14 +119,14 @@ TEST(no_node_hears_what_is_meant_for_its_neighbours)
     for (unsigned i = 0; i < sizeof ids / sizeof *ids; i++)
         for (uint8_t node = 1; node <= NODE_MAX; node++) {
             wire_init(&wire, node);
-            refuse((struct frame){.id = ids[i] + node - 2u, .len = 8});
-            refuse((struct frame){.id = ids[i] + node, .len = 8});
+            assert_ignored((struct frame){.id = ids[i] + node - 2u, .len = 8});
+            assert_ignored((struct frame){.id = ids[i] + node, .len = 8});
             TEST_ASSERT_EQUAL_UINT8(2, wire.faults[FAULT_FOREIGN]);
         }
     expect(FAULT_FOREIGN, 2);
 }
 
-TEST(the_first_and_the_last_node_listen_for_their_own)
+TEST(first_and_last_node_listen_for_their_identifiers)
 {
     static const uint16_t expected[2][WIRE_LISTEN_COUNT] = {
         {0x101, 0x121, 0x021, 0x041, 0x6A1, LINK_FAMILY | 0x680},
@@ -144,8 +144,8 @@ TEST(the_first_and_the_last_node_listen_for_their_own)
 
 TEST(other_messages_of_robots_are_foreign)
 {
-    refuse((struct frame){.id = OCTET_ANSWER_FRAME_ID, .len = OCTET_ANSWER_LENGTH});
-    refuse((struct frame){.id = OCTET_FAULTS_FRAME_ID, .len = OCTET_FAULTS_LENGTH});
+    assert_ignored((struct frame){.id = OCTET_ANSWER_FRAME_ID, .len = OCTET_ANSWER_LENGTH});
+    assert_ignored((struct frame){.id = OCTET_FAULTS_FRAME_ID, .len = OCTET_FAULTS_LENGTH});
     expect(FAULT_FOREIGN, 2);
 }
 
@@ -157,7 +157,7 @@ TEST(extended_remote_and_error_frames_are_foreign)
         struct frame frame = senses_frame(NODE, 0);
 
         frame.id |= flags[i];
-        refuse(frame);
+        assert_ignored(frame);
     }
     expect(FAULT_FOREIGN, 3);
 }
@@ -170,85 +170,85 @@ static void assert_peer(bool upper, uint8_t first)
     TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, in.peer.cell, CELL_COUNT / 2);
 }
 
-TEST(every_other_robots_memory_is_heard)
+TEST(memory_of_every_other_node_is_received)
 {
     for (uint8_t node = 2; node <= NODE_MAX; node++) {
-        TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(node, 0, 0)));
+        TEST_ASSERT_EQUAL(INPUT_PEER, feed(memory_frame(node, 0, 0)));
         assert_peer(false, 0);
-        TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(node, 1, 2)));
+        TEST_ASSERT_EQUAL(INPUT_PEER, feed(memory_frame(node, 1, 2)));
         assert_peer(true, 2);
     }
 }
 
-TEST(a_memory_is_heard_once_from_report_to_report)
+TEST(peer_memory_is_received_once_per_report)
 {
-    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 0, 0)));
-    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 1, 0)));
-    refuse(memory_frame(2, 0, 0));
-    refuse(memory_frame(2, 1, 0));
+    TEST_ASSERT_EQUAL(INPUT_PEER, feed(memory_frame(2, 0, 0)));
+    TEST_ASSERT_EQUAL(INPUT_PEER, feed(memory_frame(2, 1, 0)));
+    assert_ignored(memory_frame(2, 0, 0));
+    assert_ignored(memory_frame(2, 1, 0));
     respond((struct output){.has_drive = true});
-    refuse(memory_frame(2, 0, 0));
+    assert_ignored(memory_frame(2, 0, 0));
     respond((struct output){.has_drive = true, .has_report = true});
-    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 0, 0)));
-    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 1, 0)));
+    TEST_ASSERT_EQUAL(INPUT_PEER, feed(memory_frame(2, 0, 0)));
+    TEST_ASSERT_EQUAL(INPUT_PEER, feed(memory_frame(2, 1, 0)));
 }
 
-TEST(a_memory_is_heard_again_after_a_start)
+TEST(peer_memory_is_received_again_after_a_start)
 {
-    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 0, 0)));
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_frame((struct octet_command_t){.counter = 1, .opcode = OPCODE_START})));
+    TEST_ASSERT_EQUAL(INPUT_PEER, feed(memory_frame(2, 0, 0)));
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, feed(command_frame((struct octet_command_t){.counter = 1, .opcode = OPCODE_START})));
     respond((struct output){.has_answer = true});
-    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 0, 0)));
+    TEST_ASSERT_EQUAL(INPUT_PEER, feed(memory_frame(2, 0, 0)));
 }
 
-TEST(the_last_robot_hears_all_others_again_after_a_report)
+TEST(last_node_receives_all_memories_again_after_a_report)
 {
     wire_init(&wire, NODE_MAX);
     for (unsigned reports = 0; reports < 2; reports++) {
         for (uint8_t node = 1; node < NODE_MAX; node++)
-            TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(node, 0, 0)));
+            TEST_ASSERT_EQUAL(INPUT_PEER, feed(memory_frame(node, 0, 0)));
         respond((struct output){.has_drive = true, .has_report = true});
     }
 }
 
-TEST(a_memory_is_heard_whatever_its_number)
+TEST(peer_memory_is_received_with_any_counter)
 {
     for (uint8_t counter = 0; counter < E2E_COUNTERS; counter++) {
         struct frame lower = memory_frame(counter + 2u, 0, 0), upper = memory_frame(counter + 2u, 1, 0);
 
         lower.data[1] |= counter;
         upper.data[1] |= counter;
-        TEST_ASSERT_EQUAL(INPUT_PEER, hear(protected_frame(lower)));
+        TEST_ASSERT_EQUAL(INPUT_PEER, feed(protected_frame(lower)));
         assert_peer(false, 0);
-        TEST_ASSERT_EQUAL(INPUT_PEER, hear(protected_frame(upper)));
+        TEST_ASSERT_EQUAL(INPUT_PEER, feed(protected_frame(upper)));
         assert_peer(true, 0);
     }
 }
 
-TEST(a_memory_of_all_sensors_is_not_heard)
+TEST(peer_memory_of_all_five_sensors_is_ignored)
 {
-    refuse(memory_frame(2, 0, 0x0F));
-    refuse(memory_frame(2, 1, 0));
+    assert_ignored(memory_frame(2, 0, 0x0F));
+    assert_ignored(memory_frame(2, 1, 0));
 }
 
-TEST(an_upper_half_alone_is_not_heard)
+TEST(upper_half_alone_is_ignored)
 {
-    refuse(memory_frame(2, 1, 0));
+    assert_ignored(memory_frame(2, 1, 0));
 }
 
-TEST(a_damaged_memory_is_counted)
+TEST(damaged_peer_memory_is_counted)
 {
     struct frame frame = memory_frame(2, 0, 0);
 
     frame.data[3] ^= 1;
-    refuse(frame);
+    assert_ignored(frame);
     expect(FAULT_DAMAGED, 1);
 }
 
-TEST(the_identifiers_beside_the_memories_are_foreign)
+TEST(identifiers_next_to_memories_are_foreign)
 {
-    refuse(memory_frame(0, 0, 0));
-    refuse(memory_frame(NODE_MAX + 1, 0, 0));
-    refuse(memory_frame(NODE_MAX + 3, 0, 0));   /* a heartbeat's, of node 2 */
+    assert_ignored(memory_frame(0, 0, 0));
+    assert_ignored(memory_frame(NODE_MAX + 1, 0, 0));
+    assert_ignored(memory_frame(NODE_MAX + 3, 0, 0));   /* a heartbeat's, of node 2 */
     expect(FAULT_FOREIGN, 3);
 }

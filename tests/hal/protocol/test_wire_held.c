@@ -51,14 +51,14 @@ static void begin(void)
     out = (struct output){.memory = {0, 1, 2, 1, 2, 1, 2, 1}};
 }
 
-TEST(a_robot_that_was_told_nothing_holds_its_memory)
+TEST(check_value_before_any_command_covers_the_memory)
 {
     begin();
     assert_held_with_memory();
     TEST_ASSERT_NOT_EQUAL(0, held());
 }
 
-TEST(each_command_that_changes_something_is_held_whole_and_in_order)
+TEST(check_value_covers_commands_in_order)
 {
     begin();
     tell((struct octet_command_t){.opcode = OPCODE_START, .profile = 7, .seed = 0xDEADBEEF, .lockstep = 1}, RESULT_DONE);
@@ -72,7 +72,7 @@ TEST(each_command_that_changes_something_is_held_whole_and_in_order)
     assert_held();
 }
 
-TEST(the_same_start_again_does_not_leave_it_as_it_was)
+TEST(repeated_start_changes_the_check_value)
 {
     uint16_t before;
 
@@ -83,7 +83,7 @@ TEST(the_same_start_again_does_not_leave_it_as_it_was)
     TEST_ASSERT_NOT_EQUAL(before, held());
 }
 
-TEST(what_only_asks_changes_nothing)
+TEST(get_and_report_change_no_check_value)
 {
     uint32_t before;
 
@@ -96,7 +96,7 @@ TEST(what_only_asks_changes_nothing)
     assert_held();
 }
 
-TEST(what_the_robot_refused_is_not_held)
+TEST(refused_command_changes_no_check_value)
 {
     uint32_t before;
 
@@ -109,7 +109,7 @@ TEST(what_the_robot_refused_is_not_held)
     assert_held();
 }
 
-TEST(what_comes_again_is_held_once)
+TEST(repeated_command_enters_the_check_value_once)
 {
     const struct octet_command_t erase = {.opcode = OPCODE_ERASE, .counter = 1, .owner = 3};
     const struct frame again = command_frame(erase);
@@ -121,7 +121,7 @@ TEST(what_comes_again_is_held_once)
     assert_held_with_memory();
 }
 
-static struct frame hear_senses(uint8_t tick, uint8_t feel)
+static struct frame read_senses_frame(uint8_t tick, uint8_t feel)
 {
     const struct octet_senses_t senses = {.tick = tick, .counter = tick % 15, .feel = feel};
     struct frame frame = {.id = OCTET_SENSES_FRAME_ID, .len = OCTET_SENSES_LENGTH};
@@ -137,7 +137,7 @@ static struct frame hear_senses(uint8_t tick, uint8_t feel)
 static void sense(uint8_t feel)
 {
     bool are_first = !wire.session.knows_tick;
-    struct frame frame = hear_senses(9, feel);
+    struct frame frame = read_senses_frame(9, feel);
 
     if (feel != 0 && !are_first)
         told_here = crc32_more(told_here, frame.data + 1, 7);
@@ -149,14 +149,14 @@ static struct frame drive_here;   /* that answered the senses before; zeros for 
 
 static void obey(uint8_t tick, uint8_t feel)
 {
-    struct frame frame = hear_senses(tick, feel);
+    struct frame frame = read_senses_frame(tick, feel);
 
     for (unsigned i = 1; i < 8; i++)
         frame.data[i] ^= drive_here.data[i];
     heard_here = crc32_more(heard_here, frame.data + 1, 7);
 }
 
-TEST(in_lockstep_all_senses_that_were_obeyed_are_held_whole_and_in_order)
+TEST(lockstep_check_value_covers_accepted_senses_in_order)
 {
     begin();
     tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
@@ -180,14 +180,14 @@ static struct frame drive(int16_t left_mm_s, bool silent)
     return written;
 }
 
-TEST(with_senses_the_drive_that_answered_those_before_is_held)
+TEST(check_value_covers_the_drive_before_the_senses)
 {
     begin();
     tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
     obey(1, 0);
     drive_here = drive(-300, false);
-    (void)drive(0, true);   /* tells that the owner is silent, and answers nothing */
-    (void)hear_senses(1, 0);   /* again */
+    (void)drive(0, true);   /* reports silence, and answers no senses */
+    (void)read_senses_frame(1, 0);   /* again */
     obey(2, 4);
     assert_held();
     (void)drive(5, false);
@@ -199,17 +199,17 @@ TEST(with_senses_the_drive_that_answered_those_before_is_held)
     assert_held();
 }
 
-TEST(senses_that_were_refused_are_not_held)
+TEST(refused_senses_change_no_check_value)
 {
     begin();
     tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
     obey(1, 0);
-    (void)hear_senses(3, 0);
+    (void)read_senses_frame(3, 0);
     assert_held();
     expect(FAULT_STALE, 1);
 }
 
-TEST(a_start_forgets_senses_and_the_stop_that_ends_a_run_does_not)
+TEST(start_resets_the_senses_check_value_and_first_stop_does_not)
 {
     begin();
     tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
@@ -219,7 +219,7 @@ TEST(a_start_forgets_senses_and_the_stop_that_ends_a_run_does_not)
     assert_held();
     obey(9, 4);
     tell((struct octet_command_t){.opcode = OPCODE_STOP}, RESULT_DONE);
-    (void)hear_senses(10, 1);   /* that nobody with an owner's number has sent */
+    (void)read_senses_frame(10, 1);   /* without an owner */
     assert_held_with_memory();
     tell((struct octet_command_t){.opcode = OPCODE_STOP}, RESULT_DONE);
     told_here = heard_here = 0;
@@ -237,20 +237,21 @@ static void senses_of_one_tick(uint8_t lockstep)
     assert_held();
 }
 
-TEST(in_lockstep_the_senses_of_one_tick_are_held_only_if_they_differ)
+TEST(lockstep_check_value_covers_repeated_senses_that_differ)
 {
     senses_of_one_tick(1);
 }
 
-TEST(on_its_own_clock_as_well)
+TEST(real_time_check_value_covers_repeated_senses_that_differ)
 {
     senses_of_one_tick(0);
     expect(FAULT_STALE, 2);
 }
 
-TEST(on_a_noisy_line_they_are_held_if_they_come_twice)
+TEST(noisy_line_needs_two_equal_senses_for_the_check_value)
 {
     const struct frame damaged = {.id = OCTET_SENSES_FRAME_ID, .len = OCTET_SENSES_LENGTH, .data = {1}};
+    const struct frame foreign = {.id = OCTET_SENSES_FRAME_ID + 1, .len = OCTET_SENSES_LENGTH};
     struct input in;
     uint32_t before;
 
@@ -258,6 +259,7 @@ TEST(on_a_noisy_line_they_are_held_if_they_come_twice)
     tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
     sense(0);
     TEST_ASSERT_EQUAL(INPUT_SILENCE, wire_read(&wire, &damaged, &in));
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, wire_read(&wire, &foreign, &in));   /* another fault: it is still noisy */
     before = wire.session.told;
     sense(4);
     sense(5);
@@ -269,9 +271,10 @@ TEST(on_a_noisy_line_they_are_held_if_they_come_twice)
     sense(6);
     assert_held();
     expect(FAULT_DAMAGED, 1);
+    expect(FAULT_FOREIGN, 1);
 }
 
-TEST(the_first_senses_after_a_start_differ_from_none)
+TEST(first_senses_after_a_start_count_as_no_difference)
 {
     uint32_t before;
 
@@ -286,7 +289,7 @@ TEST(the_first_senses_after_a_start_differ_from_none)
     assert_held();
 }
 
-TEST(the_stop_of_a_robot_with_an_owner_is_held_too_and_the_next_one_forgets_all)
+TEST(check_value_covers_first_stop_and_second_resets_it)
 {
     begin();
     tell((struct octet_command_t){.opcode = OPCODE_START}, RESULT_DONE);
@@ -297,7 +300,7 @@ TEST(the_stop_of_a_robot_with_an_owner_is_held_too_and_the_next_one_forgets_all)
     assert_held_with_memory();
 }
 
-TEST(the_answer_to_a_stop_has_all_that_was_held_and_the_sum_of_opcodes)
+TEST(stop_answer_has_the_check_value_and_opcode_sum)
 {
     struct octet_answer_t answer;
 
@@ -312,7 +315,7 @@ TEST(the_answer_to_a_stop_has_all_that_was_held_and_the_sum_of_opcodes)
     TEST_ASSERT_EQUAL_UINT8(OPCODE_START + OPCODE_FREEZE, answer.which);
 }
 
-TEST(every_cell_counts)
+TEST(check_value_covers_every_memory_cell)
 {
     uint16_t before;
 

@@ -1,4 +1,4 @@
-/* What the parts of a report tell. */
+/* The contents of the parts of a report. */
 #include <string.h>
 
 #include "tests/test.h"
@@ -15,7 +15,7 @@ static struct octet_heartbeat_t heartbeat_sent(void)
     return sent;
 }
 
-TEST(each_heartbeat_counts_on_but_for_those_of_silence)
+TEST(heartbeat_counter_pauses_in_silence)
 {
     static const uint8_t counters[] = {0, 1, 2, 2, 2, 3};
 
@@ -25,20 +25,20 @@ TEST(each_heartbeat_counts_on_but_for_those_of_silence)
     }
 }
 
-TEST(a_heartbeat_tells_of_silence)
+TEST(heartbeat_reports_silence)
 {
     out.silent = true;
     TEST_ASSERT_EQUAL_UINT8(OCTET_HEARTBEAT_SILENT_SILENT_CHOICE, heartbeat_sent().silent);
 }
 
-TEST(a_heartbeat_names_the_owner)
+TEST(heartbeat_reports_the_owner)
 {
     answer_to((struct octet_command_t){.opcode = OPCODE_START, .owner = 200}, RESULT_DONE);
     out = (struct output){.has_answer = false};
     TEST_ASSERT_EQUAL_UINT8(200, heartbeat_sent().owner);
 }
 
-TEST(a_heartbeat_tells_how_the_robot_fares)
+TEST(heartbeat_reports_the_state_of_the_robot)
 {
     struct octet_heartbeat_t sent;
 
@@ -50,7 +50,7 @@ TEST(a_heartbeat_tells_how_the_robot_fares)
     TEST_ASSERT_EQUAL_UINT16(65535, sent.uptime);
 }
 
-TEST(a_heartbeat_tells_a_stopped_and_frozen_robot)
+TEST(heartbeat_reports_stopped_and_frozen)
 {
     struct octet_heartbeat_t sent;
 
@@ -60,18 +60,18 @@ TEST(a_heartbeat_tells_a_stopped_and_frozen_robot)
     TEST_ASSERT_EQUAL_UINT8(OCTET_HEARTBEAT_FROZEN_FROZEN_CHOICE, sent.frozen);
 }
 
-TEST(a_heartbeat_tells_whose_clock_rules)
+TEST(heartbeat_reports_lockstep)
 {
     wire.session.lockstep = true;
     TEST_ASSERT_EQUAL_UINT8(OCTET_HEARTBEAT_LOCKSTEP_LOCKSTEP_CHOICE, heartbeat_sent().lockstep);
 }
 
-TEST(a_heartbeat_names_the_layout_of_all_messages)
+TEST(heartbeat_reports_the_layout_hash)
 {
     TEST_ASSERT_EQUAL_HEX16(LAYOUT_HASH, heartbeat_sent().layout);
 }
 
-TEST(each_fault_has_its_own_place)
+TEST(faults_have_their_own_signals)
 {
     struct octet_faults_t link, robot;
 
@@ -97,7 +97,7 @@ TEST(each_fault_has_its_own_place)
     TEST_ASSERT_EQUAL_UINT8(FAULT_DENIED + 1, robot.denied);
 }
 
-TEST(health_tells_how_bus_clock_and_store_fare)
+TEST(health_reports_bus_clock_and_store)
 {
     struct octet_health_t sent;
 
@@ -115,7 +115,7 @@ TEST(health_tells_how_bus_clock_and_store_fare)
     TEST_ASSERT_EQUAL_UINT8(9, sent.dropped);
 }
 
-TEST(boot_tells_why_it_started)
+TEST(boot_reports_the_reset_cause)
 {
     struct octet_boot_t sent;
 
@@ -127,7 +127,7 @@ TEST(boot_tells_why_it_started)
     TEST_ASSERT_EQUAL_UINT8(OCTET_BOOT_RESET_CAUSE_WATCHDOG_CHOICE, sent.reset_cause);
 }
 
-TEST(boot_tells_what_it_was_built_from)
+TEST(boot_reports_version_and_commit)
 {
     struct octet_boot_t sent;
 
@@ -139,14 +139,14 @@ TEST(boot_tells_what_it_was_built_from)
     TEST_ASSERT_EQUAL_UINT8(OCTET_BUILD_MODIFIED, sent.modified);
 }
 
-TEST(without_a_crash_no_report_tells_of_one)
+TEST(report_without_a_crash_has_no_crash_frame)
 {
     whole_report();
     for (unsigned i = 0; i < 7; i++)
         TEST_ASSERT_NOT_EQUAL_HEX32(OCTET_CRASH_FRAME_ID, frames[i].id);
 }
 
-TEST(a_crash_is_told_one_value_a_report_round_and_round)
+TEST(crash_values_rotate_one_per_report)
 {
     static struct crash crash = {.cause = OCTET_CRASH_CAUSE_HARD_FAULT_CHOICE, .count = 5};
 
@@ -164,7 +164,7 @@ TEST(a_crash_is_told_one_value_a_report_round_and_round)
     }
 }
 
-TEST(a_memory_is_two_frames_with_one_counter)
+TEST(memory_is_two_frames_with_one_counter)
 {
     static const uint8_t memory[CELL_COUNT] = {0, 1, 2, 255, 4, 5, 6, 7};
 
@@ -179,7 +179,7 @@ TEST(a_memory_is_two_frames_with_one_counter)
     }
 }
 
-TEST(reset_causes_and_bus_states_are_those_of_the_dbc)
+TEST(reset_causes_and_bus_states_match_the_dbc)
 {
     TEST_ASSERT_EQUAL(OCTET_BOOT_RESET_CAUSE_POWER_ON_CHOICE, RESET_POWER_ON);
     TEST_ASSERT_EQUAL(OCTET_BOOT_RESET_CAUSE_PIN_CHOICE, RESET_PIN);
@@ -193,7 +193,7 @@ TEST(reset_causes_and_bus_states_are_those_of_the_dbc)
 
 /* Which parts of a report are sent, and when. */
 
-TEST(the_parts_of_a_report_wait_for_drives_in_answer_to_senses)
+TEST(report_parts_wait_for_drives_that_answer_senses)
 {
     out.has_report = true;
     TEST_ASSERT_EQUAL_size_t(0, write_out());
@@ -204,7 +204,7 @@ TEST(the_parts_of_a_report_wait_for_drives_in_answer_to_senses)
     TEST_ASSERT_EQUAL_size_t(2, write_out());
 }
 
-TEST(a_report_is_spread_over_the_drives_of_many_ticks)
+TEST(report_is_spread_over_several_drives)
 {
     static const uint32_t ids[] = {0x6A1, 0x681, 0x781, 0x781, 0, 0x7C1, 0};
 
@@ -217,7 +217,7 @@ TEST(a_report_is_spread_over_the_drives_of_many_ticks)
     }
 }
 
-TEST(a_whole_report_ends_one_that_is_under_way)
+TEST(whole_report_ends_a_partial_one)
 {
     static const uint32_t drive = 0x041;
 
@@ -228,7 +228,7 @@ TEST(a_whole_report_ends_one_that_is_under_way)
     assert_ids(&drive, 1);
 }
 
-TEST(a_start_ends_a_report_that_is_under_way)
+TEST(start_ends_a_partial_report)
 {
     static const uint32_t drive = 0x041;
 
@@ -240,7 +240,7 @@ TEST(a_start_ends_a_report_that_is_under_way)
     assert_ids(&drive, 1);
 }
 
-TEST(a_start_of_a_robot_that_has_an_owner_ends_no_report)
+TEST(start_of_an_owned_robot_keeps_a_partial_report)
 {
     static const uint32_t ids[] = {0x681, 0x681, 0x041};
 
@@ -253,13 +253,13 @@ TEST(a_start_of_a_robot_that_has_an_owner_ends_no_report)
     assert_ids(ids, 3);
 }
 
-TEST(what_is_whole_is_sent_only_if_there_is_a_report)
+TEST(whole_report_flag_alone_sends_nothing)
 {
     out = (struct output){.whole_report = true};
     TEST_ASSERT_EQUAL_size_t(0, write_out());
 }
 
-TEST(a_new_memory_holds_the_report_up)
+TEST(new_memory_is_sent_before_the_report)
 {
     static const uint32_t ids[] = {0x681, 0x681, 0x041}, next[] = {0x6A1, 0x041};
 
@@ -269,7 +269,7 @@ TEST(a_new_memory_holds_the_report_up)
     assert_ids(next, 2);
 }
 
-TEST(in_silence_there_is_a_heartbeat_and_nothing_else)
+TEST(silent_output_reports_a_heartbeat_only)
 {
     static const uint32_t ids[] = {0x6A1, 0x041};
 

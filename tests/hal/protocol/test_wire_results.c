@@ -1,4 +1,4 @@
-/* What the wire makes of a command's result, and when news of faults goes out. */
+/* How the wire treats a command's result, and when new faults are reported. */
 #include "hal/protocol/e2e.h"
 #include "hal/protocol/wire.h"
 #include "tests/test.h"
@@ -34,7 +34,7 @@ static bool is_taken(enum opcode opcode, uint8_t owner)
     return wire_read(&wire, &frame, &in) == INPUT_COMMAND;
 }
 
-TEST(a_start_says_whether_ranges_are_wanted)
+TEST(start_answer_sets_whether_ranges_are_wanted)
 {
     started(ANSWER_WANTS_RANGES);
     TEST_ASSERT_TRUE(wire.wants_ranges);
@@ -42,14 +42,14 @@ TEST(a_start_says_whether_ranges_are_wanted)
     TEST_ASSERT_FALSE(wire.wants_ranges);
 }
 
-TEST(no_other_command_changes_whether_ranges_are_wanted)
+TEST(other_commands_keep_whether_ranges_are_wanted)
 {
     started(ANSWER_WANTS_RANGES);
     done(OPCODE_REPORT, 0);
     TEST_ASSERT_TRUE(wire.wants_ranges);
 }
 
-TEST(a_start_that_is_refused_changes_nothing_about_ranges)
+TEST(refused_start_keeps_whether_ranges_are_wanted)
 {
     started(ANSWER_WANTS_RANGES);
     out = (struct output){.answer_value = 0};
@@ -59,7 +59,7 @@ TEST(a_start_that_is_refused_changes_nothing_about_ranges)
     expect(FAULT_REFUSED, 1);
 }
 
-TEST(a_robot_that_has_an_owner_takes_nothing_from_another)
+TEST(owned_robot_refuses_other_senders)
 {
     started(0);
     TEST_ASSERT_FALSE(is_taken(OPCODE_SET, LOWER));
@@ -67,7 +67,7 @@ TEST(a_robot_that_has_an_owner_takes_nothing_from_another)
     expect(FAULT_REFUSED, 2);
 }
 
-TEST(it_stays_its_owners_whatever_was_done)
+TEST(robot_keeps_its_owner_after_any_command)
 {
     started(0);
     done(OPCODE_SET, 0);
@@ -77,20 +77,20 @@ TEST(it_stays_its_owners_whatever_was_done)
     expect(FAULT_REFUSED, 1);
 }
 
-TEST(a_stop_gives_the_robot_up)
+TEST(stop_releases_the_robot_for_other_owners)
 {
     started(0);
     done(OPCODE_STOP, 0);
     TEST_ASSERT_TRUE(is_taken(OPCODE_SET, LOWER));
 }
 
-TEST(what_is_no_answer_is_no_refusal)
+TEST(refused_result_without_an_answer_counts_no_refusal)
 {
     out = (struct output){.has_drive = true, .answer = RESULT_OWNED};
     TEST_ASSERT_EQUAL_size_t(1, write_out());
 }
 
-TEST(news_goes_out_with_whatever_is_next)
+TEST(emergency_goes_out_with_the_next_output)
 {
     const struct output next[] = {{.has_drive = true}, {.has_report = true, .whole_report = true}, {.has_answer = true}};
 
@@ -103,7 +103,7 @@ TEST(news_goes_out_with_whatever_is_next)
     expect(FAULT_UNSENT, 3);
 }
 
-TEST(news_waits_while_nothing_goes_out)
+TEST(emergency_waits_for_the_next_output)
 {
     wire_count(&wire, FAULT_UNSENT);
     expect(FAULT_UNSENT, 1);
@@ -153,7 +153,7 @@ static unsigned kind_of(const struct frame *frame)
     return kind;
 }
 
-TEST(each_has_the_length_that_octet_dbc_gives_it)
+TEST(frames_have_their_dbc_lengths)
 {
     const size_t count = write_all_kinds();
     unsigned seen = 0;
@@ -165,7 +165,7 @@ TEST(each_has_the_length_that_octet_dbc_gives_it)
     TEST_ASSERT_EQUAL_HEX32((1u << KIND_COUNT) - 1, seen);
 }
 
-TEST(each_kind_of_message_counts_by_itself)
+TEST(message_kinds_have_separate_counters)
 {
     size_t count;
 
@@ -182,7 +182,7 @@ TEST(each_kind_of_message_counts_by_itself)
         TEST_ASSERT_EQUAL_UINT8(kind + 4, wire.counters[kind]);
 }
 
-TEST(no_byte_behind_a_frame_is_written)
+TEST(bytes_beyond_the_length_are_zero)
 {
     const size_t count = write_all_kinds();
 
@@ -191,7 +191,7 @@ TEST(no_byte_behind_a_frame_is_written)
             TEST_ASSERT_EQUAL_HEX8(0, frames[i].data[beyond]);
 }
 
-TEST(both_pages_of_faults_have_the_same_number)
+TEST(fault_pages_share_one_counter)
 {
     const size_t count = write_all_kinds();
     unsigned pages = 0;

@@ -15,19 +15,19 @@ static void mark_all(void)
     out.has_answer = out.has_report = out.whole_report = out.has_drive = true;
 }
 
-TEST(no_mark_makes_no_frame)
+TEST(output_without_content_writes_no_frame)
 {
     TEST_ASSERT_EQUAL_size_t(0, write_out());
 }
 
-TEST(faults_are_not_told_where_nothing_else_is)
+TEST(faults_alone_write_no_frame)
 {
     wire_count(&wire, FAULT_DAMAGED);
     TEST_ASSERT_EQUAL_size_t(0, write_out());
     expect(FAULT_DAMAGED, 1);
 }
 
-TEST(all_marks_make_all_frames_the_drive_last)
+TEST(all_pending_reports_are_written_with_drive_last)
 {
     static const uint32_t ids[WIRE_FRAMES_MAX] = {0x141, 0x161, 0x6A1, 0x6C1, 0x681, 0x681, 0x781, 0x781, 0x7A1, 0x7C1, 0x041};
 
@@ -37,7 +37,7 @@ TEST(all_marks_make_all_frames_the_drive_last)
     assert_ids(ids, WIRE_FRAMES_MAX);
 }
 
-TEST(the_last_node_writes_its_own_identifiers)
+TEST(last_node_writes_its_own_identifiers)
 {
     static const uint32_t ids[] = {0x15F, 0x6BF, 0x6DF, 0x69F, 0x69F, 0x79F, 0x79F, 0x7BF, 0x7DF, 0x05F};
 
@@ -69,7 +69,7 @@ TEST(wheel_speeds_keep_sign_and_size)
     }
 }
 
-TEST(a_drive_arrives_whole)
+TEST(drive_fields_are_packed)
 {
     const struct octet_drive_t sent = drive_sent(
         (struct drive){.tick = 255, .reason = REASON_EAT, .repeat_count = 255, .action = 127, .eat = true});
@@ -81,7 +81,7 @@ TEST(a_drive_arrives_whole)
     TEST_ASSERT_EQUAL_UINT8(OCTET_DRIVE_EAT_EAT_CHOICE, sent.eat);
 }
 
-TEST(a_drive_has_the_counter_of_the_senses_that_it_answers)
+TEST(drive_has_the_counter_of_its_senses)
 {
     const struct frame senses = senses_frame(NODE, 27);
     struct input in;
@@ -91,7 +91,7 @@ TEST(a_drive_has_the_counter_of_the_senses_that_it_answers)
 }
 
 /* A body on pins writes the senses that its robot acts on. */
-TEST(senses_that_a_body_writes_are_read_whole)
+TEST(senses_written_by_a_body_read_back)
 {
     const struct senses senses = {
         .tick = 200, .feel = FEEL_FRONT | 1, .bump = true, .look = true, .beacon_mm = 300,
@@ -113,7 +113,7 @@ TEST(senses_that_a_body_writes_are_read_whole)
     TEST_ASSERT_EQUAL_UINT16(77, in.senses.odometer_right);
 }
 
-TEST(an_answer_to_get_has_the_value)
+TEST(answer_to_get_has_the_value)
 {
     struct octet_answer_t sent;
 
@@ -123,7 +123,7 @@ TEST(an_answer_to_get_has_the_value)
     TEST_ASSERT_EQUAL_HEX32(0x12345678, sent.value);
 }
 
-TEST(an_answer_names_the_command_that_it_answers)
+TEST(answer_names_its_command)
 {
     const struct octet_answer_t sent = answer_to((struct octet_command_t){.opcode = OPCODE_FREEZE, .counter = 14, .freeze = 1}, RESULT_DONE);
 
@@ -133,7 +133,7 @@ TEST(an_answer_names_the_command_that_it_answers)
     TEST_ASSERT_EQUAL_UINT8(OCTET_ANSWER_RESULT_DONE_CHOICE, sent.result);
 }
 
-TEST(a_refusal_is_counted_and_says_why)
+TEST(refusal_is_counted_and_answered_with_the_reason)
 {
     const struct octet_answer_t sent = answer_to((struct octet_command_t){.opcode = OPCODE_SET, .counter = 3}, RESULT_OUT_OF_RANGE);
 
@@ -152,7 +152,7 @@ static struct octet_emergency_t emergency_sent(void)
     return sent;
 }
 
-TEST(faults_are_told_with_the_next_frame)
+TEST(faults_are_reported_with_the_next_frame)
 {
     struct octet_emergency_t sent;
 
@@ -168,7 +168,7 @@ TEST(faults_are_told_with_the_next_frame)
     TEST_ASSERT_EQUAL_UINT16(3, sent.faults);
 }
 
-TEST(senses_that_a_body_writes_are_counted_and_date_what_follows)
+TEST(senses_written_by_a_body_set_counter_and_tick)
 {
     struct octet_senses_t sent;
     struct frame frame;
@@ -183,7 +183,7 @@ TEST(senses_that_a_body_writes_are_counted_and_date_what_follows)
     TEST_ASSERT_EQUAL_UINT8(100 + 2 * E2E_COUNTERS, emergency_sent().tick);
 }
 
-TEST(faults_are_told_once)
+TEST(faults_are_reported_once)
 {
     wire_count(&wire, FAULT_STALE);
     expect(FAULT_STALE, 1);
@@ -191,7 +191,7 @@ TEST(faults_are_told_once)
     TEST_ASSERT_EQUAL_size_t(1, write_out());
 }
 
-TEST(the_sum_of_all_faults_is_that_of_the_counters)
+TEST(emergency_reports_the_sum_of_fault_counters)
 {
     for (unsigned fault = 0; fault < FAULT_COUNT; fault++) {
         for (unsigned i = 0; i < 300; i++)

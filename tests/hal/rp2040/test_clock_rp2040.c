@@ -12,7 +12,7 @@ volatile struct resets_registers RESETS;
 volatile struct xosc_registers XOSC;
 volatile struct pll_registers PLL_SYS, PLL_USB;
 
-/* Everything answers at once, as it does after some polls. */
+/* Everything is ready at the first poll. */
 void setUp(void)
 {
     memset((void *)&CLOCKS, 0, sizeof CLOCKS);
@@ -24,7 +24,7 @@ void setUp(void)
     PLL_USB = (struct pll_registers){.cs = 1u | READY, .pwr = 0x2D};
 }
 
-TEST(the_core_runs_at_125_mhz_of_the_crystal)
+TEST(core_runs_at_125_mhz_from_the_crystal)
 {
     struct clocks clocks = clock_start();
 
@@ -36,7 +36,7 @@ TEST(the_core_runs_at_125_mhz_of_the_crystal)
     TEST_ASSERT_EQUAL_HEX32(1u << 11, CLOCKS.clk_peri.ctrl);
 }
 
-TEST(the_pll_makes_125_of_12_mhz)
+TEST(pll_makes_125_mhz_from_12_mhz)
 {
     uint32_t prim;
 
@@ -47,14 +47,14 @@ TEST(the_pll_makes_125_of_12_mhz)
     TEST_ASSERT_EQUAL_HEX32(0, RESETS.reset & 1u << 12);
 }
 
-TEST(without_a_pll_the_core_runs_by_the_crystal)
+TEST(core_runs_from_the_crystal_without_a_pll)
 {
     CLOCKS.clk_sys.selected = 1u << 0;
     TEST_ASSERT_EQUAL_UINT32(12000000, clock_start().core_hz);
     TEST_ASSERT_TRUE(clock_start().exact);
 }
 
-TEST(a_crystal_that_does_not_start_leaves_the_ring_oscillator)
+TEST(core_runs_from_the_ring_oscillator_without_a_crystal)
 {
     struct clocks clocks;
 
@@ -65,13 +65,13 @@ TEST(a_crystal_that_does_not_start_leaves_the_ring_oscillator)
     TEST_ASSERT_EQUAL_UINT32(0, CLOCKS.clk_ref.ctrl);
 }
 
-TEST(a_reference_that_does_not_switch_leaves_the_ring_oscillator)
+TEST(failed_reference_switch_makes_the_clock_inexact)
 {
     CLOCKS.clk_ref.selected = 1;
     TEST_ASSERT_FALSE(clock_start().exact);
 }
 
-TEST(a_pll_without_lock_is_not_used)
+TEST(pll_without_lock_is_not_used)
 {
     /* Its register reads as written: not locked. */
     PLL_SYS.cs = 1;
@@ -79,14 +79,14 @@ TEST(a_pll_without_lock_is_not_used)
     TEST_ASSERT_EQUAL_UINT32(0, CLOCKS.clk_sys.ctrl);
 }
 
-TEST(a_block_that_stays_in_reset_does_not_hold_up_the_start)
+TEST(block_stuck_in_reset_does_not_block_the_start)
 {
     RESETS.reset_done = 0;
     clock_release(1u << 22);
     TEST_ASSERT_EQUAL_HEX32(0x01FFFFFF & ~(1u << 22), RESETS.reset);
 }
 
-TEST(the_adc_gets_48_of_12_mhz_by_the_other_pll)
+TEST(adc_gets_48_mhz_from_the_usb_pll)
 {
     uint32_t prim;
 
@@ -97,7 +97,7 @@ TEST(the_adc_gets_48_of_12_mhz_by_the_other_pll)
     TEST_ASSERT_EQUAL_HEX32(0, RESETS.reset & 1u << 13);
 }
 
-TEST(without_that_pll_the_adc_has_no_clock)
+TEST(adc_has_no_clock_without_the_usb_pll)
 {
     PLL_USB.cs = 1;
     TEST_ASSERT_FALSE(clock_start_adc());

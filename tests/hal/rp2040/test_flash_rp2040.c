@@ -1,4 +1,4 @@
-/* The store's flash on a ROM whose functions work on the test's memory. */
+/* The store's flash, with fake ROM functions on the test's memory. */
 #include "hal/flash_store/flash.h"
 
 #include <string.h>
@@ -61,20 +61,20 @@ static void assert_reads(unsigned page, uint32_t offset, const uint32_t expected
     TEST_ASSERT_EQUAL_HEX32_ARRAY(expected, found, count / 4);
 }
 
-TEST(it_is_there_where_the_rom_can_write)
+TEST(flash_exists_if_the_rom_has_its_functions)
 {
     TEST_ASSERT_TRUE(flash_exists());
     exists = false;
     TEST_ASSERT_FALSE(flash_exists());
 }
 
-TEST(a_record_is_a_unit_and_a_page_a_sector)
+TEST(unit_is_16_bytes_and_page_is_4_kib)
 {
     TEST_ASSERT_EQUAL_UINT32(16, flash_unit());
     TEST_ASSERT_EQUAL_UINT32(4096, flash_page_size());
 }
 
-TEST(the_store_is_at_the_end_of_the_flash)
+TEST(store_is_at_the_end_of_the_flash)
 {
     TEST_ASSERT_EQUAL(0, flash_erase(0));
     TEST_ASSERT_EQUAL_HEX32(0x1FE000, last);
@@ -82,7 +82,7 @@ TEST(the_store_is_at_the_end_of_the_flash)
     TEST_ASSERT_EQUAL_HEX32(0x1FF000, last);
 }
 
-TEST(the_stores_of_a_body_are_before_it)
+TEST(body_stores_are_before_the_memory_store)
 {
     TEST_ASSERT_EQUAL(0, flash_erase(FLASH_PAGES + 58));
     TEST_ASSERT_EQUAL_HEX32(0x1FA000, last);
@@ -90,7 +90,7 @@ TEST(the_stores_of_a_body_are_before_it)
     TEST_ASSERT_EQUAL_HEX32(0x1FD000, last);
 }
 
-TEST(what_is_written_reads_back_and_all_else_stays)
+TEST(written_words_read_back_and_others_stay)
 {
     static const uint32_t blank[2] = {UINT32_MAX, UINT32_MAX};
 
@@ -101,7 +101,7 @@ TEST(what_is_written_reads_back_and_all_else_stays)
     assert_reads(0, 0x4F0, blank, 8);
 }
 
-TEST(zeros_go_over_anything)
+TEST(zeros_can_be_written_over_any_word)
 {
     static const uint32_t zeros[4];
 
@@ -110,7 +110,7 @@ TEST(zeros_go_over_anything)
     assert_reads(0, 16, zeros, 16);
 }
 
-TEST(an_erase_clears_its_sector_only)
+TEST(erase_clears_its_sector_only)
 {
     TEST_ASSERT_EQUAL(0, flash_write(0, 0, words, 16));
     TEST_ASSERT_EQUAL(0, flash_write(1, 0, words, 16));
@@ -119,7 +119,7 @@ TEST(an_erase_clears_its_sector_only)
     assert_reads(1, 0, words, 16);
 }
 
-TEST(a_byte_that_does_not_take_its_value_is_told)
+TEST(flash_write_fails_at_a_byte_that_keeps_its_value)
 {
     stuck = 35;
     TEST_ASSERT_EQUAL(0, flash_write(0, 0, words, 16));
@@ -129,7 +129,7 @@ TEST(a_byte_that_does_not_take_its_value_is_told)
     TEST_ASSERT_EQUAL(-1, flash_erase(0));
 }
 
-TEST(the_line_is_read_after_each_operation)
+TEST(serial_line_is_served_after_each_operation)
 {
     (void)flash_write(0, 0, words, 32);
     TEST_ASSERT_EQUAL(2, pumped);

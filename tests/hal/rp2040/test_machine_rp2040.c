@@ -41,7 +41,7 @@ void setUp(void)
     (void)mcu_start();
 }
 
-TEST(the_watchdog_bites_after_2_seconds)
+TEST(watchdog_resets_after_2_seconds)
 {
     TEST_ASSERT_EQUAL_UINT32(12, WATCHDOG.tick & 0x1FF);      /* a microsecond of the crystal, */
     TEST_ASSERT_TRUE(WATCHDOG.tick & 1u << 9);
@@ -49,14 +49,14 @@ TEST(the_watchdog_bites_after_2_seconds)
     TEST_ASSERT_EQUAL_HEX32(0x1FFFC, PSM.wdsel);              /* all but the oscillators */
 }
 
-TEST(feeding_loads_it_anew)
+TEST(mcu_feed_reloads_the_watchdog)
 {
     WATCHDOG.load = 0;
     mcu_feed();
     TEST_ASSERT_EQUAL_UINT32(4000000, WATCHDOG.load);
 }
 
-TEST(the_clocks_are_as_they_started)
+TEST(machine_reports_the_started_clocks)
 {
     TEST_ASSERT_EQUAL_UINT32(125000000, mcu_start());
     TEST_ASSERT_EQUAL_UINT32(125000000, machine_clocks().core_hz);
@@ -67,12 +67,12 @@ TEST(the_clocks_are_as_they_started)
     TEST_ASSERT_FALSE(mcu_clock_is_exact());
 }
 
-TEST(pins_and_serial_port_leave_their_reset)
+TEST(gpio_and_uart_are_released_from_reset)
 {
     TEST_ASSERT_EQUAL_HEX32(1u << 5 | 1u << 8 | 1u << 22, released);
 }
 
-TEST(the_pins_are_connected)
+TEST(gpio_pins_have_their_functions)
 {
     TEST_ASSERT_EQUAL_UINT32(2, IO_BANK0.gpio[0].gpio_ctrl);
     TEST_ASSERT_EQUAL_UINT32(2, IO_BANK0.gpio[1].gpio_ctrl);
@@ -81,7 +81,7 @@ TEST(the_pins_are_connected)
     TEST_ASSERT_EQUAL_HEX32(0x5A, PADS_BANK0.gpio[1]);   /* an input, pulled up: an open line is idle */
 }
 
-TEST(the_led_is_switched)
+TEST(mcu_light_switches_the_led)
 {
     mcu_light(true);
     TEST_ASSERT_EQUAL_HEX32(1u << LED, SIO.gpio_out_set);
@@ -90,7 +90,7 @@ TEST(the_led_is_switched)
     TEST_ASSERT_EQUAL_HEX32(1u << LED, SIO.gpio_out_clr);
 }
 
-TEST(the_cause_of_a_reset_is_told)
+TEST(mcu_reports_the_reset_cause)
 {
     TEST_ASSERT_EQUAL(RESET_POWER_ON, mcu_reset_cause());
     CHIP_RESET.chip_reset = 1u << 16;

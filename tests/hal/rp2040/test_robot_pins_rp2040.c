@@ -64,7 +64,7 @@ void setUp(void)
     pins_open();
 }
 
-TEST(the_registers_lie_where_the_data_sheet_has_them)
+TEST(register_offsets_match_the_data_sheet)
 {
     TEST_ASSERT_EQUAL_HEX(0xA4, offsetof(struct pwm_registers, intr));
     TEST_ASSERT_EQUAL_HEX(0x38, offsetof(struct uart_registers, uartimsc));
@@ -73,7 +73,7 @@ TEST(the_registers_lie_where_the_data_sheet_has_them)
     TEST_ASSERT_EQUAL_HEX(0xF0, offsetof(struct io_registers, intr));
 }
 
-TEST(both_motors_have_pwm_of_20_khz_and_brake)
+TEST(motors_start_with_20_khz_pwm_and_brake)
 {
     for (unsigned slice = 1; slice <= 2; slice++) {
         TEST_ASSERT_EQUAL_HEX32(1, PWM.ch[slice].csr);
@@ -85,7 +85,7 @@ TEST(both_motors_have_pwm_of_20_khz_and_brake)
         TEST_ASSERT_EQUAL_UINT32(4, IO_BANK0.gpio[pin].gpio_ctrl);
 }
 
-TEST(a_beat_is_5_ms_at_any_clock)
+TEST(beat_is_5_ms_at_any_clock)
 {
     const uint32_t clocks_hz[] = {125000000, 12000000, 6500000};
 
@@ -100,7 +100,7 @@ TEST(a_beat_is_5_ms_at_any_clock)
     TEST_ASSERT_EQUAL_HEX32(1u << 4, UART0.uartimsc);
 }
 
-TEST(the_beacon_s_bursts_are_counted_as_they_begin)
+TEST(beacon_bursts_are_counted_at_their_falling_edge)
 {
     TEST_ASSERT_EQUAL_HEX32(1 | 3 << 4, PWM.ch[6].csr);
     TEST_ASSERT_EQUAL_HEX32(0xFFFF, PWM.ch[6].top);
@@ -109,7 +109,7 @@ TEST(the_beacon_s_bursts_are_counted_as_they_begin)
     TEST_ASSERT_EQUAL_UINT16(9, pins_bursts());
 }
 
-TEST(contacts_are_pulled_up_and_sensors_are_left_to_the_adc)
+TEST(contacts_are_pulled_up_and_sensor_pins_are_analog)
 {
     TEST_ASSERT_EQUAL_HEX32(0x5A, PADS_BANK0.gpio[14]);
     for (unsigned pin = 26; pin <= 29; pin++) {
@@ -119,7 +119,7 @@ TEST(contacts_are_pulled_up_and_sensors_are_left_to_the_adc)
     TEST_ASSERT_EQUAL_HEX32(1u << 0 | 1u << 10 | 1u << 14, released);
 }
 
-TEST(an_adc_without_a_clock_stays_in_reset)
+TEST(adc_without_a_clock_stays_in_reset)
 {
     released = 0;
     adc_has_clock = false;
@@ -127,7 +127,7 @@ TEST(an_adc_without_a_clock_stays_in_reset)
     TEST_ASSERT_EQUAL_HEX32(1u << 10 | 1u << 14, released);
 }
 
-TEST(an_adc_that_does_not_answer_is_a_flat_battery_and_sees_nothing)
+TEST(dead_adc_reads_as_no_light_and_empty_battery)
 {
     uint16_t light[FEEL_COUNT];
 
@@ -139,7 +139,7 @@ TEST(an_adc_that_does_not_answer_is_a_flat_battery_and_sees_nothing)
 }
 
 /* By the truth table of the DRV8833: 1/0 drives forward, 0/1 backward, 1/1 brakes; nothing is ever 0/0, which coasts. */
-TEST(a_duty_is_the_time_in_which_one_input_is_low_and_the_motor_brakes_in_the_rest)
+TEST(duty_drives_one_input_low_and_brakes_otherwise)
 {
     pins_push(0, 16384);
     TEST_ASSERT_EQUAL_UINT32(TOP, PWM.ch[1].cc & 0xFFFF);
@@ -149,7 +149,7 @@ TEST(a_duty_is_the_time_in_which_one_input_is_low_and_the_motor_brakes_in_the_re
     TEST_ASSERT_EQUAL_UINT32(TOP, PWM.ch[2].cc >> 16);
 }
 
-TEST(a_beat_is_slept_for_and_the_line_is_served_meanwhile)
+TEST(pins_wait_sleeps_until_the_timer_and_serves_the_serial_line)
 {
     PWM.intr = 0;
     pins_wait();
@@ -171,7 +171,7 @@ TEST(outputs_are_set_and_cleared)
     TEST_ASSERT_EQUAL_HEX32(1u << 12, SIO.gpio_out_set);
 }
 
-TEST(a_fault_of_the_bridge_is_kept_however_short)
+TEST(short_bridge_fault_is_latched)
 {
     IO_BANK0.intr[1] = 0;
     TEST_ASSERT_FALSE(pins_bridge_failed());
@@ -181,7 +181,7 @@ TEST(a_fault_of_the_bridge_is_kept_however_short)
     TEST_ASSERT_TRUE(pins_bridge_failed());
 }
 
-TEST(contacts_are_closed_to_ground)
+TEST(pressed_contacts_read_low)
 {
     SIO.gpio_in = 0xFFFFFFFF;
     TEST_ASSERT_FALSE(pins_bumped());
@@ -194,7 +194,7 @@ TEST(contacts_are_closed_to_ground)
     TEST_ASSERT_TRUE(pins_button());
 }
 
-TEST(an_encoder_tells_its_newest_count)
+TEST(encoder_returns_its_newest_count)
 {
     PIO0.rxf[1] = 0x1FFFE;
     TEST_ASSERT_EQUAL_UINT16(0xFFFE, pins_count(1));
@@ -203,7 +203,7 @@ TEST(an_encoder_tells_its_newest_count)
     TEST_ASSERT_EQUAL_HEX32(8u << 15, PIO0.sm[1].pinctrl);
 }
 
-TEST(an_encoder_that_does_not_answer_has_its_last_count)
+TEST(silent_encoder_keeps_its_last_count)
 {
     PIO0.rxf[0] = 7;
     TEST_ASSERT_EQUAL_UINT16(7, encoder_count(0));

@@ -24,7 +24,7 @@ void setUp(void)
     uart_start(115200);
 }
 
-TEST(the_divisor_is_the_nearest)
+TEST(uart_divisor_is_the_nearest)
 {
     TEST_ASSERT_EQUAL_UINT32(67, UART0.uartibrd);
     TEST_ASSERT_EQUAL_UINT32(52, UART0.uartfbrd);   /* 67.8168 */
@@ -34,31 +34,31 @@ TEST(the_divisor_is_the_nearest)
     TEST_ASSERT_EQUAL_UINT32(33, UART0.uartfbrd);   /* 6.5104 */
 }
 
-TEST(it_starts_in_both_directions_with_queues)
+TEST(uart_starts_both_directions_with_fifos)
 {
     TEST_ASSERT_EQUAL_HEX32(0x70, UART0.uartlcr_h);
     TEST_ASSERT_EQUAL_HEX32(0x301, UART0.uartcr);
 }
 
-TEST(stopping_switches_the_port_off)
+TEST(uart_stop_disables_the_port)
 {
     uart_stop();
     TEST_ASSERT_EQUAL_HEX32(0, UART0.uartcr);
 }
 
-TEST(no_byte_is_nothing)
+TEST(uart_get_returns_nothing_without_a_byte)
 {
     UART0.uartfr = EMPTY;
     TEST_ASSERT_EQUAL(UART_NOTHING, uart_get());
 }
 
-TEST(a_byte_is_got_as_it_is)
+TEST(uart_get_returns_the_received_byte)
 {
     UART0.uartdr = 0xFF;
     TEST_ASSERT_EQUAL(0xFF, uart_get());
 }
 
-TEST(each_receive_error_is_told)
+TEST(uart_get_reports_every_receive_error)
 {
     for (uint32_t error = 1u << 8; error <= 1u << 11; error <<= 1) {
         UART0.uartdr = error | 'x';
@@ -66,7 +66,7 @@ TEST(each_receive_error_is_told)
     }
 }
 
-TEST(a_byte_goes_out_with_the_next_look_at_what_was_received)
+TEST(uart_get_sends_a_queued_byte)
 {
     TEST_ASSERT_TRUE(uart_put(0xA7));
     UART0.uartfr = EMPTY;
@@ -74,7 +74,7 @@ TEST(a_byte_goes_out_with_the_next_look_at_what_was_received)
     TEST_ASSERT_EQUAL_HEX32(0xA7, UART0.uartdr);
 }
 
-TEST(what_the_port_does_not_take_waits_and_nothing_is_lost)
+TEST(uart_put_queues_256_bytes_and_loses_none)
 {
     UART0.uartdr = 0x55;
     UART0.uartfr = FULL | EMPTY;

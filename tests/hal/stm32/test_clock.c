@@ -39,32 +39,32 @@ static void assert_runs_from_pll(uint32_t mhz)
     TEST_ASSERT_EQUAL_HEX32(RCC.cfgr & ~SWITCH_MASK, model.cfgr_before & ~SWITCH_MASK);   /* buses and PLL were set up by then */
 }
 
-TEST(the_registers_lie_where_the_manual_has_them)
+TEST(register_offsets_match_the_manual)
 {
     assert_registers();
 }
 
-TEST(the_crystal_makes_the_full_speed)
+TEST(clock_start_reaches_full_speed_from_the_crystal)
 {
     assert_starts_as(&BEST);
     TEST_ASSERT_TRUE(pll_follows_crystal());
     assert_runs_from_pll(BEST.core_hz / 1000000);
 }
 
-TEST(a_slow_crystal_is_waited_for)
+TEST(slow_crystal_is_waited_for)
 {
     model.crystal_ms = 99;
     assert_starts_as(&BEST);
 }
 
 /* A bit beside those that start something can bypass the crystal, or watch it with an interrupt. */
-TEST(nothing_else_is_switched_on)
+TEST(clock_start_enables_nothing_else)
 {
     (void)clock_start();
     TEST_ASSERT_EQUAL_HEX32(0, model.others_on);
 }
 
-TEST(each_wait_lasts_as_long_as_it_may_and_no_longer)
+TEST(waits_end_exactly_at_their_limits)
 {
     for (unsigned late = 0; late <= 1; late++) {
         model_reset();
@@ -82,7 +82,7 @@ TEST(each_wait_lasts_as_long_as_it_may_and_no_longer)
     }
 }
 
-TEST(without_a_crystal_the_internal_oscillator_makes_what_it_can)
+TEST(missing_crystal_falls_back_to_internal_oscillator_and_pll)
 {
     model.crystal_ms = NEVER;
     assert_starts_as(&GOOD);
@@ -90,20 +90,20 @@ TEST(without_a_crystal_the_internal_oscillator_makes_what_it_can)
     assert_runs_from_pll(GOOD.core_hz / 1000000);
 }
 
-TEST(without_a_pll_it_runs_from_the_internal_oscillator)
+TEST(missing_pll_falls_back_to_internal_oscillator)
 {
     model.pll_ms = NEVER;
     assert_starts_as(&SLOW);
     TEST_ASSERT_EQUAL_HEX32(SW_INTERNAL, RCC.cfgr);
 }
 
-TEST(with_neither_crystal_nor_pll_it_runs_from_the_internal_oscillator)
+TEST(missing_crystal_and_pll_fall_back_to_internal_oscillator)
 {
     model.crystal_ms = model.pll_ms = NEVER;
     assert_starts_as(&SLOW);
 }
 
-TEST(a_switch_that_does_not_come_about_is_taken_back)
+TEST(failed_clock_switch_is_reverted)
 {
     model.switch_ms = NEVER;
     assert_starts_as(&SLOW);
@@ -111,7 +111,7 @@ TEST(a_switch_that_does_not_come_about_is_taken_back)
 }
 
 /* RM0090 3.5.1: the flash is read too fast until its register shows the new wait states. */
-TEST(the_clock_gets_no_faster_than_the_flash)
+TEST(clock_stays_slow_without_flash_wait_states)
 {
     model.flash_ms = NEVER;
     assert_starts_as(&SLOW);
@@ -119,7 +119,7 @@ TEST(the_clock_gets_no_faster_than_the_flash)
     TEST_ASSERT_EQUAL_UINT32(0, model.switches);
 }
 
-TEST(no_data_cache_hides_what_the_store_is_now)
+TEST(clock_start_disables_the_flash_data_cache)
 {
     for (unsigned pll = 0; pll <= 1; pll++) {
         model_reset();
@@ -131,20 +131,20 @@ TEST(no_data_cache_hides_what_the_store_is_now)
     }
 }
 
-TEST(reset_flags_are_read_and_forgotten)
+TEST(reset_flags_are_read_and_cleared)
 {
     RCC.csr = 0x14000000;
     TEST_ASSERT_EQUAL_HEX32(0x14000000, chip_reset_flags());
     TEST_ASSERT_EQUAL_HEX32(FORGET | 0x14000000, RCC.csr);
 }
 
-TEST(a_brown_out_alone_is_a_power_on)
+TEST(brown_out_counts_as_power_on)
 {
     RCC.csr = CLOCK_TABLE.brown_out | 1u << 26;   /* as each reset, it pulls the pin */
     TEST_ASSERT_EQUAL(CLOCK_TABLE.brown_out != 0, (chip_reset_flags() & CHIP_POWER_ON) != 0);
 }
 
-TEST(what_is_special_about_the_chip)
+TEST(clock_start_sets_the_registers_special_to_the_chip)
 {
     assert_special();
 }

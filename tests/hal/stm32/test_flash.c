@@ -29,7 +29,7 @@ static int erase(unsigned page)
     return result;
 }
 
-TEST(no_setting_but_the_lock_tells_of_a_controller)
+TEST(flash_exists_only_if_its_lock_bit_is_set)
 {
     FLASH.cr = ~LOCK;
     TEST_ASSERT_FALSE(flash_exists());
@@ -37,13 +37,13 @@ TEST(no_setting_but_the_lock_tells_of_a_controller)
     TEST_ASSERT_TRUE(flash_exists());
 }
 
-TEST(pages_and_what_is_written_at_once_have_their_sizes)
+TEST(page_and_unit_have_the_sizes_of_the_chip)
 {
     TEST_ASSERT_EQUAL_UINT32(PAGE_BYTES, flash_page_size());
     TEST_ASSERT_EQUAL_UINT32(UNIT_BYTES, flash_unit());
 }
 
-TEST(what_is_written_can_be_read_and_nothing_else_has_changed)
+TEST(written_words_read_back_and_others_stay)
 {
     uint32_t words[COUNT];
     uint32_t end = PAGE_BYTES - sizeof WORDS;
@@ -56,7 +56,7 @@ TEST(what_is_written_can_be_read_and_nothing_else_has_changed)
         TEST_ASSERT_EQUAL_HEX8(0xFF, ((const volatile uint8_t *)STORE)[at]);
 }
 
-TEST(a_page_is_erased_whole_and_the_other_one_is_not_touched)
+TEST(erase_clears_its_page_only)
 {
     for (unsigned page = 0; page < FLASH_PAGES; page++) {
         model_reset();
@@ -68,7 +68,7 @@ TEST(a_page_is_erased_whole_and_the_other_one_is_not_touched)
     }
 }
 
-TEST(each_error_of_the_controller_fails_the_operation_and_ends_it)
+TEST(controller_error_fails_and_ends_the_operation)
 {
     for (uint32_t flag = 1; flag <= ERRORS; flag <<= 1) {
         if (!(flag & ERRORS))
@@ -81,7 +81,7 @@ TEST(each_error_of_the_controller_fails_the_operation_and_ends_it)
     }
 }
 
-TEST(errors_left_over_from_before_fail_nothing)
+TEST(earlier_error_flags_are_ignored)
 {
     model.flags = ERRORS;
     TEST_ASSERT_EQUAL(0, write_all(0, 0));
@@ -89,7 +89,7 @@ TEST(errors_left_over_from_before_fail_nothing)
     TEST_ASSERT_EQUAL(0, erase(0));
 }
 
-TEST(while_the_supply_is_low_nothing_is_begun)
+TEST(low_supply_refuses_write_and_erase)
 {
     supply(true);
     TEST_ASSERT_EQUAL(-1, write_all(0, 0));
@@ -98,7 +98,7 @@ TEST(while_the_supply_is_low_nothing_is_begun)
     TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, (const void *)STORE[0], PAGE_BYTES);
 }
 
-TEST(an_operation_is_waited_for_as_long_as_it_takes_and_no_longer)
+TEST(operation_waits_only_while_the_flash_is_busy)
 {
     uint32_t start = model.now_ms;
 
@@ -111,7 +111,7 @@ TEST(an_operation_is_waited_for_as_long_as_it_takes_and_no_longer)
     TEST_ASSERT_UINT32_WITHIN(1, 21, model.now_ms - start);
 }
 
-TEST(the_slowest_write_is_waited_for_and_one_that_hangs_is_not)
+TEST(write_times_out_after_its_limit)
 {
     model.busy_ms = WRITE_LIMIT_MS;
     TEST_ASSERT_EQUAL(0, write_all(0, 0));
@@ -121,7 +121,7 @@ TEST(the_slowest_write_is_waited_for_and_one_that_hangs_is_not)
     TEST_ASSERT_EQUAL_UINT(1, model.operations);
 }
 
-TEST(the_slowest_erase_is_waited_for_and_one_that_hangs_is_not)
+TEST(erase_times_out_after_its_limit)
 {
     model.busy_ms = ERASE_LIMIT_MS;
     TEST_ASSERT_EQUAL(0, erase(1));
@@ -131,7 +131,7 @@ TEST(the_slowest_erase_is_waited_for_and_one_that_hangs_is_not)
 }
 
 /* A cell can lose bits, and a bit can stay as it is. */
-TEST(a_word_that_comes_out_greater_or_smaller_fails_and_ends_the_write)
+TEST(flash_write_stops_at_a_word_that_reads_back_differently)
 {
     static const store_word others[] = {0, (store_word)-1};
 

@@ -19,7 +19,7 @@ static struct {
     uint16_t halves[2][2];   /* of the word, each time */
 } pumped;
 
-/* Whatever was asked for is done by the time that somebody looks at the clock. */
+/* Each operation is done when the driver reads the clock. */
 uint32_t machine_ms(void)
 {
     FLASH.sr = 0;
@@ -43,7 +43,7 @@ void setUp(void)
     FLASH.cr = LOCK;
 }
 
-TEST(a_word_is_written_in_halves_and_the_line_is_pumped_after_each)
+TEST(word_is_written_in_halves_with_line_pump_after_each)
 {
     static const uint16_t lower_first[2][2] = {{0x5678, 0xFFFF}, {0x5678, 0x1234}};
     const uint32_t word = 0x12345678;
@@ -53,13 +53,13 @@ TEST(a_word_is_written_in_halves_and_the_line_is_pumped_after_each)
     TEST_ASSERT_EQUAL_MEMORY(lower_first, pumped.halves, sizeof lower_first);
 }
 
-TEST(the_line_is_pumped_after_an_erase)
+TEST(flash_erase_serves_the_serial_line)
 {
     TEST_ASSERT_EQUAL(0, flash_erase(1));
     TEST_ASSERT_EQUAL_UINT(1, pumped.count);
 }
 
-TEST(pages_behind_those_of_the_store_are_the_chips_own)
+TEST(pages_after_the_store_address_the_whole_chip)
 {
     uint32_t word = 0x12345678, read;
 

@@ -20,7 +20,7 @@ volatile struct power_registers PWR;
 __attribute__((aligned(HOST_PAGE))) volatile uint32_t STORE[FLASH_PAGES][WORDS];
 volatile uint32_t PAGES[1][WORDS];
 
-/* Whatever was asked for is done by the time that somebody looks at the clock. */
+/* Each operation is done when the driver reads the clock. */
 uint32_t machine_ms(void)
 {
     FLASH.sr = 0;
@@ -38,7 +38,7 @@ void setUp(void)
     FLASH.cr = LOCK;
 }
 
-TEST(what_cannot_be_corrected_cannot_be_read)
+TEST(uncorrectable_ecc_error_fails_read_and_write)
 {
     uint32_t words[2] = {1, 2};
 
@@ -51,7 +51,7 @@ TEST(what_cannot_be_corrected_cannot_be_read)
     TEST_ASSERT_EQUAL(0, flash_write(0, 8, words, sizeof words));
 }
 
-TEST(pages_behind_those_of_the_store_are_the_chips_own)
+TEST(pages_after_the_store_address_the_whole_chip)
 {
     static const uint32_t words[2] = {0x12345678, 0x9ABCDEF0};
     uint32_t read[2];
@@ -63,13 +63,13 @@ TEST(pages_behind_those_of_the_store_are_the_chips_own)
     TEST_ASSERT_EQUAL_HEX32(words[1], PAGES[0][3]);
 }
 
-TEST(an_interrupt_is_forgiven_to_nobody_but_the_reader)
+TEST(ecc_interrupt_outside_of_a_read_is_not_handled)
 {
     FLASH.eccr = TWO_BITS;
     TEST_ASSERT_FALSE(flash_forgives());
 }
 
-TEST(an_address_that_an_old_error_has_left_is_no_error)
+TEST(flash_read_ignores_the_address_of_an_earlier_error)
 {
     uint32_t words[2];
 
@@ -91,7 +91,7 @@ static void interrupt(int number)
     (void)mprotect((void *)STORE, sizeof STORE, PROT_READ | PROT_WRITE);
 }
 
-TEST(an_interrupt_while_reading_is_forgiven_and_told_once)
+TEST(ecc_interrupt_in_a_read_fails_that_read_once)
 {
     struct sigaction handler = {.sa_handler = interrupt}, before;
     uint32_t words[2];

@@ -37,20 +37,20 @@ void setUp(void)
     (void)mcu_start();
 }
 
-TEST(it_starts_the_watchdog_for_2_seconds)
+TEST(watchdog_resets_after_2_seconds)
 {
     TEST_ASSERT_EQUAL_UINT32(3, IWDG.pr);   /* by 32 */
     TEST_ASSERT_EQUAL_UINT32(2000, IWDG.rlr);
 }
 
-TEST(a_watchdog_that_stays_busy_does_not_hold_up_the_start)
+TEST(busy_watchdog_does_not_block_the_start)
 {
     IWDG.sr = 3;
     (void)mcu_start();
     TEST_ASSERT_TRUE(pins_started);
 }
 
-TEST(the_clocks_are_as_they_started)
+TEST(machine_reports_the_started_clocks)
 {
     TEST_ASSERT_EQUAL_UINT32(168000000, mcu_start());
     TEST_ASSERT_EQUAL_UINT32(42000000, machine_clocks().can_hz);
@@ -60,7 +60,7 @@ TEST(the_clocks_are_as_they_started)
     TEST_ASSERT_FALSE(mcu_clock_is_exact());
 }
 
-TEST(each_cause_of_a_reset_is_told_by_its_flag)
+TEST(reset_flags_map_to_reset_causes)
 {
     static const struct {
         uint32_t flags;
@@ -77,7 +77,7 @@ TEST(each_cause_of_a_reset_is_told_by_its_flag)
 }
 
 /* The other bits of this register are not about resets: the low-speed oscillator is on while the watchdog runs. */
-TEST(what_else_is_in_the_register_of_flags_is_no_cause)
+TEST(other_reset_register_bits_are_ignored)
 {
     for (unsigned other = 0; other < 26; other++) {
         reset_flags = PIN | 1u << other;
@@ -92,7 +92,7 @@ TEST(systick_counts_an_eighth_of_the_core_clock)
     TEST_ASSERT_EQUAL_UINT32(8, mcu_systick_divisor());
 }
 
-TEST(feeding_feeds)
+TEST(mcu_feed_reloads_the_watchdog)
 {
     IWDG.kr = 0;
     mcu_feed();

@@ -1,4 +1,4 @@
-/* A robot that talks to nobody. */
+/* A robot without a bus. */
 #include "hal/can_body/port.h"
 #include "hal/pins_body/telemetry.h"
 #include "hal/port/cortex_m/uart.h"
@@ -8,7 +8,7 @@ void setUp(void)
 {
 }
 
-TEST(it_opens_hears_nothing_and_says_nothing)
+TEST(telemetry_without_a_bus_does_nothing)
 {
     const struct port port = {.node = 1};
     const struct senses senses = {.tick = 1};

@@ -49,14 +49,14 @@ static bool is_used(unsigned port, unsigned number)
     return pin == BOARD_LED || pin == BOARD_CAN_RX || pin == BOARD_CAN_TX || pin == BOARD_UART_RX || pin == BOARD_UART_TX;
 }
 
-TEST(the_registers_lie_where_the_manual_has_them)
+TEST(register_offsets_match_the_manual)
 {
     TEST_ASSERT_EQUAL_HEX(0x18, offsetof(struct gpio_registers, bsrr));
     TEST_ASSERT_EQUAL_HEX(0x20, offsetof(struct gpio_registers, afr));
     TEST_ASSERT_EQUAL_HEX(0x400, sizeof(struct gpio_port));
 }
 
-TEST(can_and_the_serial_port_have_their_pins)
+TEST(can_and_uart_have_their_pins)
 {
     assert_connected(BOARD_CAN_RX, CAN_FUNCTION, true);
     assert_connected(BOARD_CAN_TX, CAN_FUNCTION, false);
@@ -64,7 +64,7 @@ TEST(can_and_the_serial_port_have_their_pins)
     assert_connected(BOARD_UART_TX, UART_FUNCTION, false);
 }
 
-TEST(no_other_pin_is_touched)
+TEST(other_pins_are_unchanged)
 {
     for (unsigned port = 0; port < PORTS; port++)
         for (unsigned pin = 0; pin < PINS; pin++) {
@@ -76,12 +76,12 @@ TEST(no_other_pin_is_touched)
         }
 }
 
-TEST(what_is_used_has_power)
+TEST(used_peripherals_are_clocked)
 {
     assert_powered();
 }
 
-TEST(the_led_is_lit_as_the_board_has_it)
+TEST(mcu_light_drives_the_led_pin)
 {
     TEST_ASSERT_EQUAL_HEX32(OUTPUT, field(GPIO[BOARD_LED / PINS].at.moder, BOARD_LED % PINS));
     mcu_light(true);

@@ -31,7 +31,7 @@ static uint32_t mode(unsigned port, unsigned pin)
     return GPIO[port].at.cr[pin / 8] >> 4 * (pin % 8) & 15u;
 }
 
-TEST(the_registers_lie_where_the_manual_has_them)
+TEST(register_offsets_match_the_manual)
 {
     TEST_ASSERT_EQUAL_HEX(0x10, offsetof(struct gpio_registers, bsrr));
     TEST_ASSERT_EQUAL_HEX(0x400, sizeof(struct gpio_port));
@@ -41,7 +41,7 @@ TEST(the_registers_lie_where_the_manual_has_them)
     TEST_ASSERT_EQUAL_HEX(0x04, offsetof(struct power_registers, csr));
 }
 
-TEST(can_and_the_serial_port_have_their_pins)
+TEST(can_and_uart_have_their_pins)
 {
     TEST_ASSERT_EQUAL_HEX32(PULLED, mode(1, 8));
     TEST_ASSERT_EQUAL_HEX32(ALTERNATE_50_MHZ, mode(1, 9));
@@ -50,7 +50,7 @@ TEST(can_and_the_serial_port_have_their_pins)
     TEST_ASSERT_EQUAL_HEX32(2 << 13, AFIO.mapr & 3 << 13);
 }
 
-TEST(the_beacon_has_its_timer_and_jtag_leaves_its_pins)
+TEST(remap_routes_the_beacon_timer_and_disables_jtag)
 {
     TEST_ASSERT_EQUAL_HEX32(1 << 8, AFIO.mapr & 3 << 8);
     TEST_ASSERT_EQUAL_HEX32(2 << 24, AFIO.mapr & 7 << 24);
@@ -62,7 +62,7 @@ TEST(open_receive_pins_are_pulled_up)
     TEST_ASSERT_EQUAL_HEX32(1 << 10, GPIO[0].at.bsrr);
 }
 
-TEST(no_other_pin_is_touched)
+TEST(other_pins_are_unchanged)
 {
     unsigned floating = 0;
 
@@ -72,14 +72,14 @@ TEST(no_other_pin_is_touched)
     TEST_ASSERT_EQUAL_UINT(PORTS * 16 - 5, floating);
 }
 
-TEST(what_is_used_has_power)
+TEST(used_peripherals_are_clocked)
 {
     TEST_ASSERT_EQUAL_HEX32(1 << 0 | 7 << 2 | 1 << 14, RCC.apb2enr);
     TEST_ASSERT_EQUAL_HEX32(1 << 25 | 1 << 28, RCC.apb1enr);
     TEST_ASSERT_EQUAL_HEX32(7 << 5 | 1 << 4, PWR.cr);
 }
 
-TEST(the_led_is_lit_by_a_low_pin)
+TEST(led_is_lit_by_a_low_pin)
 {
     TEST_ASSERT_EQUAL_HEX32(OUTPUT_2_MHZ, mode(2, 13));
     mcu_light(true);

@@ -32,7 +32,7 @@ struct clocks machine_clocks(void)
 void core_sleep(void)
 {
     slept++;
-    TIM1.sr = slept >= 2 ? 1 : 0;   /* woken once by something else */
+    TIM1.sr = slept >= 2 ? 1 : 0;   /* woken once by another interrupt */
 }
 
 void setUp(void)
@@ -46,7 +46,7 @@ void setUp(void)
     pins_open();
 }
 
-TEST(the_registers_lie_where_the_manual_has_them)
+TEST(register_offsets_match_the_manual)
 {
     TEST_ASSERT_EQUAL_HEX(0x24, offsetof(struct timer_registers, cnt));
     TEST_ASSERT_EQUAL_HEX(0x34, offsetof(struct timer_registers, ccr));
@@ -57,14 +57,14 @@ TEST(the_registers_lie_where_the_manual_has_them)
     TEST_ASSERT_EQUAL_HEX(0x180, offsetof(struct interrupt_registers, icpr));
 }
 
-TEST(each_pin_is_what_its_signal_needs)
+TEST(pins_have_their_modes_and_functions)
 {
     assert_pins();
 }
 
 /* Power for all that is used; a beat of 5 ms of PWM at 20 kHz, which the bridge can break; encoders and bursts counted by
  * timers; a converter that goes round six channels into memory. */
-TEST(the_registers_are_as_the_manual_wants_them)
+TEST(pins_open_sets_up_timers_adc_and_dma)
 {
     const struct {
         const char *name;
@@ -98,7 +98,7 @@ TEST(the_registers_are_as_the_manual_wants_them)
         TEST_ASSERT_EQUAL_HEX32_MESSAGE(cases[i].wanted, cases[i].is, cases[i].name);
 }
 
-TEST(encoders_and_bursts_are_what_their_timers_have_counted)
+TEST(encoder_and_burst_counts_come_from_timers)
 {
     TIM3.cnt = 0xFFFF;
     TIM4.cnt = 5;
@@ -108,7 +108,7 @@ TEST(encoders_and_bursts_are_what_their_timers_have_counted)
     TEST_ASSERT_EQUAL_UINT16(9, pins_bursts());
 }
 
-TEST(a_beat_is_slept_for_and_cleared)
+TEST(pins_wait_sleeps_until_the_timer_and_clears_its_flag)
 {
     pins_wait();
     TEST_ASSERT_EQUAL_UINT(2, slept);
@@ -120,7 +120,7 @@ TEST(a_beat_is_slept_for_and_cleared)
 }
 
 /* By the truth table of the DRV8833: 1/0 drives forward, 0/1 backward, 1/1 brakes; nothing is ever 0/0, which coasts. */
-TEST(a_duty_is_the_time_in_which_one_input_is_low_and_the_motor_brakes_in_the_rest)
+TEST(duty_drives_one_input_low_and_brakes_otherwise)
 {
     pins_push(0, 16384);
     TEST_ASSERT_EQUAL_UINT32(TOP, TIM1.ccr[1]);
@@ -143,7 +143,7 @@ TEST(outputs_are_set_and_cleared)
     TEST_ASSERT_EQUAL_HEX32(1 << 13, GPIO[B].at.bsrr);
 }
 
-TEST(what_is_pressed_is_low)
+TEST(pressed_contacts_read_low)
 {
     GPIO[A].at.idr = GPIO[B].at.idr = 0xFFFF;
     TEST_ASSERT_FALSE(pins_bumped() || pins_button());
@@ -155,7 +155,7 @@ TEST(what_is_pressed_is_low)
     TEST_ASSERT_TRUE(pins_button());
 }
 
-TEST(a_break_is_seen)
+TEST(timer_break_reports_a_bridge_fault)
 {
     TEST_ASSERT_FALSE(pins_bridge_failed());
     TIM1.sr = 1;   /* a beat */
@@ -164,8 +164,8 @@ TEST(a_break_is_seen)
     TEST_ASSERT_TRUE(pins_bridge_failed());
 }
 
-/* A controller of 32 bits has been told where to put samples: the rest of the address is that of what lies around. */
-TEST(what_the_converter_puts_into_memory_is_light_and_the_battery)
+/* DMA has the low 32 bits of the samples' address; the upper half is that of a neighbouring variable. */
+TEST(adc_samples_are_light_and_battery)
 {
     uint32_t apart = DMA1.channel[0].cmar - (uint32_t)(uintptr_t)&RCC;
     volatile uint16_t *samples = (volatile uint16_t *)((intptr_t)&RCC + (int32_t)apart);

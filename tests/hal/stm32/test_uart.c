@@ -29,7 +29,7 @@ void setUp(void)
     memset((void *)&UART, 0, sizeof UART);
 }
 
-TEST(the_divisor_is_the_nearest)
+TEST(uart_divisor_is_the_nearest)
 {
     start(72000000);
     TEST_ASSERT_EQUAL_UINT32(625, UART.brr);
@@ -41,34 +41,34 @@ TEST(the_divisor_is_the_nearest)
     TEST_ASSERT_EQUAL_UINT32(365, UART.brr);   /* 364.58 */
 }
 
-TEST(it_starts_in_both_directions_without_interrupts)
+TEST(uart_starts_both_directions_without_interrupts)
 {
     memset((void *)&UART, 0xFF, sizeof UART);
     start(72000000);
     assert_started();
 }
 
-TEST(stopping_switches_the_port_off)
+TEST(uart_stop_disables_the_port)
 {
     start(72000000);
     uart_stop();
     TEST_ASSERT_EQUAL_HEX32(0, UART.cr1);
 }
 
-TEST(no_byte_is_nothing)
+TEST(uart_get_returns_nothing_without_a_byte)
 {
     UART.RECEIVED = 'x';
     TEST_ASSERT_EQUAL(UART_NOTHING, uart_get());
 }
 
-TEST(a_byte_is_got_as_it_is)
+TEST(uart_get_returns_the_received_byte)
 {
     UART.STATUS = RXNE;
     UART.RECEIVED = 0x1FF;   /* the ninth bit is none of ours */
     TEST_ASSERT_EQUAL(0xFF, uart_get());
 }
 
-TEST(each_receive_error_is_told)
+TEST(uart_get_reports_every_receive_error)
 {
     for (uint32_t error = 1; error <= 8; error <<= 1) {
         UART.STATUS = RXNE | error;
@@ -79,14 +79,14 @@ TEST(each_receive_error_is_told)
     }
 }
 
-TEST(a_byte_goes_out_when_there_is_room)
+TEST(uart_put_sends_a_byte_if_there_is_room)
 {
     UART.STATUS = TXE;
     TEST_ASSERT_TRUE(uart_put(0xA7));
     TEST_ASSERT_EQUAL_HEX32(0xA7, UART.SENT);
 }
 
-TEST(without_room_nothing_is_written)
+TEST(uart_put_refuses_a_byte_without_room)
 {
     UART.SENT = 0x55;
     UART.STATUS = ~(uint32_t)TXE;

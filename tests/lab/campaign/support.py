@@ -1,7 +1,6 @@
 """What the tests of the campaign share: a run without a fault, and the outcome of one with."""
 
-from host_sim.lab.campaign.cell import LOCKSTEP, Cell
-from host_sim.lab.campaign.outcome import Outcome
+from host_sim.lab.campaign.cell import LOCKSTEP, Cell, Outcome
 from host_sim.lab.campaign.running import run_all
 
 CLEAN = Cell("article", "none", LOCKSTEP, limit_s=3.0)

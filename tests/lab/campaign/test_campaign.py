@@ -9,21 +9,20 @@ import pytest
 
 from host_sim.base.errors import RobotError, UsageError
 from host_sim.lab.campaign import matrix
-from host_sim.lab.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
+from host_sim.lab.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell, Outcome
 from host_sim.lab.campaign.html_report import page, summary, verdict
-from host_sim.lab.campaign.links import LINKS, open_setup
 from host_sim.lab.campaign.matrix import FaultClass, default_limit_s, groups
-from host_sim.lab.campaign.outcome import Outcome
 from host_sim.lab.campaign.run_files import CourseLog
 from host_sim.lab.campaign.running import run_all
-from host_sim.lab.campaign.shrink import shrink
+from host_sim.lab.campaign.setups import LINKS, open_setup
+from host_sim.lab.campaign.walk import shrink
 from host_sim.protocol.codec import Frame
 from host_sim.transport.rule import Event
 from tests.lab.campaign.support import CLEAN, outcome_of
 from tests.runs.support import octet
 
 
-def test_each_fault_is_seen_and_told_however_short_the_runs_are(tmp_path):
+def test_each_fault_is_noticed_and_reported_in_short_runs(tmp_path):
     report = tmp_path / "campaign.html"
 
     done = octet("campaign", "--html", report, "--profiles", "article", "--limit-s", "6")
@@ -166,7 +165,7 @@ def test_a_fault_with_a_chance_is_shrunk_to_the_frames_that_matter():
     ],
 )
 @pytest.mark.parametrize("option", ["--repeat", "--shrink"])
-def test_what_is_no_cell_is_one_line(option, text):
+def test_malformed_run_is_refused_in_one_line(option, text):
     done = octet("campaign", option, text)
 
     assert done.returncode == 2
@@ -213,7 +212,7 @@ def test_a_cell_is_repeated_and_shrunk_from_the_command_line():
     assert REAL_TIME not in smaller.stdout
 
 
-def test_where_there_is_no_such_link_it_is_said():
+def test_unknown_link_is_reported():
     with pytest.raises(UsageError, match="no link"), open_setup("carrier pigeon"):
         raise AssertionError
 
@@ -232,7 +231,7 @@ def test_reports_that_come_later_are_no_other_course():
     assert first == later != different
 
 
-def test_what_need_not_be_noticed_must_not_leave_a_trace():
+def test_harmless_fault_must_leave_the_result_unchanged():
     outcome = Outcome(replace(CLEAN, fault="a clock that drifts", harmless=True))
     assert outcome.problems == []
 
@@ -272,3 +271,9 @@ def test_a_run_that_is_doubted_for_something_else_does_not_say_that_its_fault_ca
     outcome = Outcome(replace(CLEAN, fault=NEVER.name, faults=NEVER.faults), doubts=("this host was too slow",))
 
     assert outcome.reach == "never came"
+
+
+def test_runs_side_by_side_have_the_same_outcomes_in_the_same_order():
+    cells = [Cell("article", "none", LOCKSTEP, limit_s=limit_s, faults=("drop:30%",)) for limit_s in (3.0, 0.5, 1.0)]
+
+    assert list(run_all([CLEAN, *cells], jobs=4)) == list(run_all([CLEAN, *cells]))

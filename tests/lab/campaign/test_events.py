@@ -1,19 +1,27 @@
-"""What the campaign makes happen to a robot, its line, its host or its pins: it is told, or it leaves no trace."""
+"""What the campaign makes happen to a robot, its line, its host or its pins: it is told, or it leaves no trace.
 
+Random schedules of faults: drawn alike from a seed, compared with the clean run, and shrunk where they fail.
+"""
+
+import re
 import threading
+from collections import Counter
 from contextlib import nullcontext
 
 import pytest
 
+from host_sim.lab.campaign import walk
 from host_sim.lab.campaign.board_setup import Board
-from host_sim.lab.campaign.cell import LOCKSTEP, PACES, PIN_EVENTS, PINS_LINK, Cell
+from host_sim.lab.campaign.cell import LOCKSTEP, PACES, PIN_EVENTS, PINS_LINK, Cell, Outcome
 from host_sim.lab.campaign.host_events import CLOCK_EVENTS
-from host_sim.lab.campaign.links import open_setup
-from host_sim.lab.campaign.matrix import PINS, default_limit_s, groups
+from host_sim.lab.campaign.matrix import HOST, LINE, PINS, ROBOT, default_limit_s, groups
 from host_sim.lab.campaign.run_files import FILE_EVENTS
 from host_sim.lab.campaign.running import run_all, run_cell
+from host_sim.lab.campaign.setups import open_setup
 from host_sim.sim.access import BOARDS
+from host_sim.transport.rule import FAULT_NAMES, Rule
 from tests.lab.campaign.support import leaves_a_trace, outcome_of
+from tests.runs.support import octet
 
 
 @pytest.mark.parametrize("link", ["none", "fd", "slcan", *BOARDS])
@@ -44,7 +52,7 @@ ENDS = [
 
 
 @pytest.mark.parametrize(("where", "event", "told"), ENDS, ids=[f"{where} {event}" for where, event, _ in ENDS])
-def test_what_happens_to_a_robot_is_told_and_nothing_is_unsafe(where, event, told):
+def test_event_at_a_robot_is_reported_and_safe(where, event, told):
     outcome = outcome_of(f"article {where} seed=12 limit=1 {event}")
 
     assert outcome.problems == []
@@ -96,7 +104,7 @@ def test_the_power_goes_twice_in_a_row_while_flash_is_erased_and_the_memory_is_k
     ],
 )
 def test_an_event_without_effect_fails_the_campaign(monkeypatch, where, event):
-    monkeypatch.setattr("host_sim.lab.campaign.running.happen", lambda *_: None)
+    monkeypatch.setattr("host_sim.lab.campaign.running.trigger", lambda *_: None)
     for limit in ("_LEAST_S", "_FIRST_S", "_MOST_S"):  # what a busy host repeats would look like the effect
         monkeypatch.setattr(f"host_sim.client.connection.{limit}", 10.0)
 
@@ -120,7 +128,7 @@ def test_in_real_time_a_robot_that_hangs_lets_its_wheels_rest_in_time():
 @pytest.mark.parametrize(
     ("link", "event"), [("fd", "hold-up:100"), ("fd", "hang:100"), ("feather_stm32f405", "hang:300")]
 )
-def test_who_stands_still_in_lockstep_leaves_no_trace(link, event):
+def test_pause_in_lockstep_leaves_the_log_unchanged(link, event):
     assert not leaves_a_trace(event, link, limit_s=1)
 
 
@@ -128,7 +136,7 @@ def test_an_event_that_does_not_come_to_happen_fails_the_campaign():
     assert "did not happen" in outcome_of("article fd lockstep seed=12 limit=1 event=hang:10@900").problems
 
 
-def test_what_was_to_happen_to_a_line_later_does_not_outlive_it():
+def test_pending_event_ends_with_its_line():
     before = set(threading.enumerate())
 
     with open_setup("slcan") as setup:
@@ -153,7 +161,7 @@ TRIED = (
 @pytest.fixture(scope="module")
 def outcomes():
     (cells,) = groups(["article"], [PINS_LINK], [LOCKSTEP], lambda _: 10.0, PINS)
-    return {it.cell.fault: it for it in run_all(cell for cell in cells if cell.fault in ("", *TRIED))}
+    return {it.cell.fault: it for it in run_all([cell for cell in cells if cell.fault in ("", *TRIED)])}
 
 
 @pytest.mark.parametrize("fault", TRIED)
@@ -176,3 +184,55 @@ def test_the_power_goes_twice_in_a_row_while_flash_is_written_and_the_robot_goes
 
 def test_each_event_has_a_row():
     assert {it.event.partition(":")[0] for it in PINS} == set(PIN_EVENTS)
+
+
+LINKS = ("none", "fd", "slcan", "blue_pill")
+WHERE = (LINKS, ["article", "adaptive"], 6.0)
+
+
+def drawn(count, seed):
+    return [cell for _, *cells in walk.walk(count, seed, *WHERE) for cell in cells]
+
+
+def test_the_same_seed_draws_the_same_schedules():
+    first, again, other = (list(map(str, drawn(30, seed))) for seed in (1, 1, 2))
+
+    assert first == again
+    assert len(first) == 30
+    assert not {*first} & {*other}
+
+
+def test_schedules_have_one_to_six_faults_of_all_kinds_and_can_be_repeated():
+    cells = drawn(1000, 1)
+
+    assert {len(cell.faults) + bool(cell.events) for cell in cells} <= set(range(1, 7))
+    assert {Rule.parse(rule).name for cell in cells for rule in cell.faults} == {*FAULT_NAMES}
+    events = Counter(event.name for cell in cells for event in cell.events)
+    assert {"reset", "hang", "hold-up", "kill", "flash-cut", "disk-full", "unplug", "kill-simulator"} <= events.keys()
+    classes = [it for it in (*ROBOT, *LINE, *HOST) for link in LINKS if it.applies_to("article", link, LOCKSTEP)]
+    assert events.keys() == {it.partition(":")[0] for each in classes for it in each.event.split()} - {"kill-saving"}
+    assert any("SENSES" in rule and not rule.endswith("/to") for cell in cells for rule in cell.faults)
+    assert [str(Cell.parse(str(cell))) for cell in cells] == list(map(str, cells))
+
+
+def test_random_schedules_change_nothing_without_a_warning():
+    done = octet("campaign", "--walk", "40", "--links", *LINKS, "--limit-s", "6")
+
+    assert (done.returncode, done.stderr) == (0, "")
+    assert re.search(r"^\d+ runs: 0 not as they should be", done.stdout, re.M)
+
+
+def test_a_schedule_that_changes_a_run_without_a_warning_is_shrunk(monkeypatch):
+    guilty = "event=clock-back:3600@40"
+    schedule = Cell.parse(f"article none lockstep seed=1 limit=2 fault=duplicate@30-40/to {guilty}")
+    monkeypatch.setattr(walk, "_drawn", lambda *_: schedule)
+
+    def run_cell(cell):
+        return Outcome(cell, course="another" if cell.events else "clean")
+
+    monkeypatch.setattr("host_sim.lab.campaign.running.run_cell", run_cell)
+
+    done = octet("campaign", "--walk", "1", "--limit-s", "2", "--profiles", "article", "--jobs", "1")
+
+    assert done.returncode == 1
+    assert re.search(rf"^  shortest: .*'article none lockstep seed=1 limit=0.5 {guilty}'$", done.stderr, re.M)

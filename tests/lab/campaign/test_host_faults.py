@@ -1,4 +1,7 @@
-"""Faults of this host: of its disk, its folders, its files and its clock."""
+"""Faults of this host: of its disk, its folders, its files and its clock.
+
+Events of a robot on SocketCAN, and each command that somebody else may forge there.
+"""
 
 import subprocess
 import sys
@@ -14,7 +17,7 @@ from host_sim.protocol.codec import Frame
 from host_sim.recording.memory_file import MemorySaver
 from host_sim.transport.cable import Cable
 from tests.lab.campaign.support import leaves_a_trace, outcome_of
-from tests.runs.support import octet
+from tests.runs.support import OPCODES, PACES, forge_on_vcan, octet
 
 LEARNS = "article none lockstep seed=12 limit=12"
 NOTHING, SOME = (0,) * 8, (0, 1, 0, 0, 0, 0, 0, 0)
@@ -126,7 +129,7 @@ def test_a_line_is_told_what_happens_by_the_process_that_has_it(monkeypatch):
 
 
 def test_a_simulator_that_hangs_is_ended_and_fails_the_campaign(monkeypatch):
-    monkeypatch.setattr("host_sim.lab.campaign.killed.SILENT_S", 0.5)
+    monkeypatch.setattr("host_sim.lab.campaign.host_events.SILENT_S", 0.5)
     monkeypatch.setattr(MemorySaver, "save", lambda *_: time.sleep(60))
 
     outcome = outcome_of("article none lockstep seed=12 limit=1 event=kill-simulator:5@20")
@@ -197,7 +200,7 @@ def test_a_cell_that_need_not_be_noticed_is_repeated_as_one():
 
 def test_a_run_whose_memory_file_vanishes_writes_it_again_and_says_so(tmp_path, monkeypatch):
     memory = tmp_path / "robot.mem"
-    monkeypatch.setattr("host_sim.cli.outputs.Outputs.page", lambda _: memory.unlink())
+    monkeypatch.setattr("host_sim.cli.outputs.Outputs._write_page", lambda *_: memory.unlink())
 
     words = ("--environments", "1", "--limit-s", "5", "--bus", "none", "--quiet", "--out", tmp_path / "out")
     done = octet("run", *words, "--memory", memory)
@@ -205,3 +208,27 @@ def test_a_run_whose_memory_file_vanishes_writes_it_again_and_says_so(tmp_path, 
     assert done.returncode == 0
     assert done.stderr == f"octet: {memory} has vanished during the run, and is written again\n"
     assert len(memory.read_bytes()) == len(NOTHING)
+
+
+EVENTS = [
+    ("bus-down:300@20", "1 outages"),
+    ("kill@20", "did not answer tick"),
+    ("reset@20", "the robot restarted"),
+    ("hang:300@20", "repeated"),
+]
+
+
+@pytest.mark.vcan
+@pytest.mark.parametrize(("event", "told"), EVENTS, ids=[event for event, _ in EVENTS])
+def test_event_at_a_robot_on_vcan_is_reported_and_safe(event, told):
+    outcome = outcome_of(f"article vcan lockstep seed=12 limit=1 event={event}")
+
+    assert outcome.problems == []
+    assert any(told in text for text in (outcome.end, outcome.seen, *outcome.doubts)), outcome
+
+
+@pytest.mark.vcan
+@pytest.mark.parametrize("opcode", OPCODES)
+@pytest.mark.parametrize("pace", PACES)
+def test_each_forged_command_is_reported(tmp_path, opcode, pace):
+    forge_on_vcan(tmp_path, pace, opcode)

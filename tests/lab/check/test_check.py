@@ -10,17 +10,15 @@ import pytest
 
 from host_sim.base.errors import UsageError
 from host_sim.cli.main import main
-from host_sim.lab.check import robots
+from host_sim.lab.check import checking
 from host_sim.lab.check.checking import CHECKS, check_robot
 from host_sim.lab.check.sentences import NOT_CHECKED, prose, sentences
 from host_sim.sim.robot_process import PROGRAM
 from host_sim.transport.link import Frame
 from tests.lab.check.canaries import (  # noqa: F401 - they note their robots
-    bytes_and_protection,
     conversation,
     messages,
     owner_and_held,
-    silence_and_lockstep,
 )
 from tests.lab.check.canaries.meddled import CANARIES, Robot
 from tests.lab.check.virtual import EXAMPLE, example, one_for_all, virtual
@@ -93,7 +91,7 @@ def test_a_robot_that_fails_is_shown_with_its_frames(capsys, tmp_path):
     assert "layout is 0x4B14" in ET.parse(tmp_path / "robot.xml").find(".//failure").get("message")
 
 
-def test_what_a_robot_has_said_before_it_is_told_to_stop_is_no_answer_to_that():
+def test_frames_sent_before_a_stop_are_no_answer_to_it():
     with virtual(example.Robot)() as talk:
         talk.link.said.extend(Frame(*frame) for frame in talk.link.robot.report(example.HEARTBEAT))
 
@@ -110,8 +108,8 @@ def test_what_a_robot_has_said_before_it_is_told_to_stop_is_no_answer_to_that():
         ("'", "No closing quotation"),
     ],
 )
-def test_what_is_no_robot_is_told_in_a_line(capsys, monkeypatch, command, message):
-    monkeypatch.setattr(robots, "WAKE_S", 0.5)
+def test_command_that_is_no_robot_is_reported_in_one_line(capsys, monkeypatch, command, message):
+    monkeypatch.setattr(checking, "WAKE_S", 0.5)
 
     code, _, err = check(capsys, command)
 
@@ -156,9 +154,9 @@ def test_a_robot_whatever_its_defect_is_judged_and_breaks_no_check(robot, number
 def test_where_a_robot_cannot_be_started_its_bus_is_closed_again(monkeypatch):
     link = SimpleNamespace(closed=0)
     link.close = lambda: vars(link).update(closed=1)
-    monkeypatch.setattr(robots, "_open", lambda *_: link)
+    monkeypatch.setattr(checking, "_open", lambda *_: link)
 
-    with pytest.raises(UsageError, match="cannot start"), robots.started("no-such-robot", "virtual:a", 1):
+    with pytest.raises(UsageError, match="cannot start"), checking.started("no-such-robot", "virtual:a", 1):
         pass
 
     assert link.closed

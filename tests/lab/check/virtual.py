@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from host_sim.lab.check.robots import Robots, wake
+from host_sim.lab.check.checking import Robots, wake
 from host_sim.lab.check.talk import Talk
 from host_sim.transport.link import Frame
 

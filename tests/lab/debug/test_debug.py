@@ -25,11 +25,22 @@ def debug(log: Path, *words: str) -> str:
     return done.stdout
 
 
+def log_of(out: Path, limit_s: int) -> Path:
+    """The log of a run of three environments."""
+    octet_process("run", "--bus", "none", "--quiet", "--limit-s", str(limit_s), "--out", out).check_returncode()
+    return out / "run.log"
+
+
 @pytest.fixture(scope="module")
 def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    out = tmp_path_factory.mktemp("a run")
-    octet_process("run", "--bus", "none", "--quiet", "--limit-s", "250", "--out", out).check_returncode()
-    return out / "run.log"
+    """A log for what happens at its beginning: a longer one takes longer to read."""
+    return log_of(tmp_path_factory.mktemp("a run"), 25)
+
+
+@pytest.fixture(scope="module")
+def long_log(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A log with more than 10,000 ticks."""
+    return log_of(tmp_path_factory.mktemp("a long run"), 250)
 
 
 def senses(log: Path) -> list[dict[str, int]]:
@@ -67,11 +78,11 @@ def test_breakpoints_before_the_tick_do_not_stop_on_the_way_to_it(log):
     assert "brain_next" in shown
 
 
-def test_cells_are_those_that_the_run_ended_with(log):
-    memory = json.loads((log.parent / "summary.json").read_text())["robots"][0]["memory"]
-    last = len(senses(log)) - 1
+def test_cells_are_those_that_the_run_ended_with(long_log):
+    memory = json.loads((long_log.parent / "summary.json").read_text())["robots"][0]["memory"]
+    last = len(senses(long_log)) - 1
 
-    shown = debug(log, "--tick", str(last), "--ex", "cells")
+    shown = debug(long_log, "--tick", str(last), "--ex", "cells")
 
     assert shown.endswith("{" + ", ".join(map(str, memory)) + "}\n")
 
@@ -83,8 +94,8 @@ def to_the_end(log: Path, *words: str) -> tuple[int, int]:
     return int(found[1]), int(found[2])
 
 
-def test_a_firmware_that_has_not_changed_drives_as_in_the_log(log):
-    assert to_the_end(log) == (len(senses(log)), 0)
+def test_a_firmware_that_has_not_changed_drives_as_in_the_log(long_log):
+    assert to_the_end(long_log) == (len(senses(long_log)), 0)
 
 
 @pytest.mark.parametrize("path", REAL_TIME, ids=lambda path: path.stem)
@@ -96,7 +107,7 @@ def test_a_log_in_real_time_is_explained(path):
 
 
 @pytest.mark.parametrize("options", [("--robots", "3", "--set", "share=1"), ("--profile", "distance")], ids=str)
-def test_what_other_robots_have_learned_and_ranges_are_heard(options, tmp_path):
+def test_debugger_feeds_ranges_and_memories_of_other_robots(options, tmp_path):
     run = ["run", "--bus", "none", "--quiet", "--environments", "2", "--limit-s", "60", "--out", tmp_path]
     octet_process(*run, *options).check_returncode()
 
@@ -132,9 +143,9 @@ def test_the_first_drive_that_differs_is_told_and_replay_prints_the_command(log,
     assert "tick 89: the first DRIVE that differs from the log's" in shown
 
 
-def test_the_debugger_stands_at_tick_10000_soon(log, capsys):
+def test_the_debugger_stands_at_tick_10000_soon(long_log, capsys):
     began = os.times()
-    shown = debug(log, "--tick", "10000", "--ex", "cells")
+    shown = debug(long_log, "--tick", "10000", "--ex", "cells")
     took = [end - start for start, end in zip(began, os.times(), strict=True)]
 
     with capsys.disabled():
@@ -179,7 +190,7 @@ def test_a_run_whose_robot_stands_at_a_breakpoint_waits_and_has_the_same_log(tmp
     assert logs[0] == logs[1]
 
 
-def test_who_leaves_the_debugger_ends_the_run(tmp_path):
+def test_leaving_the_debugger_ends_the_run(tmp_path):
     done = octet_process("run", "--gdb", "--environments", "1", "--out", tmp_path, input="continue\nquit\n")
 
     assert done.returncode == 1
@@ -201,7 +212,7 @@ def test_who_leaves_the_debugger_ends_the_run(tmp_path):
         ("run --gdb --bus socketcan:vcan0 --robot external", "leave --bus and --robot out"),
     ],
 )
-def test_what_cannot_be_debugged_is_refused_in_a_sentence(log, tmp_path, words, said):
+def test_undebuggable_log_is_refused_in_a_sentence(log, tmp_path, words, said):
     program = tmp_path / "program/run.log"
     if "{program}" in words:
         bas = ROOT / "host_sim/program/examples/article.bas"

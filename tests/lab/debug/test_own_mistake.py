@@ -94,7 +94,7 @@ def test_a_robot_with_one_s_own_behaviour_is_started_in_gdb(tmp_path):
     assert (tmp_path / "summary.json").exists()
 
 
-def test_what_is_not_built_is_named(monkeypatch, tmp_path, capsys):
+def test_missing_build_is_named(monkeypatch, tmp_path, capsys):
     from host_sim.cli.main import main  # noqa: PLC0415 - the other tests start processes
     from host_sim.sim import own_brain  # noqa: PLC0415
 

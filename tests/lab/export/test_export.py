@@ -154,7 +154,7 @@ def test_pandas_reads_integers_that_may_be_missing(exported):
     assert table["time_s"].dtype == "float64"
 
 
-def test_what_was_skipped_is_said(log, tmp_path, capsys):
+def test_skipped_frames_are_reported(log, tmp_path, capsys):
     assert main(["export", str(log), "--csv", str(tmp_path / "a.csv")]) == 0
 
     output = capsys.readouterr()
@@ -182,7 +182,7 @@ def test_no_other_command_loads_the_libraries_of_exports():
 @pytest.mark.parametrize(
     "content", ["(0.000000) can0 7FF#01\n", "(0.000000) can0 041#0\n"], ids=["foreign", "malformed"]
 )
-def test_what_cannot_be_exported_leaves_the_old_file(tmp_path, capsys, content):
+def test_failed_export_leaves_the_old_file(tmp_path, capsys, content):
     (tmp_path / "a.log").write_text(content)
     (tmp_path / "a.blf").write_text("old")
 
@@ -193,7 +193,7 @@ def test_what_cannot_be_exported_leaves_the_old_file(tmp_path, capsys, content):
     assert len(list(tmp_path.iterdir())) == 2
 
 
-def test_no_format_named_is_said_with_those_there_are(log, capsys):
+def test_export_without_a_format_lists_the_formats(log, capsys):
     assert main(["export", str(log)]) == 2
 
     error = capsys.readouterr().err

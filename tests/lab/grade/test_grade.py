@@ -55,7 +55,7 @@ def test_the_solution_is_right(graded, number):
 
 
 @pytest.mark.parametrize("number", TITLES)
-def test_its_mutants_are_wrong(graded, number):
+def test_wrong_solutions_of_each_exercise_are_rejected(graded, number):
     survived = [MUTANTS[number][place] for place, it in enumerate(graded[number][1:]) if it.verdict.status == "pass"]
 
     assert survived == []

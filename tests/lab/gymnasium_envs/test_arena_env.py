@@ -5,10 +5,13 @@ import math
 import gymnasium
 import numpy as np
 import pytest
+from gymnasium import error
 from gymnasium.utils.env_checker import check_env
+from pettingzoo.test import parallel_api_test, parallel_seed_test
 
 import host_sim.lab.gymnasium_envs  # noqa: F401 - registers the environments
 from host_sim.lab.gymnasium_envs.arena_env import ArenaEnv
+from host_sim.lab.gymnasium_envs.arena_parallel_env import ArenaParallelEnv
 from host_sim.lab.gymnasium_envs.rules import Rewards
 from host_sim.protocol.generated import Senses
 from host_sim.sim.make import make
@@ -149,3 +152,138 @@ def test_bumps_cost():
     rewards = [env.step(FORWARD)[1] for _ in range(1000)]
 
     assert min(rewards) == -1  # against a wall, sooner or later
+
+
+ALL_FORWARD, ALL_LEFT, ALL_ABOUT = 0, 1, 5
+
+
+@pytest.fixture
+def parallel_env() -> ArenaParallelEnv:
+    return ArenaParallelEnv(robots=3, limit_s=20)
+
+
+def test_pettingzoo_finds_no_fault(parallel_env, capsys):
+    parallel_api_test(parallel_env, num_cycles=200)
+
+    assert "Passed" in capsys.readouterr().out
+
+
+def test_equal_seeds_give_equal_episodes():
+    parallel_seed_test(lambda: ArenaParallelEnv(robots=3, limit_s=20))
+
+
+def test_parallel_environment_of_one_robot_equals_the_single_one():
+    alone, other = ArenaParallelEnv(robots=1), ArenaEnv()
+    senses, _ = alone.reset(seed=4)
+    assert senses["robot_1"].tolist() == other.reset(seed=4)[0].tolist()
+    for action in (ALL_FORWARD, ALL_LEFT, ALL_ABOUT, ALL_FORWARD, ALL_FORWARD) * 10:
+        senses, rewards, *_ = alone.step({"robot_1": action})
+        theirs, reward, *_ = other.step(action)
+        assert (senses["robot_1"].tolist(), rewards["robot_1"]) == (theirs.tolist(), reward)
+
+
+def test_a_step_ends_with_the_longest_action(parallel_env):
+    parallel_env.reset(seed=1)
+    senses, _, _, _, infos = parallel_env.step({"robot_1": ALL_FORWARD, "robot_2": ALL_ABOUT, "robot_3": ALL_LEFT})
+
+    assert {info["robot_s"] for info in infos.values()} == {1.02}
+    assert senses["robot_1"][5:].tolist() == [120, 120]
+
+
+def feels(robots: int, number: int) -> list[int]:
+    """What the first robot feels as all go straight on."""
+    parallel_env = ArenaParallelEnv(robots)
+    parallel_env.reset(options={"environment": (1, number)})
+    return [parallel_env.step(dict.fromkeys(parallel_env.agents, ALL_FORWARD))[0]["robot_1"][1] for _ in range(60)]
+
+
+def test_robots_sense_each_other():
+    """In a full arena a robot sooner or later feels what it does not feel alone there."""
+    assert any(feels(25, number) != feels(1, number) for number in range(1, 21))
+
+
+def test_all_end_at_once(parallel_env):
+    parallel_env.reset(seed=1)
+    while parallel_env.agents:
+        *_, terminations, truncations, _ = parallel_env.step(dict.fromkeys(parallel_env.agents, ALL_ABOUT))
+
+    assert truncations == dict.fromkeys(parallel_env.possible_agents, True)
+    assert terminations == dict.fromkeys(parallel_env.possible_agents, False)
+
+
+COUNT = 6
+
+
+@pytest.fixture
+def envs() -> gymnasium.vector.VectorEnv:
+    return gymnasium.make_vec("octet/Arena-v0", num_envs=COUNT, vectorization_mode="vector_entry_point", limit_s=6)
+
+
+def test_vector_environment_equals_single_environments(envs):
+    draws = np.random.default_rng(1)
+    single = [ArenaEnv(limit_s=6) for _ in range(COUNT)]
+    alone = [parallel_env.reset(seed=7 + i)[0] for i, parallel_env in enumerate(single)]
+    together, _ = envs.reset(seed=7)
+    ended = [False] * COUNT
+    episodes = 0
+    for _ in range(120):
+        assert np.array_equal(together, alone)
+        actions = draws.integers(6, size=COUNT)
+        together, rewards, terminated, truncated, infos = envs.step(actions)
+        for i, parallel_env in enumerate(single):
+            if ended[i]:
+                alone[i], info = parallel_env.reset()
+                wanted = (0.0, False, False)
+            else:
+                alone[i], *wanted, info = parallel_env.step(int(actions[i]))
+            assert (rewards[i], terminated[i], truncated[i]) == tuple(wanted)
+            assert infos["robot_s"][i] == pytest.approx(info["robot_s"])
+            ended[i] = bool(wanted[1] or wanted[2])
+            episodes += ended[i]
+
+    assert episodes > COUNT
+
+
+def test_observations_stay_as_they_are(envs):
+    before, _ = envs.reset(seed=1)
+    kept = before.copy()
+    envs.step(np.zeros(COUNT, np.int64))
+
+    assert np.array_equal(before, kept)
+    assert before in envs.observation_space
+
+
+def test_a_seed_for_each(envs):
+    first, _ = envs.reset(seed=[3] * COUNT)
+    steps = [envs.step(np.zeros(COUNT, np.int64))[0] for _ in range(50)]
+
+    assert all((senses == senses[0]).all() for senses in [first, *steps])
+
+
+def test_a_step_may_be_a_tick():
+    envs = gymnasium.make_vec("octet/Arena-v0", num_envs=2, vectorization_mode="vector_entry_point", step_ticks=1)
+    envs.reset(seed=1)
+
+    assert envs.step(np.array([0, 5]))[0][:, 0].tolist() == [1, 1]
+
+
+def test_reset_options_choose_the_environment_of_each_arena(envs):
+    chosen = [(7, 2), (8, 1), (9, 3), (7, 2), (1, 1), (2, 1)]
+    single = [ArenaEnv(limit_s=6) for _ in chosen]
+    alone = [
+        parallel_env.reset(options={"environment": one})[0] for parallel_env, one in zip(single, chosen, strict=True)
+    ]
+    together, _ = envs.reset(options={"environments": chosen})
+    for _ in range(80):
+        assert np.array_equal(together, alone)
+        together = envs.step(np.zeros(COUNT, np.int64))[0]
+        alone = [parallel_env.step(0)[0] for parallel_env in single]
+
+    assert np.array_equal(together[0], together[3])
+    assert len({senses.tobytes() for senses in together}) > 1
+
+
+@pytest.mark.parametrize("environments", [[(1, 1)], 7, [(1, 1)] * 5 + [(1, 0)], "123456"])
+def test_environments_that_are_none_are_refused(envs, environments):
+    with pytest.raises(error.Error, match="give a"):
+        envs.reset(options={"environments": environments})

@@ -1,11 +1,24 @@
-"""Whatever is given: the error that Gymnasium's users expect, and an environment that goes on working."""
+"""Whatever is given: the error that Gymnasium's users expect, and an environment that goes on working.
 
+Pictures, copies and the end of environments, with the wrappers of Gymnasium that need them.
+"""
+
+import copy
+import io
 import math
+import pickle
+import sys
+from itertools import pairwise
+from types import SimpleNamespace
 
+import gymnasium
 import numpy as np
 import pytest
 from gymnasium import error
+from gymnasium.wrappers import RenderCollection
+from PIL import Image
 
+import host_sim.lab.gymnasium_envs  # noqa: F401 - registers the environments
 from host_sim.lab.gymnasium_envs import driven_worlds
 from host_sim.lab.gymnasium_envs.arena_env import ArenaEnv
 from host_sim.lab.gymnasium_envs.arena_parallel_env import ArenaParallelEnv
@@ -138,3 +151,172 @@ def test_c_code_that_is_missing_is_named(monkeypatch, tmp_path):
     driven_worlds.loaded.cache_clear()
     with pytest.raises(error.DependencyNotInstalled, match=r"liboctet_driven\.so is missing; build it"):
         ArenaEnv()
+
+
+RED, GREEN, BLUE = range(3)
+
+
+def test_gymnasium_collects_pictures_that_change_with_the_robot():
+    env = RenderCollection(gymnasium.make("octet/Arena-v0", render_mode="rgb_array", limit_s=60))
+    env.reset(seed=1)
+    for action in (5, 0, 0):
+        env.step(action)
+
+    pictures = env.render()
+
+    assert len(pictures) == 4
+    assert {picture.shape for picture in pictures} == {pictures[0].shape}
+    assert pictures[0].dtype == np.uint8
+    assert all(not np.array_equal(a, b) for a, b in pairwise(pictures))
+
+
+def test_the_picture_shows_the_food_that_is_left():
+    env = ArenaEnv(render_mode="rgb_array")
+    env.reset(seed=1)
+
+    picture = env.render().astype(int)
+
+    green = (picture[..., GREEN] > 120) & (picture[..., RED] < 40)
+    assert 3 * 80 < green.sum() < 3 * 130  # three discs of 100 mm, at 0.12 pixels a mm: 113 pixels each
+
+
+def test_without_a_mode_there_is_no_picture_and_no_other_mode():
+    env = ArenaEnv()
+    env.reset(seed=1)
+
+    assert env.render() is None
+    with pytest.raises(error.Error, match="give 'human', 'rgb_array' or None"):
+        ArenaEnv(render_mode="ansi")
+
+
+class FakeTk:
+    """What tkinter is asked for; a real one was tried with Xvfb, whose screen showed the arena."""
+
+    TclError = ValueError
+
+    def __init__(self):
+        self.pictures, self.updates, self.is_gone = [], 0, False
+
+    def Tk(self, **_):  # noqa: N802 - as tkinter has it
+        return self
+
+    def Label(self, master):  # noqa: N802
+        assert master is self
+        return SimpleNamespace(pack=lambda: None, configure=self._configure)
+
+    def _configure(self, image):
+        self.pictures.append(image)
+
+    def PhotoImage(self, master, data):  # noqa: N802
+        if master.is_gone:
+            raise self.TclError("application has been destroyed")
+        return np.array(Image.open(io.BytesIO(data)))
+
+    def update(self):
+        self.updates += 1
+
+    def destroy(self):
+        self.is_gone = True
+
+
+@pytest.fixture
+def tk(monkeypatch) -> FakeTk:
+    fake = FakeTk()
+    monkeypatch.setitem(sys.modules, "tkinter", fake)
+    return fake
+
+
+def test_human_mode_shows_each_step_in_a_window_until_it_is_closed(tk):
+    env, same = ArenaEnv(render_mode="human"), ArenaEnv(render_mode="rgb_array")
+    for each in (env, same):
+        each.reset(seed=1)
+        each.step(0)
+
+    assert len(tk.pictures) == tk.updates == 2
+    assert np.array_equal(tk.pictures[-1], same.render())
+    tk.destroy()
+    env.step(0)
+    assert len(tk.pictures) == 2
+
+
+def test_a_window_is_closed_with_its_environment_and_is_not_copied(tk):
+    for env in (
+        ArenaEnv(render_mode="human"),
+        ArenaVectorEnv(2, render_mode="human"),
+        ArenaParallelEnv(render_mode="human"),
+    ):
+        tk.is_gone = False
+        env.reset(seed=1)
+        assert copy.deepcopy(env)._view._window is None
+        env.close()
+        assert tk.is_gone
+
+
+def test_human_mode_draws_each_step_in_the_terminal_where_there_is_no_window(capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "tkinter", None)
+    env = ArenaEnv(render_mode="human")
+    with pytest.warns(UserWarning, match="no window can be opened: import of tkinter halted"):
+        env.reset(seed=1)
+    env.step(0)
+
+    drawn = capsys.readouterr().out.split("\x1b[H")
+    assert len(drawn) == 3
+    assert drawn[1].count("\u2580") > 500
+
+
+@pytest.mark.parametrize("duplicate", [copy.deepcopy, lambda env: pickle.loads(pickle.dumps(env))])
+@pytest.mark.parametrize("body", ["ideal", "kit"])
+def test_a_copy_goes_on_as_the_original_does(duplicate, body):
+    env = ArenaEnv(limit_s=60, body=body)
+    env.reset(seed=3)
+    actions = np.random.default_rng(1).integers(6, size=80)
+    for action in actions[:40]:
+        env.step(action)
+
+    other = duplicate(env)
+
+    for action in actions[40:]:
+        ours, theirs = env.step(action), other.step(action)
+        assert np.array_equal(ours[0], theirs[0])
+        assert ours[1:] == theirs[1:]
+    assert np.array_equal(env.reset()[0], other.reset()[0])  # the next arena is the same, too
+
+
+def test_a_copy_does_not_move_with_the_original():
+    env = ArenaEnv()
+    env.reset(seed=3)
+    other = copy.deepcopy(env)
+    env.step(5)
+
+    assert env.step(0)[4]["robot_s"] > other.step(0)[4]["robot_s"]
+
+
+def test_copies_of_many_arenas_and_of_several_robots_are_equal():
+    many, several = ArenaVectorEnv(3, limit_s=2), ArenaParallelEnv(2)
+    many.reset(seed=1)
+    several.reset(seed=1)
+    for step in range(30):  # the arenas end and begin anew at different steps
+        many.step(np.array([0, step % 6, 5]))
+        several.step({"robot_1": 0, "robot_2": step % 6})
+
+    others = copy.deepcopy(many), pickle.loads(pickle.dumps(several))
+
+    for _ in range(20):
+        for ours, theirs in zip(many.step(np.array([0, 1, 2])), others[0].step(np.array([0, 1, 2])), strict=True):
+            if isinstance(ours, np.ndarray):
+                assert np.array_equal(ours, theirs)
+        ours, theirs = (env.step({"robot_1": 1, "robot_2": 0}) for env in (several, others[1]))
+        assert ours[1:] == theirs[1:]
+        assert all(np.array_equal(ours[0][agent], theirs[0][agent]) for agent in several.possible_agents)
+
+
+def test_a_closed_environment_does_nothing_more():
+    single, many, several = ArenaEnv(), ArenaVectorEnv(2), ArenaParallelEnv(2)
+    for env, action in ((single, 0), (many, np.zeros(2, int)), (several, {"robot_1": 0, "robot_2": 0})):
+        env.reset(seed=1)
+        env.close()
+        env.close()
+        with pytest.raises(error.ClosedEnvironmentError):
+            env.step(action)
+        with pytest.raises(error.ClosedEnvironmentError):
+            env.reset()

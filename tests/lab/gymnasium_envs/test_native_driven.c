@@ -52,7 +52,7 @@ static void step(uint8_t first, uint8_t second)
     driven_step(&driven, 1, actions);
 }
 
-TEST(before_the_first_step_the_robots_have_senses)
+TEST(driven_robots_have_senses_before_the_first_step)
 {
     begin();
 
@@ -62,7 +62,7 @@ TEST(before_the_first_step_the_robots_have_senses)
     TEST_ASSERT_EQUAL_UINT32(1, driven.food_left);
 }
 
-TEST(a_robot_that_is_done_sooner_rests)
+TEST(robot_that_finishes_first_rests)
 {
     begin();
     step(DRIVEN_FORWARD, DRIVEN_TURN_ABOUT);
@@ -87,7 +87,7 @@ TEST(food_is_eaten_at_the_end_of_a_step_forward)
     TEST_ASSERT_EQUAL_UINT32(0, driven.food_left);
 }
 
-TEST(where_no_food_is_left_nothing_happens)
+TEST(step_without_food_left_takes_no_tick)
 {
     food.eaten = true;
     begin();
@@ -96,7 +96,7 @@ TEST(where_no_food_is_left_nothing_happens)
     TEST_ASSERT_EQUAL_UINT32(0, driven.tick);
 }
 
-TEST(a_step_ends_when_its_time_is_up)
+TEST(step_ends_at_its_tick_limit)
 {
     driven.step_ticks = 2;
     begin();
@@ -105,7 +105,7 @@ TEST(a_step_ends_when_its_time_is_up)
     TEST_ASSERT_EQUAL_UINT32(2, driven.tick);
 }
 
-TEST(a_step_that_is_cut_off_eats)
+TEST(step_ended_by_its_limit_eats)
 {
     bodies[0].x_mm = 1860.0;
     driven.step_ticks = 1;
@@ -115,7 +115,7 @@ TEST(a_step_that_is_cut_off_eats)
     TEST_ASSERT_EQUAL_UINT32(1, robots[0].food_eaten);
 }
 
-TEST(nothing_happens_after_the_time_of_the_world)
+TEST(step_beyond_the_time_limit_has_no_effect)
 {
     bodies[0].x_mm = 1900.0;
     driven.limit_ticks = 3;
@@ -128,7 +128,7 @@ TEST(nothing_happens_after_the_time_of_the_world)
     TEST_ASSERT_EQUAL_UINT32(0, robots[0].food_eaten);
 }
 
-TEST(bumps_are_counted_step_by_step)
+TEST(collisions_are_counted_per_step)
 {
     uint32_t bumps = 0;
 

@@ -1,6 +1,10 @@
-"""The atlas of all memories: the search that makes it, against each memory's own run and against other behaviours."""
+"""The atlas of all memories: the search that makes it, against each memory's own run and against other behaviours.
+
+The explorer of docs/learning.md: what it sees, against the world's own rule; what it takes, by hand.
+"""
 
 import csv
+import math
 import re
 from concurrent.futures import Future
 from dataclasses import replace
@@ -13,11 +17,16 @@ from host_sim.base.paths import ROOT
 from host_sim.cli.main import main
 from host_sim.lab.study import workers
 from host_sim.lab.study.atlas import FOLDER, MEMORIES, Maps, SeedMap, map_of
-from host_sim.lab.study.atlas_report import CELLS, NAMED, alike, explained, turned_over
+from host_sim.lab.study.atlas_report import CELLS, NAMED, correlation, explained, mirrored
+from host_sim.lab.study.explorer import Explorer, Room, rows_of, samples_of, sees
 from host_sim.lab.study.plan import read_plan
 from host_sim.lab.study.trial import Trial
 from host_sim.sim.fleet import Frozen, run_fleet
 from host_sim.sim.run_config import RunConfig
+from host_sim.world.arena import Arena
+from host_sim.world.geometry import Bar, Pose, SimParams
+from host_sim.world.layouts import Layout
+from host_sim.world.worlds import world_of
 
 SHORT = RunConfig(profile="article", seed=5, environments=1, limit_s=40.0, world="small")
 PLAN = """
@@ -58,10 +67,10 @@ def test_a_robot_that_learns_no_more_keeps_its_memory():
 
 
 def test_behind_a_mirrored_ring_the_map_is_turned_over():
-    usual, mirrored = (map_of(Trial(replace(SHORT, changes=changes))) for changes in ((), ("mirror@0s",)))
+    usual, with_mirror = (map_of(Trial(replace(SHORT, changes=changes))) for changes in ((), ("mirror@0s",)))
 
-    assert (mirrored.values[:, 0] == turned_over(usual.values[:, 0])).all()
-    assert (mirrored.values != usual.values).any()
+    assert (with_mirror.values[:, 0] == mirrored(usual.values[:, 0])).all()
+    assert (with_mirror.values != usual.values).any()
 
 
 def test_cells_that_decide_the_time_explain_its_variance():
@@ -72,7 +81,7 @@ def test_cells_that_decide_the_time_explain_its_variance():
     assert shares["cells 1 and 4"] == pytest.approx(1)
     assert 0 < shares["cell 4"] < shares["cell 1"] < 1
     assert shares["cells 5 and 7"] == pytest.approx(0)
-    assert alike(means, 3 * means) == pytest.approx(1)
+    assert correlation(means, 3 * means) == pytest.approx(1)
 
 
 class _Here:
@@ -139,6 +148,25 @@ def test_its_tables_and_pictures_go_into_the_document(study, tmp_path):
     assert {it.name for it in docs.rglob("a*.*")} == {"a.csv", "a-cells.csv", "a-map.csv", "a-map.png"}
 
 
+def test_each_condition_of_an_atlas_has_its_columns_and_its_own_comparison(study, tmp_path, monkeypatch):
+    docs = tmp_path / "docs"
+    docs.mkdir()
+    (docs / "learning.md").write_text(
+        "[?](tables/a.csv#kit+learned,mean_s_compared) [?](tables/a-cells.csv#kit,alike)\n"
+    )
+    monkeypatch.setattr(f"{__name__}.PLAN", PLAN + 'bodies = ["ideal", "kit"]\n')
+
+    assert study(2, "--docs", str(docs)) == 0
+    with (docs / "tables/a-map.csv").open(newline="") as file:
+        columns = next(csv.reader(file))
+    with (docs / "tables/a.csv").open(newline="") as file:
+        rows = {(row["condition"], row["figure"]): float(row["value"]) for row in csv.DictReader(file)}
+    ratio = rows["kit learned", "mean_s"] / rows["kit programmed", "mean_s"]
+    assert [it for it in columns if "mean_s" in it] == ["ideal mean_s", "kit mean_s"]
+    assert rows["kit learned", "mean_s_compared"] == pytest.approx(ratio, rel=1e-4)
+    assert (docs / "images/a-map.png").exists()
+
+
 def test_a_map_that_is_damaged_is_said(study, tmp_path, capsys):
     assert study(1) == 0
     (part,) = (tmp_path / "out" / FOLDER).iterdir()
@@ -166,7 +194,7 @@ def test_an_atlas_is_not_compared(study, tmp_path, capsys):
         ("judged_on = [50, 200]", ":4: the study's seeds 1..100 are not held out: something is judged on 50..200"),
     ],
 )
-def test_what_an_atlas_cannot_have_is_said(tmp_path, text, said):
+def test_unsupported_atlas_option_is_reported(tmp_path, text, said):
     given = {"memories": '"all"', "profiles": '["article"]', "environments": "1"}
     given |= [text.split(" = ")]
     (tmp_path / "a.toml").write_text("".join(f"{key} = {value}\n" for key, value in given.items()))
@@ -182,16 +210,84 @@ def test_seeds_to_judge_on_are_for_an_atlas_only(tmp_path):
         read_plan(tmp_path / "a.toml")
 
 
-def test_the_page_has_the_tables_of_its_study_and_names_the_best_memory():
-    page = (ROOT / "docs/learning.md").read_text()
-    with (ROOT / "docs/tables/atlas-map.csv").open(newline="") as file:
-        means = {row["memory"]: float(row["mean_s"]) for row in csv.DictReader(file)}
+def table(name: str) -> list[dict[str, str]]:
+    """The rows of a table of the documentation."""
+    with (ROOT / f"docs/tables/{name}.csv").open(newline="") as file:
+        return [*csv.DictReader(file)]
 
-    with (ROOT / "docs/tables/atlas.csv").open(newline="") as file:
-        judged = dict.fromkeys(row["condition"] for row in csv.DictReader(file))
-    with (ROOT / "docs/tables/atlas-cells.csv").open(newline="") as file:
-        cells = [row["condition"] for row in csv.DictReader(file)]
-    assert [*judged] == [*NAMED, "best", "learned"]
-    assert cells == [*CELLS]
+
+@pytest.mark.parametrize(
+    ("name", "conditions"),
+    [("atlas", [""]), ("atlas_worlds", ["random ", "corridors "]), ("atlas_bodies", ["ideal ", "kit "])],
+)
+def test_the_page_has_the_tables_of_its_study_and_names_the_best_memory(name, conditions):
+    page = (ROOT / "docs/learning.md").read_text()
+
+    assert [*dict.fromkeys(row["condition"] for row in table(name))] == [
+        f"{it}{words}" for it in conditions for words in [*NAMED, "best", "learned"]
+    ]
+    explained = [row["condition"] for row in table(f"{name}-cells") if row["figure"] == "explained"]
+    assert explained == [f"{it}{words}" for it in conditions for words in CELLS]
+    means = {row["memory"]: float(row[f"{conditions[-1]}mean_s"]) for row in table(f"{name}-map")}
     assert len(means) == len(MEMORIES)
     assert f"`{min(means, key=means.__getitem__)}`" in page
+
+
+EMPTY = Layout((), ((500.0, 1500.0), (2000.0, 1500.0), (3500.0, 1500.0)), Pose(1000.0, 1500.0, 0.0))
+WALL = Layout((Bar((1500.0, 0.0), (1500.0, 2400.0)),), ((2000.0, 1500.0),), Pose(1000.0, 1500.0, 0.0))
+
+
+def test_it_sees_what_a_robot_sees_that_looks_there():
+    world, seen = world_of("random"), []
+    for seed in range(40):
+        layout = world.generate(seed, 1)
+        (x, y), food = layout.start[:2], layout.food[0]
+        pose = Pose(x, y, math.atan2(food[1] - y, food[0] - x))
+        told = Arena(Layout(layout.bars, (food,), pose), world.params).body.sense(0).look
+        (ours,) = sees(np.array([[x, y]]), np.array([food]), layout.bars, world.params.bar_thickness_mm / 2)[0]
+        assert ours == told, seed
+        seen.append(told)
+    assert {*seen} == {False, True}
+
+
+def finish_s(layout: Layout, *, turns: bool) -> float:
+    return Explorer(Room(layout, SimParams()), turns=turns).finish_s()
+
+
+def test_where_nothing_hides_the_food_it_takes_the_ways_up_to_what_it_can_reach():
+    """500 mm back, 1,500 and 1,500 mm on, less 150 mm each, at 200 mm/s."""
+    assert finish_s(EMPTY, turns=False) == pytest.approx((3500 - 3 * 150) / 200)
+
+
+def test_one_that_turns_goes_first_to_the_food_that_it_sees_first():
+    """1,000 and 1,500 mm on, then half a turn at 180 degrees/s and 3,000 mm back."""
+    assert finish_s(EMPTY, turns=True) == pytest.approx((5500 - 3 * 150) / 200 + 1)
+
+
+def test_behind_a_wall_it_has_to_look_for_the_food():
+    one = SimParams(food_bands_mm=((0.0, 4000.0),))
+    room = Room(WALL, one)
+
+    assert not room.seen(np.array([WALL.start[:2]]), np.array(WALL.food)).any()
+    seeing, turning = (Explorer(room, turns=turns).finish_s() for turns in (False, True))
+    straight_s = (1000 - 150) / 200
+    assert straight_s + 1 < seeing < turning
+
+
+def numbers_of(text: str) -> dict[str, list[float]]:
+    """The numbers of the table's rows by their names."""
+    rows = re.findall(r"^\| ([^|]+) \| (\d+ s \([^|]+) \| ([^|]+) \|$", text, re.MULTILINE)
+    return {name: [float(it) for it in re.findall(r"\d+(?:\.\d+)?", mean + " " + part)] for name, mean, part in rows}
+
+
+def test_the_page_has_the_rows_of_the_command_and_few_seeds_agree():
+    page = numbers_of((ROOT / "docs/learning.md").read_text())
+    few = numbers_of("\n".join(rows_of(samples_of(6))))
+
+    assert len(few) == 5
+    assert {*few} <= {*page}
+    for name in ("shortest tour", "explorer that sees all around", "explorer that turns to look"):
+        assert few[name][0] == pytest.approx(page[name][0], abs=3), name
+    for means in (few, page):
+        order = [means[it][0] for it in ("shortest tour", "explorer that turns to look", "`searcher`", "`article`")]
+        assert order == sorted(order)

@@ -1,4 +1,7 @@
-"""`tools/octet compare`, of studies and of profiles, and its exit code; plots of a study."""
+"""`tools/octet compare`, of studies and of profiles, and its exit code; plots of a study.
+
+Each option of the commands for studies does something that can be seen: the table of tests/cli says what.
+"""
 
 import subprocess
 import sys
@@ -11,7 +14,9 @@ from host_sim.base.paths import ROOT
 from host_sim.cli.main import main
 from host_sim.lab.study.heiserman import CLASSES, scores
 from host_sim.lab.study.plots import draw_plots
+from tests.cli.option_rows import LAB, Trial, tried
 from tests.lab.study.support import SWAPPED, contact, row, run, samples
+from tests.runs.support import octet
 
 GOAL = '[[goals]]\nfigure = "finished"\ncondition = "article"\nat_{word} = {bound}\n'
 ONE = ["--seeds", "1", "--environments", "1", "--jobs", "1"]
@@ -124,7 +129,7 @@ def test_a_creature_is_the_same_for_the_same_seed_and_scores_what_it_did(kind):
     assert np.allclose(np.diff(good, prepend=0), np.round(np.diff(good, prepend=0)))
 
 
-def test_who_remembers_scores_more_and_who_does_not_never_learns():
+def test_learning_robots_score_more_than_those_without_memory():
     early, late = (
         {kind: np.mean([list(scores(kind, seed, count))[-1] for seed in range(60)]) for kind in CLASSES}
         for count in (10, 100)
@@ -146,3 +151,16 @@ def test_a_study_of_robots_in_worlds_of_their_own_is_compared_as_fleets(tmp_path
     said = capsys.readouterr().out
     assert "a: 2 seeds of 1 environment each" in said
     assert "used      seeds 1..4 for choosing: everything" in said
+
+
+@pytest.fixture(scope="module")
+def trial(tmp_path_factory: pytest.TempPathFactory) -> Trial:
+    folder = tmp_path_factory.mktemp("options")
+    trial = Trial(folder)
+    assert octet("study", folder / "plan.toml", "--jobs", "1", "--out", folder / "studied").returncode == 0
+    return trial
+
+
+@pytest.mark.parametrize(("command", "name"), tried(*LAB))
+def test_an_option_changes_what_its_row_says(command, name, trial):
+    trial.check(command, name)

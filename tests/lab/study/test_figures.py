@@ -1,16 +1,20 @@
 """What figures say of rows that were made up, and how far they are to be trusted."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from host_sim.lab.study.figures import FIGURES
+from host_sim.base.paths import ROOT
+from host_sim.lab.study.claims import Life, measured
+from host_sim.lab.study.clocks import HEADINGS, clocks_of, first_helped, left_of, plan_of, table_of
+from host_sim.lab.study.figures import FIGURES, Estimate, compare, coverage, estimate, wilson
 from host_sim.lab.study.goals import judge
-from host_sim.lab.study.intervals import Estimate, compare, coverage, estimate, wilson
 from host_sim.lab.study.plan import Goal
 from host_sim.lab.study.table import table
+from host_sim.protocol.generated import Side
 from tests.lab.study.support import NOTHING, SWAPPED, contact, row, run, samples
 
 LEFT_OF_LEFT = (0, 0, 0, 0, 1, 0, 0, 0)
@@ -75,7 +79,7 @@ def test_wrong_is_what_is_known_in_the_last_environment():
     assert value("wrong", run("a", 1, wrong, right), run("a", 2, right, wrong)) == 50
 
 
-def test_what_is_wrong_is_the_other_way_round_in_a_body_that_is():
+def test_wrong_turns_are_exchanged_while_a_body_is_mirrored():
     assert value("wrong", run("a", 1, row(sides=[LEFT_OF_LEFT], bodies=[SWAPPED]))) == 0
 
 
@@ -94,7 +98,7 @@ def test_recovery_is_counted_in_contacts_after_the_change():
     assert value("recovered", *runs) == pytest.approx(100 * 2 / 3)
 
 
-def test_who_forgets_again_has_not_recovered_for_good():
+def test_recovery_that_is_forgotten_again_is_not_lasting():
     right, wrong = (0, 2, 0, 0, 1, 0, 0, 0), (0, 2, 0, 0, 2, 0, 0, 0)
 
     runs = [after_swap(1, wrong, right, wrong, right), after_swap(2, right, right), after_swap(3, right, wrong)]
@@ -118,7 +122,7 @@ def test_without_a_change_there_is_no_recovery():
     assert math.isnan(value("recovery", *FOUR))
 
 
-def test_who_never_knows_all_is_later_than_everybody_else():
+def test_robot_that_never_knows_all_counts_as_latest():
     runs = [run("a", seed, row(), known_s=known) for seed, known in enumerate((None, 20.0, 30.0))]
 
     assert value("known_s", *runs) == 30
@@ -255,3 +259,66 @@ def test_a_goal_can_be_a_ratio():
 
     assert judged.is_reached
     assert str(judged) == "reached  mean_s of a by b: 0.333 (0.333..0.333), wanted at most 0.4"
+
+
+NOT_MEMORYLESS = ("5", "7")
+"""Where a trial has failed the next is made at the same place: their first trials help more often than the rest."""
+
+NUMBER = re.compile(r"\d+(?:\.\d+)?")
+L, R = Side.LEFT, Side.RIGHT
+
+
+def life(*tried: tuple[int, Side], **cells: Side) -> Life:
+    return Life([*tried], [tuple(cells.get(f"cell{i}", Side.NOTHING) for i in range(8))], [True], [[]])
+
+
+def test_a_clock_is_the_part_of_the_trials_to_its_side_that_helped():
+    lives = [life((2, L), (2, R), (2, L), cell2=L), life((2, R), (3, L), cell3=L), life((2, L), (2, R), cell2=R)]
+
+    clocks = clocks_of(lives, 2)
+    assert clocks.left == pytest.approx(1 / 3)
+    assert clocks.right == pytest.approx(1 / 3)
+    assert clocks.left_wins == pytest.approx(0.5)
+    assert clocks.first_helps == pytest.approx(1 / 3)
+    assert left_of(lives, 2) == [True, False]
+    assert first_helped(lives, 2) == [False, False, False]
+    assert first_helped(lives, 3) == [True]
+
+
+def test_a_side_that_was_never_tried_never_helps():
+    assert clocks_of([life((1, L), cell1=L)], 1) == (1, 0)
+
+
+@pytest.fixture(scope="module")
+def few():
+    """Fifty robots that tell, and fifty others, on the first of the page's seeds."""
+    (lives,) = measured(plan_of(50), 2)
+    return lives
+
+
+def cells_of(text: str) -> dict[str, list[list[float]]]:
+    """The rows of a table by their cell."""
+    rows = [[it.strip() for it in line.strip("|").split("|")] for line in text.splitlines() if line.startswith("| ")]
+    return {
+        row[0]: [[float(it) for it in NUMBER.findall(cell)] for cell in row[1:]] for row in rows if row[0].isdigit()
+    }
+
+
+def test_the_page_has_the_rows_of_the_command_and_few_seeds_agree(few):
+    page = (ROOT / "docs/learning.md").read_text().partition("| " + " | ".join(HEADINGS))[2].partition("\n\n")[0]
+
+    theirs, ours = cells_of(page), cells_of(table_of(few[:50], few[50:]))
+    assert [*theirs] == [*ours] == [str(cell) for cell in range(1, 8)]
+    for cell, told in theirs.items():
+        for (value, *_), (_, low, high) in zip((told[3], told[5]), (ours[cell][3], ours[cell][5]), strict=True):
+            assert low - (high - low) / 2 - 1 <= value <= high + (high - low) / 2 + 1, cell
+
+
+def test_the_predictions_of_the_page_are_near_what_others_did():
+    """The chain is right about those that it was not made of; both halves are as large."""
+    page = (ROOT / "docs/learning.md").read_text().partition("| " + " | ".join(HEADINGS))[2].partition("\n\n")[0]
+
+    for cell, told in cells_of(page).items():
+        for (predicted,), (value, low, high) in ((told[2], told[3]), (told[4], told[5])):
+            if cell not in NOT_MEMORYLESS or predicted == told[2][0]:
+                assert abs(predicted - value) <= 2**0.5 * (high - low) / 2 + 0.1, cell

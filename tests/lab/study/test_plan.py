@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from host_sim.base.errors import UsageError
-from host_sim.lab.study import used_seeds
+from host_sim.lab.study import folder
 from host_sim.lab.study.plan import read_plan
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -128,7 +128,7 @@ def test_a_file_that_is_not_there_or_not_text_is_named(tmp_path):
         read_plan(tmp_path / "a.toml")
 
 
-STUDIES = sorted({*(ROOT / "studies").glob("*.toml")} - {used_seeds.FILE})
+STUDIES = sorted({*(ROOT / "studies").glob("*.toml")} - {folder.USED_SEEDS})
 
 
 @pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
@@ -143,15 +143,15 @@ def test_the_studies_that_come_with_the_project_can_be_read(path):
 def test_the_seeds_of_every_study_of_the_project_are_noted_as_used(path):
     first, last = read_plan(path).seeds_used
 
-    assert any(it.first <= first and last <= it.last for it in used_seeds.read_used())
+    assert any(it.first <= first and last <= it.last for it in folder.read_used())
 
 
 def test_a_range_of_used_seeds_is_said_where_it_meets_those_of_a_study(tmp_path):
     file = tmp_path / "used.toml"
     file.write_text('[[used]]\nfirst = 10\nlast = 20\nwhat = "a"\n[[used]]\nfirst = 30\nlast = 30\nwhat = "b"\n')
 
-    assert [*used_seeds.notes(20, 30, file)] == ["used      seeds 20..20 for a", "used      seeds 30..30 for b"]
-    assert [*used_seeds.notes(21, 29, file)] == [*used_seeds.notes(31, 40, file)] == []
+    assert [*folder.used_seed_notes(20, 30, file)] == ["used      seeds 20..20 for a", "used      seeds 30..30 for b"]
+    assert [*folder.used_seed_notes(21, 29, file)] == [*folder.used_seed_notes(31, 40, file)] == []
 
 
 @pytest.mark.parametrize("text", ["first = 1", 'first = 2\nlast = 1\nwhat = ""', "first = 1\nlast = 2\nwhat = 3"])
@@ -159,4 +159,4 @@ def test_a_range_of_used_seeds_that_is_none_is_named_with_its_line(tmp_path, tex
     (tmp_path / "used.toml").write_text(f"\n[[used]]\n{text}\n")
 
     with pytest.raises(UsageError, match=r"used\.toml:2: a range has first, last and what it was used for"):
-        used_seeds.read_used(tmp_path / "used.toml")
+        folder.read_used(tmp_path / "used.toml")

@@ -59,7 +59,7 @@ def test_with_a_mirrored_ring_from_birth_the_path_is_the_same_and_the_cells_are_
 @pytest.mark.parametrize(
     ("change", "is_wrong"), [((), False), (("mirror@env1",), True), (("swap-motors@env1",), True)]
 )
-def test_what_is_wrong_with_a_reversed_body_is_the_other_way_round(change, is_wrong):
+def test_wrong_turns_are_exchanged_for_a_mirrored_body(change, is_wrong):
     (row,) = run_trial(trial("fixed", 3, changes=change, limit_s=5)).rows
 
     assert knows_wrong(row.sides[0], row.bodies[0]) == is_wrong
@@ -199,7 +199,7 @@ def test_a_contact_counts_as_far_as_in_a_study():
     assert loaded()[1].FLEET_TRAPPED_TICKS * SimParams().tick_s == TRAPPED_S
 
 
-def test_what_a_fleet_cannot_do_is_refused():
+def test_option_that_a_fleet_lacks_is_refused():
     plan = Plan("", [Trial(RunConfig(changes=("mirror@1s",)))])
 
     with pytest.raises(UsageError, match=r"nothing changes in a fleet: .* such as mirror@0s"):

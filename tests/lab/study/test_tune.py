@@ -9,7 +9,8 @@ import pytest
 from host_sim.base.errors import UsageError
 from host_sim.cli.main import main
 from host_sim.lab.study import tune_command
-from host_sim.lab.study.tuning import Piece, Search, Wanted, run_pieces, samples_of
+from host_sim.lab.study.folder import read_used
+from host_sim.lab.study.tuning import Piece, Search, SearchTask, run_pieces, samples_of
 from host_sim.sim.run_config import RunConfig
 from tests.lab.study.support import row, run, samples
 
@@ -40,10 +41,10 @@ class World:
 
 
 def search(notes, run, seeds=12):
-    return Search(Wanted(CONFIG, "time", NAMES, seeds), run, notes)
+    return Search(SearchTask(CONFIG, "time", NAMES, seeds), run, notes)
 
 
-def test_it_finds_what_is_better_and_does_not_touch(tmp_path):
+def test_tuning_finds_better_settings_without_touches(tmp_path):
     one = search(tmp_path / "notes.jsonl", World())
     one.go(120, lambda _: None)
 
@@ -52,7 +53,7 @@ def test_it_finds_what_is_better_and_does_not_touch(tmp_path):
     assert found.get("step_mm", 12) <= 50
 
 
-def test_where_nothing_is_better_the_defaults_stay(tmp_path):
+def test_tuning_keeps_the_defaults_if_nothing_is_better(tmp_path):
     def same(pieces):
         for piece in pieces:
             shape = piece.seeds, 1
@@ -83,7 +84,7 @@ def test_a_search_that_was_stopped_goes_on_and_finds_the_same(tmp_path):
 def test_notes_of_fewer_trials_are_of_use_to_more_only_where_the_seeds_are_the_same(tmp_path):
     def found(notes, *trials):
         for number in trials:
-            one = Search(Wanted(CONFIG, "time", ["filter"], 12), World(), notes)
+            one = Search(SearchTask(CONFIG, "time", ["filter"], 12), World(), notes)
             one.go(number, lambda _: None)
         return (tmp_path / notes).read_text().splitlines()
 
@@ -145,7 +146,7 @@ def test_the_command_prints_what_it_found_and_a_run_takes_it(tmp_path, capsys):
     assert said.startswith("searched  1 parameters of article on seeds 1..")
     preset = tmp_path / "article.txt"
     if "nothing better" not in said:
-        assert "held out  seeds 1000001..1000004" in said
+        assert "held out  seeds 5000001..5000004" in said
         assert preset.read_text().splitlines()[1].startswith("turn_deg=")
     preset.write_text("# by hand\nturn_deg=20  # wider\nstep_mm=15\n")
 
@@ -167,6 +168,12 @@ def test_the_command_prints_what_it_found_and_a_run_takes_it(tmp_path, capsys):
 
     last_wins = log_of("--set", f"@{preset}", "--set", "step_mm=16")
     assert last_wins == log_of("--set", "turn_deg=20", "--set", "step_mm=16") != log_of("--set", f"@{preset}")
+
+
+def test_nothing_else_uses_the_held_out_seeds():
+    uses = [it.what for it in read_used() if it.last >= tune_command.HELD_OUT]
+
+    assert uses == ["the settings that tools/octet tune finds"]
 
 
 def test_held_out_seeds_begin_after_those_of_the_search(tmp_path, capsys, monkeypatch):

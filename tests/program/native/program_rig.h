@@ -1,4 +1,4 @@
-/* program_rig.h: a program and a robot's senses for it. */
+/* program_rig.h: a program, and the senses of its robot. */
 #ifndef OCTET_PROGRAM_RIG_H
 #define OCTET_PROGRAM_RIG_H
 
@@ -10,18 +10,18 @@ extern struct config config;
 extern struct senses senses;
 
 void rig_reset(void);
-        /* A robot as at its start, which senses nothing. */
+        /* A robot at its start, without any sensor triggered. */
 
 struct action rig_begin(const char *text);
-        /* Compiles a program, which must have no mistake, and runs it up to the first thing that it wants. */
+        /* Compiles a program, which must have no mistake, and returns its first action. */
 
 struct action rig_next(void);
-        /* That has been done: what comes next. */
+        /* Returns the action after that. */
 
 double rig_value(const char *name);
         /* The value of a variable. */
 
 void rig_fails(const char *text, unsigned line, const char *word, enum program_expected expected);
-        /* This program is refused, or stops by itself, with this mistake. */
+        /* Checks that compiling or running a program fails with this mistake. */
 
 #endif

@@ -11,7 +11,7 @@ void setUp(void)
     rig_reset();
 }
 
-static void comes_to(double expected, const char *expression)
+static void assert_value(double expected, const char *expression)
 {
     char text[200] = "x = ";
 
@@ -20,67 +20,67 @@ static void comes_to(double expected, const char *expression)
     TEST_ASSERT_EQUAL_DOUBLE_MESSAGE(expected, rig_value("x"), expression);
 }
 
-TEST(operators_bind_as_in_the_listing)
+TEST(operators_have_the_precedence_of_the_language)
 {
-    comes_to(7, "1 + 2 * 3");
-    comes_to(9, "(1+2)*3");
-    comes_to(-5, "-2-3");
-    comes_to(2, "-(-2)");
-    comes_to(5, "(10>>1)&7");
-    comes_to(2.5, "5/2");
-    comes_to(2.4, "2.4");
-    comes_to(1, "7 mod 3");
-    comes_to(1, "7 % 3");
-    comes_to(1, "1 < 2 and 3 >= 3");
-    comes_to(0, "1 > 2 or 3 <> 3");
-    comes_to(1, "not 1 = 2");
-    comes_to(1, "1 != 2");
-    comes_to(12, "3 << 2");
-    comes_to(7, "4 | 3");
-    comes_to(1, "2 <= 2 == 1");
-    comes_to(3, "abs(-3)");
-    comes_to(2, "int(2.9)");
-    comes_to(COLOUR_GREEN, "Green");
-    comes_to(1, "+TRUE");
-    comes_to(31, "0x1F");
-    comes_to(254, "0XfE");
-    comes_to(14, "0%1110");
-    comes_to(0, "0 % 1");
-    comes_to(1, "1 < 2 && 3 >= 3");
-    comes_to(1, "0 || 2");
-    comes_to(0, "!3");
-    comes_to(1, "!0 && !(2 > 3)");
+    assert_value(7, "1 + 2 * 3");
+    assert_value(9, "(1+2)*3");
+    assert_value(-5, "-2-3");
+    assert_value(2, "-(-2)");
+    assert_value(5, "(10>>1)&7");
+    assert_value(2.5, "5/2");
+    assert_value(2.4, "2.4");
+    assert_value(1, "7 mod 3");
+    assert_value(1, "7 % 3");
+    assert_value(1, "1 < 2 and 3 >= 3");
+    assert_value(0, "1 > 2 or 3 <> 3");
+    assert_value(1, "not 1 = 2");
+    assert_value(1, "1 != 2");
+    assert_value(12, "3 << 2");
+    assert_value(7, "4 | 3");
+    assert_value(1, "2 <= 2 == 1");
+    assert_value(3, "abs(-3)");
+    assert_value(2, "int(2.9)");
+    assert_value(COLOUR_GREEN, "Green");
+    assert_value(1, "+TRUE");
+    assert_value(31, "0x1F");
+    assert_value(254, "0XfE");
+    assert_value(14, "0%1110");
+    assert_value(0, "0 % 1");
+    assert_value(1, "1 < 2 && 3 >= 3");
+    assert_value(1, "0 || 2");
+    assert_value(0, "!3");
+    assert_value(1, "!0 && !(2 > 3)");
 }
 
-TEST(shifts_and_remainders_of_anything_are_numbers)
+TEST(shifts_and_remainders_are_defined_for_all_values)
 {
-    comes_to(0, "1 >> 99");
-    comes_to(2147483647, "9999999999 | 0");
-    comes_to(-2147483648.0, "-9999999999 | 0");
-    comes_to(1, "1 << -3");
-    comes_to(0, "(-2147483648) mod -1");
+    assert_value(0, "1 >> 99");
+    assert_value(2147483647, "9999999999 | 0");
+    assert_value(-2147483648.0, "-9999999999 | 0");
+    assert_value(1, "1 << -3");
+    assert_value(0, "(-2147483648) mod -1");
 }
 
-TEST(names_have_letters_of_any_alphabet)
+TEST(names_may_have_letters_of_any_alphabet)
 {
     (void)rig_begin("Gr\xc3\xb6\xc3\x9f" "e = 3\nx = gr\xc3\xb6\xc3\x9f" "e\xe2\x80\x93" "1");   /* ends with a dash */
     TEST_ASSERT_EQUAL_DOUBLE(2, rig_value("x"));
 }
 
-TEST(capital_and_small_letters_are_the_same)
+TEST(names_are_case_insensitive)
 {
     (void)rig_begin("Dist = 3\nDIST = dist + 1\nrFORWARD dist");
     TEST_ASSERT_EQUAL_DOUBLE(4, rig_value("Dist"));
 }
 
-TEST(an_if_on_one_line_holds_for_the_rest_of_the_line)
+TEST(single_line_if_applies_to_the_rest_of_the_line)
 {
     (void)rig_begin("a=0\\b=0\\e=0\\f=0\nif 0 then a=1\\b=1\nif 1 then c=1\\d=1 else e=1\nif 0 then f=1 else g=1");
     TEST_ASSERT_EQUAL_DOUBLE(0, rig_value("a") + rig_value("b") + rig_value("e") + rig_value("f"));
     TEST_ASSERT_EQUAL_DOUBLE(3, rig_value("c") + rig_value("d") + rig_value("g"));
 }
 
-TEST(the_first_branch_that_holds_is_taken)
+TEST(first_true_branch_is_taken)
 {
     const char *text = "a=0\nfor x = 1 to 4\nif x=1\na=a*10+1\nelseif x=2\na=a*10+2\nelseif x=3 then\na=a*10+3\nelse\na=a*10+4\nendif\nnext";
 
@@ -88,7 +88,7 @@ TEST(the_first_branch_that_holds_is_taken)
     TEST_ASSERT_EQUAL_DOUBLE(1234, rig_value("a"));
 }
 
-TEST(loops_go_on_as_long_as_they_should)
+TEST(while_and_for_loops_end_at_their_conditions)
 {
     (void)rig_begin("no = 0\nsum = 0\nn = 5\nwhile n\nn--\nsum++\nwend\nfor i = 10 to 1 step -3\nlast = i\nnext i\nfor j = 2 to 1\nno = 1\nnext\n");
     TEST_ASSERT_EQUAL_DOUBLE(5, rig_value("sum"));
@@ -96,13 +96,13 @@ TEST(loops_go_on_as_long_as_they_should)
     TEST_ASSERT_EQUAL_DOUBLE(0, rig_value("no"));
 }
 
-TEST(repeat_goes_on_until_its_condition_holds)
+TEST(repeat_ends_when_its_condition_is_true)
 {
     (void)rig_begin("n=0\nrepeat\nn++\nuntil n=3\nrepeat\nn++\nuntil true\n");
     TEST_ASSERT_EQUAL_DOUBLE(4, rig_value("n"));
 }
 
-TEST(break_leaves_the_innermost_loop_and_continue_begins_its_next_round)
+TEST(break_and_continue_apply_to_the_innermost_loop)
 {
     (void)rig_begin("a=0\nb=0\nfor i=1 to 9\nif i>4 then break\nif i=2\ncontinue\nendif\na=a*10+i\nnext\n"
                     "repeat\nb++\nwhile 1\nif b then break\nwend\nif b<3 then continue\nuntil b>=3\n"
@@ -111,13 +111,13 @@ TEST(break_leaves_the_innermost_loop_and_continue_begins_its_next_round)
     TEST_ASSERT_EQUAL_DOUBLE(1, rig_value("b"));
 }
 
-TEST(goto_goes_to_a_label_before_or_after_it)
+TEST(goto_jumps_to_a_label_before_or_after_it)
 {
     (void)rig_begin("n=0\nAgain:\nn++\nwhile 1\nif n<3 then goto Again\ngoto Done\nwend\nn=99\nDone:\nm=n");
     TEST_ASSERT_EQUAL_DOUBLE(3, rig_value("m"));
 }
 
-TEST(a_value_is_changed_in_place)
+TEST(compound_assignments_change_variables_and_cells)
 {
     (void)rig_begin("x=6\nx+=2\nx*=3\nx-=4\nx/=5\ndim a[3]\ni=0\na[i+1]+=7\na[1]++\na[1]--\na[1]*=x\ny=a[1]\n"
                     "call Add(y)\nend\nsub Add(&z)\nz+=0.5");
@@ -125,7 +125,7 @@ TEST(a_value_is_changed_in_place)
     TEST_ASSERT_EQUAL_DOUBLE(28.5, rig_value("y"));
 }
 
-TEST(an_index_is_computed_once_for_a_change_in_place)
+TEST(compound_assignment_evaluates_its_index_once)
 {
     struct random before;
 
@@ -136,27 +136,27 @@ TEST(an_index_is_computed_once_for_a_change_in_place)
     TEST_ASSERT_EQUAL_MEMORY(&before, &brain.random, sizeof before);
 }
 
-TEST(print_gives_lines_of_texts_and_numbers)
+TEST(print_writes_lines_of_texts_and_numbers)
 {
     (void)rig_begin("print \"Hello\"\nprint\nprint 1,2;3 // note\nprint \"a\";\nprint \"b\",\nprint -0.5 ' note");
     TEST_ASSERT_EQUAL_STRING("Hello\n\n1 23\nab -0.5\n", program.printed);
 }
 
-TEST(what_is_printed_beyond_the_room_for_it_is_lost)
+TEST(print_beyond_the_buffer_is_dropped)
 {
     (void)rig_begin("for i=1 to 2000\nprint \"abc\"\nnext");
     TEST_ASSERT_EQUAL(PROGRAM_PRINTED_MAX - 1, strlen(program.printed));
     TEST_ASSERT_EQUAL(PROGRAM_ENDED, program.state);
 }
 
-TEST(gosub_comes_back)
+TEST(gosub_returns_to_its_caller)
 {
     (void)rig_begin("n=0\ngosub Twice\ngosub Twice\nend\nTwice:\ngosub Once\ngosub Once\nreturn\nOnce:\nn++\nreturn\n");
     TEST_ASSERT_EQUAL_DOUBLE(4, rig_value("n"));
     TEST_ASSERT_EQUAL(PROGRAM_ENDED, program.state);
 }
 
-TEST(an_argument_by_reference_is_changed_and_another_is_not)
+TEST(sub_changes_only_arguments_by_reference)
 {
     (void)rig_begin("a=1\nb=1\ndim c[2]\ncall Add(a,b,c[1])\nd=c[1]\nend\nsub Add(x,&y,&z)\nx=x+5\ny=y+5\nz=x+y\n");
     TEST_ASSERT_EQUAL_DOUBLE(1, rig_value("a"));
@@ -164,19 +164,19 @@ TEST(an_argument_by_reference_is_changed_and_another_is_not)
     TEST_ASSERT_EQUAL_DOUBLE(12, rig_value("d"));
 }
 
-TEST(a_reference_is_handed_on_and_a_sub_may_call_itself)
+TEST(recursive_sub_passes_its_reference_on)
 {
     (void)rig_begin("n=0\ncall Count(5,n)\nend\nsub Count(more,&n)\nif more=0 then return\nn++\ncall Count(more-1,n)\nreturn");
     TEST_ASSERT_EQUAL_DOUBLE(5, rig_value("n"));
 }
 
-TEST(parameters_are_counted_and_looped_over)
+TEST(parameters_can_be_loop_limits_and_counters)
 {
     (void)rig_begin("a=0\ncall Sum(3,a)\nend\nsub Sum(n,&total)\nfor i = 1 to n\ntotal = total + i\nnext\nn--\ntotal++\nreturn");
     TEST_ASSERT_EQUAL_DOUBLE(7, rig_value("a"));
 }
 
-TEST(dim_empties_an_array_but_for_mem)
+TEST(dim_clears_arrays_other_than_mem)
 {
     brain.memory.cell[3] = SIDE_RIGHT;
     (void)rig_begin("dim a[3]\na[2]=7\nb=a[2]\ndim a[3]\nc=a[2]\ndim Mem[8]\nd=Mem[3]");
@@ -185,14 +185,14 @@ TEST(dim_empties_an_array_but_for_mem)
     TEST_ASSERT_EQUAL_DOUBLE(SIDE_RIGHT, rig_value("d"));
 }
 
-TEST(what_a_magazine_prints_is_understood)
+TEST(typographic_characters_are_read_as_plain_ones)
 {
     (void)rig_begin("\xef\xbb\xbfx = 5 \xe2\x80\x93 2\xc2\xa0// \xe2\x80\x9cthree\xe2\x80\x9d\r\nxyString 1,2,\xe2\x80\x9d" "ALL DONE\xe2\x80\x9d\r\ny = \xe2\x88\x92x\n");
     TEST_ASSERT_EQUAL_DOUBLE(-3, rig_value("y"));
     TEST_ASSERT_EQUAL_STRING("ALL DONE", program.shown[0].text);
 }
 
-TEST(texts_and_numbers_are_shown_at_their_places)
+TEST(xystring_shows_texts_and_numbers_at_positions)
 {
     (void)rig_begin("xyString 1,1,\"a\",-1.5,\" \",2\nxyString 2,1,0.0004\nxyString 1,1,\"b\",0.9999,2.25\n");
     TEST_ASSERT_EQUAL_STRING("b12.25", program.shown[0].text);
@@ -201,13 +201,13 @@ TEST(texts_and_numbers_are_shown_at_their_places)
     TEST_ASSERT_EQUAL_STRING("a-1.5 2", program.shown[0].text);
 }
 
-TEST(a_text_that_is_too_long_is_cut)
+TEST(xystring_truncates_long_texts)
 {
     (void)rig_begin("for i = 1 to 99\nxyString i,0,\"12345678901234567890\",\"12345678901234567890\",\"1234567890\"\nnext");
     TEST_ASSERT_EQUAL(PROGRAM_SHOWN_TEXT - 1, strlen(program.shown[PROGRAM_SHOWN_MAX - 1].text));
 }
 
-TEST(the_last_decision_is_kept_step_by_step)
+TEST(trace_holds_the_statements_of_the_last_decision)
 {
     (void)rig_begin("x=1\nrForward 1\nx=x+1\nif x=2\nrTurn 5\nendif");
     TEST_ASSERT_EQUAL_DOUBLE(0, program.before[0]);
@@ -220,7 +220,7 @@ TEST(the_last_decision_is_kept_step_by_step)
     TEST_ASSERT_EQUAL(5, program.trace[3].line);
 }
 
-TEST(tokens_have_their_kinds_lines_and_places)
+TEST(tokens_have_kind_and_line)
 {
     const char *text = "ab 1.5\\\n\"x\" ++";
     const enum token_kind kinds[] = {TOKEN_WORD, TOKEN_NUMBER, TOKEN_SEPARATOR, TOKEN_LINE_END, TOKEN_TEXT, TOKEN_SIGN, TOKEN_END, TOKEN_END};

@@ -47,25 +47,25 @@ static int run(const char *text)
     return program_main(4, arguments);
 }
 
-TEST(the_robot_runs_with_the_program_for_its_brain)
+TEST(program_decides_the_actions_of_the_robot)
 {
     TEST_ASSERT_EQUAL(REASON_WANDER, run("rForward 5"));
     TEST_ASSERT_EQUAL(1, calls);
 }
 
-TEST(a_program_that_stops_is_told_and_the_robot_goes_on)
+TEST(program_that_fails_leaves_the_robot_running)
 {
     TEST_ASSERT_EQUAL(REASON_PROGRAM, run("x = 1 / 0"));
     TEST_ASSERT_EQUAL(1, calls);
 }
 
-TEST(a_program_with_a_mistake_is_not_begun)
+TEST(invalid_program_does_not_start)
 {
     TEST_ASSERT_EQUAL(2, run("rTrun 5"));
     TEST_ASSERT_EQUAL(0, calls);
 }
 
-TEST(without_a_program_there_is_no_robot)
+TEST(missing_program_does_not_start)
 {
     char *arguments[] = {name, path};
 

@@ -1,8 +1,7 @@
+#include "tests/test.h"
 #include "tests/program/native/program_rig.h"
 
 #include <string.h>
-
-#include "tests/test.h"
 
 void setUp(void)
 {
@@ -109,13 +108,13 @@ static const struct {
     {"x = rLook(45)", 1, "x", EXPECTED_AHEAD},
 };
 
-TEST(each_mistake_has_its_line_its_word_and_what_was_expected)
+TEST(mistakes_are_reported_with_line_word_and_expectation)
 {
     for (unsigned i = 0; i < sizeof mistakes / sizeof *mistakes; i++)
         rig_fails(mistakes[i].text, mistakes[i].line, mistakes[i].word, mistakes[i].expected);
 }
 
-TEST(everything_that_can_be_expected_is_expected_somewhere)
+TEST(every_expectation_has_a_mistake_in_the_table)
 {
     bool seen[EXPECTED_COUNT] = {true};
 
@@ -126,8 +125,8 @@ TEST(everything_that_can_be_expected_is_expected_somewhere)
     TEST_ASSERT_EQUAL_STRING(program_expected(EXPECTED_NOTHING), program_expected(EXPECTED_COUNT));
 }
 
-/* A program of count times this text. */
-static void is_too_much(const char *before, const char *text, unsigned count, enum program_expected expected)
+/* Refuses a program of count copies of this text; ? and ! stand for letters that make names differ. */
+static void assert_too_large(const char *before, const char *text, unsigned count, enum program_expected expected)
 {
     static char all[2 * PROGRAM_TEXT_MAX];
     size_t used = strlen(strcpy(all, before));
@@ -147,12 +146,12 @@ static void is_too_much(const char *before, const char *text, unsigned count, en
     TEST_ASSERT_EQUAL(REASON_PROGRAM, rig_next().reason);
 }
 
-TEST(what_there_is_no_room_for_is_refused)
+TEST(programs_beyond_the_capacity_are_refused)
 {
-    is_too_much("", "xxxxx = 12345678\n", 1200, EXPECTED_SHORTER);
-    is_too_much("", "x=1+1\n", 1000, EXPECTED_SHORTER);
-    is_too_much("", "!?x=1\n", 300, EXPECTED_SHORTER);
-    is_too_much("", "while 1\n", 40, EXPECTED_PLAIN);
+    assert_too_large("", "xxxxx = 12345678\n", 1200, EXPECTED_SHORTER);
+    assert_too_large("", "x=1+1\n", 1000, EXPECTED_SHORTER);
+    assert_too_large("", "!?x=1\n", 300, EXPECTED_SHORTER);
+    assert_too_large("", "while 1\n", 40, EXPECTED_PLAIN);
 }
 
 TEST(too_many_numbers_are_refused)
@@ -171,19 +170,19 @@ TEST(too_many_numbers_are_refused)
     TEST_ASSERT_EQUAL(257, program.mistake.line);
 }
 
-TEST(a_long_word_is_quoted_in_part_and_no_letter_is_split)
+TEST(long_word_is_truncated_between_letters)
 {
     rig_fails("abcdefghijklmnopqrstuvwxyzabcdefghijklmnop 1", 1, "abcdefghijklmnopqrstuvwxyzabcde", EXPECTED_STATEMENT);
     rig_fails("x = \"abcdefghijklmnopqrstuvwxyzabcd\xc3\xa4\xc3\xa4\"", 1, "abcdefghijklmnopqrstuvwxyzabcd", EXPECTED_NO_TEXT);
 }
 
-TEST(a_zero_in_a_text_is_refused)
+TEST(nul_in_a_program_is_refused)
 {
     TEST_ASSERT_FALSE(program_compile(&program, "x=1\0y=2", 7));
     TEST_ASSERT_EQUAL(EXPECTED_SHORTER, program.mistake.expected);
 }
 
-TEST(a_program_that_was_stopped_by_a_mistake_begins_anew)
+TEST(program_restarts_after_a_mistake)
 {
     rig_fails("x = 1 / Mem[1]", 1, "x", EXPECTED_DIVISOR);
     brain.memory.cell[1] = SIDE_LEFT;
@@ -191,4 +190,160 @@ TEST(a_program_that_was_stopped_by_a_mistake_begins_anew)
     (void)rig_next();
     TEST_ASSERT_EQUAL(PROGRAM_ENDED, program.state);
     TEST_ASSERT_EQUAL(EXPECTED_NOTHING, program.mistake.expected);
+}
+
+static void assert_action(struct action action, enum reason reason, int forward_mm, int turn_deg)
+{
+    TEST_ASSERT_EQUAL(reason, action.reason);
+    TEST_ASSERT_EQUAL(forward_mm, action.forward_mm);
+    TEST_ASSERT_EQUAL(turn_deg, action.turn_deg);
+}
+
+TEST(pixel_is_5_mm_and_right_turn_is_positive)
+{
+    assert_action(rig_begin("rForward 2.4\nrTurn -10\nrForward -4\nrTurn 0.6"), REASON_WANDER, 12, 0);
+    assert_action(rig_next(), REASON_PROGRAM, 0, -10);
+    assert_action(rig_next(), REASON_WANDER, -20, 0);
+    assert_action(rig_next(), REASON_PROGRAM, 0, 1);
+}
+
+TEST(command_for_no_motion_takes_no_time)
+{
+    assert_action(rig_begin("rForward 0\nrTurn 0.4\ndelay 0\nrTurn 5"), REASON_PROGRAM, 0, 5);
+}
+
+TEST(long_rforward_is_split_and_ends_at_an_obstacle)
+{
+    assert_action(rig_begin("rForward 100\nrTurn 7"), REASON_WANDER, 150, 0);
+    assert_action(rig_next(), REASON_WANDER, 150, 0);
+    senses.feel = FEEL_FRONT;
+    assert_action(rig_next(), REASON_PROGRAM, 0, 7);
+}
+
+TEST(long_backward_rforward_ignores_obstacles)
+{
+    senses.feel = FEEL_FRONT;
+    assert_action(rig_begin("rForward -40"), REASON_WANDER, -150, 0);
+    assert_action(rig_next(), REASON_WANDER, -50, 0);
+}
+
+TEST(delay_rests_for_its_ticks)
+{
+    TEST_ASSERT_EQUAL(0, rig_begin("delay 15\ndelay 2000\ndelay 6000\nrTurn 5").rest_ticks);
+    TEST_ASSERT_EQUAL(99, rig_next().rest_ticks);
+    TEST_ASSERT_EQUAL(249, rig_next().rest_ticks);
+    TEST_ASSERT_EQUAL(49, rig_next().rest_ticks);
+    assert_action(rig_next(), REASON_PROGRAM, 0, 5);
+}
+
+TEST(rrange_reads_the_sensor_in_that_direction)
+{
+    senses = (struct senses){.range_mm = {10, 20, 30, 40, RANGE_NONE}};
+    (void)rig_begin("a=rRange()\nb=rRange(45)\nc=rRange(90)\nd=rRange(-30)\ne=rRange(-90)\nf=rRange(22)");
+    TEST_ASSERT_EQUAL_DOUBLE(6, rig_value("a"));
+    TEST_ASSERT_EQUAL_DOUBLE(4, rig_value("b"));
+    TEST_ASSERT_EQUAL_DOUBLE(2, rig_value("c"));
+    TEST_ASSERT_EQUAL_DOUBLE(8, rig_value("d"));
+    TEST_ASSERT_EQUAL_DOUBLE(800, rig_value("e"));
+    TEST_ASSERT_EQUAL_DOUBLE(6, rig_value("f"));
+    TEST_ASSERT_TRUE(program.measures);
+}
+
+TEST(program_reads_the_senses_of_the_robot)
+{
+    senses = (struct senses){.feel = FEEL_FRONT_RIGHT | FEEL_RIGHT, .look = true, .beacon_mm = 149, .bump = true};
+    (void)rig_begin("a=rFeel()\nb=rLook(0)=Green\nc=rBeacon(Green)\nd=rBumper()\ne=rBeacon(Red)\nf=rLook()");
+    TEST_ASSERT_EQUAL_DOUBLE(FEEL_FRONT_RIGHT | FEEL_RIGHT, rig_value("a"));
+    TEST_ASSERT_EQUAL_DOUBLE(1, rig_value("b"));
+    TEST_ASSERT_EQUAL_DOUBLE(29, rig_value("c"));
+    TEST_ASSERT_EQUAL_DOUBLE(1, rig_value("d"));
+    TEST_ASSERT_EQUAL_DOUBLE(0, rig_value("e"));
+    TEST_ASSERT_EQUAL_DOUBLE(2, rig_value("f"));
+}
+
+TEST(beacon_distance_of_visible_food_is_never_zero)
+{
+    senses = (struct senses){.look = true, .beacon_mm = 3};
+    (void)rig_begin("c=rBeacon(Green)");
+    TEST_ASSERT_EQUAL_DOUBLE(1, rig_value("c"));
+}
+
+TEST(random_draws_from_the_generator_of_the_firmware)
+{
+    struct random random = brain.random;
+    double expected[3] = {random_below(&random, 2), random_below(&random, 60), random_next(&random) % 1000};
+
+    (void)rig_begin("a=random(2)\nb=random(60)\nc=random(1000)");
+    TEST_ASSERT_EQUAL_DOUBLE(expected[0], rig_value("a"));
+    TEST_ASSERT_EQUAL_DOUBLE(expected[1], rig_value("b"));
+    TEST_ASSERT_EQUAL_DOUBLE(expected[2], rig_value("c"));
+}
+
+TEST(mem_reads_and_writes_the_memory_of_the_robot)
+{
+    brain.memory.cell[5] = SIDE_LEFT;
+    (void)rig_begin("a=Mem[5]\nMem[5]=2\nMem[6]=1");
+    TEST_ASSERT_EQUAL_DOUBLE(SIDE_LEFT, rig_value("a"));
+    TEST_ASSERT_EQUAL(SIDE_RIGHT, brain.memory.cell[5]);
+    TEST_ASSERT_EQUAL(SIDE_LEFT, brain.memory.cell[6]);
+    TEST_ASSERT_TRUE(brain.changed);
+}
+
+TEST(mem_write_of_a_frozen_robot_is_ignored)
+{
+    brain.frozen = true;
+    (void)rig_begin("Mem[5]=2\na=Mem[5]");
+    TEST_ASSERT_EQUAL_DOUBLE(0, rig_value("a"));
+    TEST_ASSERT_EQUAL(SIDE_NOTHING, brain.memory.cell[5]);
+    TEST_ASSERT_FALSE(brain.changed);
+}
+
+TEST(mem_write_of_the_same_value_is_no_change)
+{
+    (void)rig_begin("Mem[5]=0");
+    TEST_ASSERT_FALSE(brain.changed);
+}
+
+TEST(program_that_uses_mem_reports_the_reasons_of_the_firmware)
+{
+    senses.feel = FEEL_FRONT;
+    assert_action(rig_begin("x=rFeel()\nrTurn 45\nMem[2]=1\nx=rFeel()\nrTurn -10\nrTurn 160\nrForward 1\nrTurn 4\nx=rFeel()\nrTurn 3"), REASON_TRIAL, 0, 45);
+    assert_action(rig_next(), REASON_REMEMBERED, 0, -10);
+    TEST_ASSERT_EQUAL(1, brain.repeat_count);
+    assert_action(rig_next(), REASON_BOREDOM, 0, 160);
+    assert_action(rig_next(), REASON_WANDER, 5, 0);
+    TEST_ASSERT_EQUAL(0, brain.repeat_count);
+    assert_action(rig_next(), REASON_LOOK_AROUND, 0, 4);
+    senses.feel = 0;
+    assert_action(rig_next(), REASON_LOOK_AROUND, 0, 3);
+}
+
+TEST(step_with_food_ahead_has_reason_toward_food_and_reat_eats)
+{
+    senses = (struct senses){.look = true, .beacon_mm = 100};
+    assert_action(rig_begin("rForward 2\nrEat"), REASON_TOWARD_FOOD, 10, 0);
+    assert_action(rig_next(), REASON_EAT, 0, 0);
+}
+
+TEST(ended_program_rests)
+{
+    assert_action(rig_begin("x=1"), REASON_PROGRAM, 0, 0);
+    TEST_ASSERT_EQUAL(PROGRAM_ENDED, program.state);
+    assert_action(rig_next(), REASON_PROGRAM, 0, 0);
+}
+
+TEST(program_position_follows_the_odometers)
+{
+    (void)rig_begin("rLocate 400,300,-90\nrForward 20\nx=rGPSx()\ny=rGPSy()\nrTurn 100\na=rCompass()\nrForward 1\nrLocate 5,6\nb=rCompass()");
+    senses.odometer_left = senses.odometer_right = 1000;
+    (void)rig_next();
+    TEST_ASSERT_DOUBLE_WITHIN(0.001, 380, rig_value("x"));
+    TEST_ASSERT_DOUBLE_WITHIN(0.001, 300, rig_value("y"));
+    senses.odometer_left = 1100;
+    (void)rig_next();
+    TEST_ASSERT_EQUAL_DOUBLE(10, rig_value("a"));
+    TEST_ASSERT_DOUBLE_WITHIN(0.001, 380, program.x_mm / 5);
+    (void)rig_next();
+    TEST_ASSERT_EQUAL_DOUBLE(0, rig_value("b"));
+    TEST_ASSERT_EQUAL_DOUBLE(30, program.y_mm);
 }

@@ -30,7 +30,7 @@ void tearDown(void)
     octet_close(octet);
 }
 
-TEST(the_wheels_do_what_the_program_says)
+TEST(program_drives_the_wheels)
 {
     open("rForward 100\n");
     tick(0);
@@ -39,7 +39,7 @@ TEST(the_wheels_do_what_the_program_says)
     TEST_ASSERT_EQUAL(REASON_WANDER, out.drive.reason);
 }
 
-TEST(what_it_puts_into_mem_is_reported_and_stored)
+TEST(mem_write_is_reported_and_stored)
 {
     open("Mem[4] = 2\ndelay 100");
     tick(0);
@@ -48,7 +48,7 @@ TEST(what_it_puts_into_mem_is_reported_and_stored)
     TEST_ASSERT_EQUAL(SIDE_RIGHT, out.memory[4]);
 }
 
-TEST(a_start_begins_the_program_anew)
+TEST(start_restarts_the_program)
 {
     open("x = x + 1\nrForward 100\nrTurn 5");
     tick(0);
@@ -58,7 +58,7 @@ TEST(a_start_begins_the_program_anew)
     TEST_ASSERT_EQUAL_DOUBLE(0, programmed_state(octet)->cells[0]);
 }
 
-TEST(another_behaviour_is_refused)
+TEST(start_of_another_profile_is_refused)
 {
     open("rForward 1");
     in.command = (struct command){.opcode = OPCODE_START, .which = PROFILE_NEVER, .value = 1};
@@ -66,7 +66,7 @@ TEST(another_behaviour_is_refused)
     TEST_ASSERT_EQUAL(RESULT_UNKNOWN_PROFILE, out.answer);
 }
 
-TEST(a_robot_with_a_mistake_rests_and_says_so)
+TEST(program_with_a_mistake_rests_and_reports_it)
 {
     char told[PROGRAMMED_TOLD_MAX];
 
@@ -78,7 +78,7 @@ TEST(a_robot_with_a_mistake_rests_and_says_so)
     TEST_ASSERT_EQUAL_STRING("line 2: \"rTrun\": expected a command, a label, or a variable with = after it", told);
 }
 
-TEST(it_tells_its_end_and_what_it_shows)
+TEST(program_report_has_state_and_shown_texts)
 {
     char told[PROGRAMMED_TOLD_MAX];
 
@@ -88,7 +88,7 @@ TEST(it_tells_its_end_and_what_it_shows)
     TEST_ASSERT_EQUAL_STRING("it has ended; it shows a | b", told);
 }
 
-TEST(a_line_that_ends_too_soon_is_told)
+TEST(program_report_names_an_incomplete_line)
 {
     char told[PROGRAMMED_TOLD_MAX];
 

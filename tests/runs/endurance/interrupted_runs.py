@@ -12,7 +12,7 @@ from pathlib import Path
 from unittest import mock
 
 from host_sim.cli.main import main
-from host_sim.lab.campaign.killed import before_each_instruction
+from host_sim.lab.campaign.host_events import before_each_instruction
 from host_sim.recording.memory_file import MemorySaver
 
 BEFORE = bytes([0, 0, 0, 0, 0, 0, 0, 2])

@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
-from host_sim.client.incidents import Incident
+from host_sim.client.robot_client import Incident
 from host_sim.live.feed import PageFeed
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED

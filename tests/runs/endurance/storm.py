@@ -18,8 +18,8 @@ from host_sim.protocol.codec import Frame, Protocol, crc8
 from host_sim.protocol.forgery import forge
 from host_sim.protocol.generated import MESSAGES, NOTHING_SENSED
 from host_sim.sim.in_process_link import InProcessLink
-from host_sim.transport.bus_faults import random_frame
-from host_sim.transport.clock import VirtualClock
+from host_sim.transport.faulty_link import random_frame
+from host_sim.transport.link import VirtualClock
 
 PROTOCOL = Protocol()
 BURST = 500

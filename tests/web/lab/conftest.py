@@ -11,6 +11,9 @@ from tests.web.looks import resize
 from tests.web.sim.page_runs import page_file
 from tests.web.support import Faults, wait_for
 
+DESKTOP = (1280, 720)
+"""Playwright's own size of a page, px."""
+
 
 @pytest.fixture(scope="session")
 def file(tmp_path_factory) -> Path:
@@ -25,8 +28,8 @@ def page(file: Path, open_page: Callable[..., Page]) -> Page:
 
 
 @pytest.fixture(scope="module")
-def shared(file: Path, browser: Browser) -> Iterator[Page]:
-    """One page for all tests of a module that only look around in it, or begin anew."""
+def one_page(file: Path, browser: Browser) -> Iterator[Page]:
+    """The page of `shared`."""
     page = browser.new_context(reduced_motion="reduce").new_page()
     faults = Faults(file.as_uri())
     faults.listen(page)
@@ -35,6 +38,13 @@ def shared(file: Path, browser: Browser) -> Iterator[Page]:
     yield page
     page.context.close()
     assert faults.seen == []
+
+
+@pytest.fixture
+def shared(one_page: Page) -> Page:
+    """One page for all tests of a module that only look around in it, or begin anew, at its first size again."""
+    resize(one_page, DESKTOP)
+    return one_page
 
 
 @pytest.fixture

@@ -9,6 +9,8 @@ from tests.runs.support import octet
 from tests.web.lab.support import saved, settle, simulated
 from tests.web.support import run_in, wait_for, wait_for_text
 
+TRAIL = "(({ x, y, length }) => [[...x].slice(0, length), [...y].slice(0, length)])(octet.scene.trail)"
+
 
 @pytest.fixture
 def page(page: Page) -> Page:
@@ -80,6 +82,20 @@ def test_a_changed_behaviour_parameter_or_obstacle_makes_another_future(page, ch
     simulated(page)
 
     wait_for_text(page, "#parting", "They diverge at")
+
+
+def test_a_run_that_starts_otherwise_leaves_its_own_trail_and_nothing_of_the_old_one(page):
+    page.evaluate("octet.go(600)")
+    old = page.evaluate(TRAIL)
+
+    page.fill("#robot-seed", "77")
+    page.locator("#robot-seed").blur()
+    simulated(page)
+
+    assert page.evaluate("octet.tick") == 600
+    trail = page.evaluate(TRAIL)
+    assert trail != old
+    assert trail == page.evaluate(f"(octet.go(0), octet.go(600), {TRAIL})")
 
 
 def test_what_was_changed_is_replayed_by_the_host(page, tmp_path):

@@ -7,10 +7,10 @@ from playwright.sync_api import Page
 
 from host_sim.protocol.generated import PARAMETERS
 from host_sim.world.names import STILL_WORLDS
-from tests.runs.support import octet
+from tests.runs.support import octet, octet_process
 from tests.web.lab.support import READY, SIZES, go, saved, settle, simulated
 from tests.web.looks import ARENA, PHONES, TOO_SMALL, check, out_of_view, resize, too_small, violations_at
-from tests.web.support import next_frame, wait_for
+from tests.web.support import next_frame, wait_for, wait_for_text
 
 SIZE_MAX = 380_000
 IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#what-if", "#tabs", "#cells")
@@ -47,6 +47,33 @@ def test_the_table_is_saved_for_a_spreadsheet(shared):
 
     assert lines[0].startswith("run,robot,behaviour,seed,environment,finished,time (s),shortest tour (s),trials")
     assert len(lines) == 6
+
+
+def test_the_debugger_takes_the_log_that_the_page_saves(page, tmp_path):
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    go(page, 371)
+    page.click("#tab-listing")
+    page.focus("#copy-debugger")
+    page.keyboard.press("Enter")
+    wait_for_text(page, "#note", "save it under Files")
+    (tmp_path / "run.log").write_bytes(saved(page, "#save-log"))
+
+    command, sensed = page.evaluate("(async () => [await navigator.clipboard.readText(), octet.scene.state.feel])()")
+
+    assert command == "tools/octet debug run.log --node 1 --tick 371"
+    shown = octet_process("debug", tmp_path / "run.log", *command.split()[3:], "--ex", "output/u sensed->feel").stdout
+    assert shown.endswith(f"{sensed}")
+
+
+def test_a_program_is_no_c_to_debug(page):
+    page.click("#tab-program")
+    page.click("#program-run")
+    settle(page)
+    page.evaluate("octet.select(octet.lanes[1])")
+    page.click("#tab-listing")
+    page.click("#copy-debugger")
+
+    wait_for_text(page, "#note", "Your program is not C")
 
 
 def test_each_parameter_has_a_slider_with_its_range(shared):

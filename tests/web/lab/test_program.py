@@ -1,6 +1,7 @@
 """The tab with a program for a robot, and the link that holds an experiment."""
 
 import json
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -188,6 +189,29 @@ def test_a_link_holds_parameters_changes_robots_time_and_lesson(open_page, file)
     assert len(again.evaluate("octet.lane.experiment.changes")) == 2
     assert again.evaluate("[octet.course.plan.id, octet.course.begun]") == ["share", True]
     assert "Loaded" not in again.inner_text("#program-news")
+
+
+def test_zbar_reads_the_link_from_its_code(page, tmp_path):
+    page.evaluate("octet.seek(371)")
+    page.click("#show-link-code")
+    page.locator("#link-code canvas").screenshot(path=tmp_path / "code.png")
+    command = ("zbarimg", "--quiet", "--raw", tmp_path / "code.png")
+    read = subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+    assert page.inner_text("#link-code") == "Only this computer can open this address."
+    page.keyboard.press("Escape")
+    assert not page.is_visible("#link-code")
+    page.click("#copy-link")
+    assert read == page.evaluate("location.href")
+    assert "tick=371" in read
+
+
+def test_a_link_that_is_too_long_for_a_code_is_no_code(page):
+    page.evaluate("octet.lane.setUp({ program: 'rem ' + 'x'.repeat(4000) })")
+    page.click("#show-link-code")
+
+    assert page.inner_text("#link-code") == "This address is too long for a QR code: copy the link instead."
+    assert not page.is_visible("#link-code canvas")
 
 
 FOUND = (

@@ -9,9 +9,10 @@ import pytest
 from playwright.sync_api import Page
 
 from host_sim.recording import phrases
-from tests.web.fake_run import ENVIRONMENT, HOME, FakeRun, robot_state
+from tests.web.fake_run import ENVIRONMENT, HOME, MEASURES, FakeRun, robot_state
 from tests.web.looks import resize
-from tests.web.support import DEADLINE_S, drag, next_frame, place_on_page, wait_for, wait_for_text
+from tests.web.sim.node import with_modules
+from tests.web.support import DEADLINE_S, drag, place_on_page, wait_for, wait_for_text
 
 PLAY = {"playing": True, "speed": 1, "done": False, "rate": 50, "stays": True, "ended": None}
 ENDED = {
@@ -25,7 +26,7 @@ ENDED = {
     "environments_robot_s": 83.4,
 }
 BODY_COLOUR = """() => {
-  const { renderer, scene } = octet.view;
+  const { renderer, scene } = octet.lane;
   const at = scene.state;
   const place = (mm) => Math.round((mm + 40) * renderer.scale);
   return [...renderer.context.getImageData(place(at.x - 50), place(at.y), 1, 1).data].join();
@@ -71,7 +72,7 @@ def test_a_robot_cannot_be_dragged_through_a_wall(page, run):
 
 
 def test_a_lifted_robot_cannot_be_moved_through_a_wall_by_keys(page, run):
-    page.locator("#arena").focus()
+    page.locator(".lane canvas").focus()
     page.keyboard.press("p")
     run.states[0]["lifted"] = 1
     run.send()
@@ -125,7 +126,7 @@ def colours(page: Page, run: FakeRun, reasons: list[int]) -> list[str]:
     for tick, reason in enumerate(reasons, start=10):
         run.states[0] |= {"tick": tick, "reason": reason}
         run.send(play=PLAY)
-        wait_for(page, "tick => octet.message.states[0].tick === tick && !octet.isNew", tick)
+        wait_for(page, "tick => octet.scene.states[0].tick === tick && !octet.stale", tick)
         seen.append(page.evaluate(BODY_COLOUR))
     return seen
 
@@ -171,19 +172,12 @@ def test_no_button_without_effect_lives_on_after_the_end(page, run):
     run.send(play=PLAY | {"done": True, "ended": ENDED})
     wait_for_text(page, "#banner", "ALL DONE")
 
-    for button in ("#play", "#decision", "#next", "#lift", "#add-bar"):
+    for button in ("#play", "#lift", "#add-bar", "#break"):
         assert page.locator(button).is_disabled(), button
-    assert page.get_by_role("button", name="Start over").is_enabled()
-
-
-def test_there_is_nothing_next_in_the_last_environment(page, run):
-    run.send(environment={**ENVIRONMENT, "number": 5})
-    wait_for(page, "octet.scene.environment.number === 5")
-    next_frame(page)
-    page.keyboard.press("n")
-
-    assert page.locator("#next").is_disabled()
+    page.click("#after")
+    wait_for_text(page, "#note", "There is no later decision")
     assert run.commands == []
+    assert page.get_by_role("button", name="Start over").is_enabled()
 
 
 def test_starting_over_says_what_it_did_and_begins_its_clock_and_lessons_anew(page, run):
@@ -228,12 +222,9 @@ def test_the_verdict_is_that_of_the_terminal(page):
             for frozen in (0, 1)
         ),
     ]
-    say = """async (trials) => {
-      const { verdict } = await import("/core/phrases.js");
-      return trials.map((trial) => verdict({ trial }));
-    }"""
+    say = '(modules, trials) => trials.map((trial) => modules["core/phrases.ts"].verdict({ trial }))'
 
-    assert page.evaluate(say, trials) == [phrases.verdict(trial) for trial in trials]
+    assert page.evaluate(with_modules(say, "core/phrases.ts"), trials) == [phrases.verdict(trial) for trial in trials]
 
 
 def test_a_cell_says_who_filled_it_and_an_empty_one_says_nothing(page, run):
@@ -261,6 +252,33 @@ def test_an_end_of_an_obstacle_turns_it(page, run):
     assert ay > by
 
 
+def marks(page: Page) -> list[int]:
+    """Where marks are drawn above the scrubber, as shares of its length, in percent."""
+    return page.evaluate("""() => {
+      const { width, height } = octet.marks;
+      const { data } = octet.marks.getContext("2d").getImageData(0, height - 1, width, 1);
+      const drawn = Array.from({ length: width }, (_, x) => data[4 * x + 3] > 0);
+      const begins = drawn.flatMap((isDrawn, x) => (isDrawn && !drawn[x - 1] ? [x] : []));
+      return begins.map((x) => Math.round((100 * (x - 8)) / (width - 16)));
+    }""")
+
+
+def test_marks_appear_while_the_run_goes_on(page, run):
+    run.states[0]["tick"] = 1000
+    run.send(events=[[[0, "environment"], [250, "lesson"]]])
+    wait_for(page, "octet.tick === 1000 && !octet.stale")
+    assert marks(page) == [0, 25]
+
+    run.states[0]["tick"] = 2000
+    run.send(events=[[[1500, "eat"]]])
+    wait_for(page, "octet.tick === 2000 && !octet.stale")
+    assert marks(page) == [0, 12, 75]
+
+    run.send(measures=MEASURES, environment=ENVIRONMENT, events=[[[1000, "eat"]]])
+    wait_for(page, "octet.live.message.measures && !octet.stale")
+    assert marks(page) == [50]
+
+
 def test_the_legend_names_all_that_is_drawn(page):
     assert page.inner_text("#legend-title") == "Legend"
     assert page.get_attribute("#legend", "aria-labelledby") == "legend-title"
@@ -276,14 +294,13 @@ def test_printing_keeps_colours_and_whole_cells(page):
     cut = """() => [...document.querySelectorAll(".cell")]
       .filter((cell) => cell.scrollWidth > cell.clientWidth + 1 || cell.scrollHeight > cell.clientHeight + 1)"""
     assert page.evaluate(cut) == []
-    assert not page.locator("#tools").is_visible()
+    assert not page.locator("#tabs").is_visible()
 
 
 def test_a_page_left_open_says_that_its_run_has_ended_and_the_next_run_is_closed_to_it(watch, open_page):
     first = watch("--seed", "1")
     page = open_page(first.url)
     assert first.end() == 0
-    page.wait_for_url("**/recorded*")
     wait_for_text(page, "#status", "The run has ended")
     port = re.search(r":(\d+)/", first.url)
 

@@ -7,6 +7,7 @@ import pytest
 from playwright.sync_api import Page
 
 from host_sim.live.server import HAND_OVER_S
+from host_sim.protocol.generated import Opcode
 from tests.runs.support import octet
 from tests.web.live.test_server import ask
 from tests.web.replay.test_replay_what_if import COPIED
@@ -29,16 +30,13 @@ def page(watched: Watched, open_page: Callable[..., Page]) -> Page:
 
 def look_back(page: Page, tick: int) -> None:
     """Drags the slider back."""
-    with page.expect_navigation():
-        page.locator("#scrub").fill(str(tick))
-        page.locator("#scrub").dispatch_event("change")
-    wait_for(page, "window.octet?.recorded")
+    page.locator("#scrub").fill(str(tick))
+    recorded(page)
 
 
 def recorded(page: Page) -> None:
-    """Waits until the page is that of the recorded run."""
-    page.wait_for_url("**/recorded*")
-    wait_for(page, "window.octet?.recorded")
+    """Waits until the page shows the recording."""
+    wait_for(page, "!octet.live")
 
 
 def test_the_slider_leads_back_to_any_tick_and_a_button_to_the_present(page):
@@ -49,9 +47,11 @@ def test_the_slider_leads_back_to_any_tick_and_a_button_to_the_present(page):
     assert page.evaluate("octet.scene.state.tick") == 61
     last = page.evaluate("octet.last")
     assert last > 100
-    with page.expect_navigation():
-        page.click("#to-live")
-    wait_for(page, "last => octet.scene?.state.tick > last && octet.play.playing", last)
+    wait_for_text(page, "#status", "The run so far")
+    page.keyboard.press("End")
+    page.click("#back")
+    wait_for(page, "last => octet.scene?.state.tick > last && octet.play?.playing", last)
+    assert not page.is_visible("#back")
 
 
 def test_the_slider_goes_along_until_a_person_has_it(page):
@@ -64,7 +64,33 @@ def test_the_slider_goes_along_until_a_person_has_it(page):
         page.locator("#scrub").element_handle(),
     )
 
-    assert (page.input_value("#scrub"), page.inner_text("#clock")) == ("50", "0:01.0")
+    assert page.input_value("#scrub") == "50"
+    recorded(page)
+    wait_for_text(page, "#clock", "0:01.0")
+
+
+def test_whoever_looks_back_and_returns_sees_the_same_robot(watch, open_page):
+    page = open_page(watch("--robots", "2").url)
+    wait_for(page, "octet.scene.state.tick > 50")
+    page.keyboard.press("2")
+
+    look_back(page, 20)
+    assert page.evaluate("octet.scene.node") == 2
+    page.click("#back")
+    wait_for(page, "octet.live")
+
+    assert page.evaluate("octet.scene.node") == 2
+
+
+def test_a_parameter_is_set_in_a_copy_and_the_live_run_goes_on(watched, page):
+    page.click("#tab-parameters")
+    page.locator("#panel-parameters input").first.fill("90")
+    page.locator("#panel-parameters input").first.dispatch_event("change")
+    wait_for(page, COPIED)
+    wait_for(page, "octet.lanes[1].experiment.changes.some((it) => it.do === 'set')")
+
+    assert watched.end() == 0
+    assert [it for it in watched.commands() if it["opcode"] == Opcode.SET] == []
 
 
 def test_what_if_lays_a_copy_of_the_run_so_far_beside_it(page):
@@ -83,14 +109,41 @@ def test_once_the_run_has_ended_the_page_is_the_recorded_run_and_its_buttons_wor
 
     recorded(page)
     wait_for_text(page, "#status", "The run has ended. This is its recording")
-    assert not page.is_visible("#to-live")
+    assert not page.is_visible("#back")
     assert page.evaluate("octet.tick === octet.last && octet.last > 100")
     page.select_option("#kind", "environment")
     page.click("#before")
     assert page.evaluate("octet.tick < octet.last")
-    assert page.evaluate("JSON.parse(document.querySelector('#run').textContent).ticks") == page.evaluate(
-        "octet.last + 1"
-    )
+    page.keyboard.press("w")
+    wait_for(page, COPIED)
+    wait_for_text(page, "#parting", SAME)
+
+
+def test_end_of_the_run_is_said_beside_its_copy(watched, page):
+    page.keyboard.press("w")
+    wait_for(page, COPIED)
+    before = page.evaluate("[octet.tick, octet.lanes[0].last]")
+
+    assert watched.end() == 0
+
+    wait_for_text(page, "#status", "the live run has ended")
+    page.select_option("#language", "de")
+    wait_for_text(page, "#status", "der Live-Lauf ist zu Ende")
+    wait_for(page, "last => octet.lanes[0].last > last", before[1])
+    assert page.evaluate("octet.tick") == before[0]
+    page.set_viewport_size({"width": 400, "height": 800})
+    assert page.is_visible("#status")
+
+
+def test_end_of_the_run_is_said_in_another_run_and_a_button_leads_to_its_recording(watched, page):
+    page.evaluate("octet.begin({ ...octet.lane.experiment, seed: 9 })")
+    wait_for(page, "!octet.live && octet.lane.data && !octet.lane.isRunning")
+
+    assert watched.end() == 0
+
+    wait_for_text(page, "#status", "the live run has ended")
+    page.click("#back")
+    wait_for_text(page, "#status", "This is its recording")
     page.keyboard.press("w")
     wait_for(page, COPIED)
     wait_for_text(page, "#parting", SAME)
@@ -103,7 +156,7 @@ def test_what_it_becomes_is_the_page_in_the_folder_of_the_run(watched, page):
 
     assert octet("replay", watched.out / "run.log", "--html", again).returncode == 0
 
-    shown = page.evaluate("({ ...JSON.parse(document.querySelector('#run').textContent), title: null })")
+    shown = page.evaluate("({ ...octet.recorded.run, title: null })")
     assert shown == run_in(again)
 
 

@@ -60,14 +60,22 @@ def test_idle_slow_and_malformed_connections_keep_no_page_out(watch):
 )
 def test_a_page_of_another_site_cannot_come_by_its_own_name(address, host, status):
     assert ask(address, f"/?{address[2]}", host).status == status
-    assert ask(address, "/live/live.js", host).status == status
+    assert ask(address, "/octet.js", host).status == status
 
 
-@pytest.mark.parametrize("path", ["/", "/nothing.js", "/?token=guess", "/live", "/../x", "/live/live.js", "/%zz"])
+@pytest.mark.parametrize("path", ["/", "/nothing.js", "/?token=guess", "/live", "/../x", "/octet.js", "/%zz"])
 def test_every_answer_has_the_security_headers(address, path):
     response = ask(address, path)
 
     assert [name for name in SECURITY if response.getheader(name) is None] == []
+
+
+def test_no_script_runs_on_the_page_but_those_of_its_server(address):
+    policy = ask(address, f"/?{address[2]}").getheader("Content-Security-Policy")
+    scripts, styles = "script-src 'self' 'wasm-unsafe-eval'; worker-src blob:", "style-src 'self'; connect-src 'self'"
+
+    assert f"; {scripts}; {styles}; " in policy
+    assert policy.startswith("default-src 'none'; ")
 
 
 def test_even_the_answer_to_what_is_no_request_has_them(address):
@@ -127,8 +135,11 @@ def test_the_cookie_of_a_page_opens_it_again_and_is_out_of_reach_of_scripts_and_
     home = module_watch.url.partition("?")[0]
 
     async def statuses() -> list[int]:
+        found = []
         async with aiohttp.ClientSession(cookie_jar=aiohttp.CookieJar(unsafe=True)) as session:
-            found = [(await session.get(url)).status for url in (home, module_watch.url, home)]
+            for url in (home, module_watch.url, home):
+                async with session.get(url) as response:
+                    found.append(response.status)
             cookie = next(iter(session.cookie_jar))
             assert cookie["httponly"]
             assert cookie["samesite"] == "Strict"

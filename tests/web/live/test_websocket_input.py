@@ -237,9 +237,9 @@ def test_only_the_page_and_its_parts_are_served(watched):
         async with aiohttp.ClientSession() as session, session.get(f"{home}{path}") as response:
             return response.status
 
-    for path in ("live.html", "../cli.py", "%2e%2e%2fcli.py", "replay.html", "nothing.js"):
+    for path in ("octet.html", "../cli.py", "%2e%2e%2fcli.py", "replay.html", "nothing.js"):
         assert asyncio.run(get(path)) in (400, 403, 404)
-    assert asyncio.run(get("live/live.js")) == 200
+    assert asyncio.run(get("octet.js")) == 200
 
 
 @pytest.mark.parametrize("words", [(), ("--listen", "127.0.0.1")], ids=["this machine", "other machines"])

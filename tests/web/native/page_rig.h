@@ -1,4 +1,4 @@
-/* page_rig.h: a run of a page, as JavaScript has it after page_open. */
+/* page_rig.h: a page's run after page_open. */
 #ifndef OCTET_PAGE_RIG_H
 #define OCTET_PAGE_RIG_H
 
@@ -9,10 +9,10 @@
 enum { ROBOTS = 2, SEED = 7 };
 
 void start(uint32_t robot, enum profile profile);
-        /* It is done as asked, and its log is forgotten. */
+        /* Starts the robot, which must succeed, and clears the log. */
 
 void put_bytes(const uint8_t bytes[PAGE_BYTES]);
-        /* What JavaScript hands over. */
+        /* Sets page_bytes, as JavaScript does. */
 
 unsigned logged(const char *id);
         /* How many frames with this identifier, three hex digits, stand in the log. */

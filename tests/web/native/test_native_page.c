@@ -1,4 +1,4 @@
-/* Robots of a page: what they are told, what they answer, and what is logged of it. */
+/* Robots of a page: commands, answers and the log. */
 #include "page_rig.h"
 
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "hal/protocol/e2e.h"
 #include "tests/test.h"
 
-TEST(it_opens_as_many_robots_as_asked_for)
+TEST(page_opens_the_given_number_of_robots)
 {
     TEST_ASSERT_EQUAL_size_t(ROBOTS, page_state()->loop.robot_count);
     for (unsigned i = 0; i < ROBOTS; i++) {
@@ -17,7 +17,7 @@ TEST(it_opens_as_many_robots_as_asked_for)
     TEST_ASSERT_EQUAL_size_t(0, page_log_used());
 }
 
-TEST(a_command_is_done_and_both_ways_are_logged)
+TEST(command_and_answer_are_logged)
 {
     TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(1, OPCODE_START, PROFILE_NEVER, SEED));
     TEST_ASSERT_EQUAL_UINT(1, logged("022"));
@@ -27,20 +27,20 @@ TEST(a_command_is_done_and_both_ways_are_logged)
     TEST_ASSERT_FALSE(page_state()->robots[0].octet->robot.running);
 }
 
-TEST(commands_follow_each_other)
+TEST(forty_commands_in_a_row_succeed)
 {
     for (unsigned i = 0; i < 40; i++)
         TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_START, PROFILE_ARTICLE, i));
 }
 
-TEST(a_refusal_is_told)
+TEST(rejected_command_returns_its_result)
 {
     start(0, PROFILE_ARTICLE);
     TEST_ASSERT_EQUAL_INT32(RESULT_UNKNOWN_PARAMETER, page_command(0, OPCODE_SET, PARAMETER_COUNT, 1));
     TEST_ASSERT_EQUAL_INT32(RESULT_OUT_OF_RANGE, page_command(0, OPCODE_SET, TURN_DEG, 181));
 }
 
-TEST(a_parameter_is_set_and_told)
+TEST(parameter_is_set_and_read_back)
 {
     start(0, PROFILE_ARTICLE);
     TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_SET, SPEED_MM_S, 133));
@@ -48,7 +48,7 @@ TEST(a_parameter_is_set_and_told)
     TEST_ASSERT_EQUAL_UINT32(133, page_answer_value());
 }
 
-TEST(a_freeze_is_begun_and_ended)
+TEST(freeze_is_switched_on_and_off)
 {
     start(0, PROFILE_ARTICLE);
     TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_FREEZE, 1, 0));
@@ -57,7 +57,7 @@ TEST(a_freeze_is_begun_and_ended)
     TEST_ASSERT_FALSE(page_state()->robots[0].octet->robot.brain.frozen);
 }
 
-TEST(what_is_said_after_the_answer_is_logged_when_it_is_taken)
+TEST(reports_after_an_answer_are_logged_when_taken)
 {
     start(0, PROFILE_ARTICLE);
     TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_REPORT, 0, 0));
@@ -68,7 +68,7 @@ TEST(what_is_said_after_the_answer_is_logged_when_it_is_taken)
     TEST_ASSERT_EQUAL_UINT(1, logged("6A1"));
 }
 
-TEST(lines_have_the_time_that_was_set)
+TEST(log_lines_have_the_time_set)
 {
     static const char stamp[] = "(0000000012.340000) octet ";
 
@@ -89,7 +89,7 @@ static void put_senses(uint8_t tick)
     put_bytes(frame.data);
 }
 
-TEST(a_frame_is_answered_and_not_logged)
+TEST(exchanged_frame_is_not_logged)
 {
     start(0, PROFILE_ARTICLE);
     put_senses(0);
@@ -98,7 +98,7 @@ TEST(a_frame_is_answered_and_not_logged)
     TEST_ASSERT_EQUAL_size_t(0, page_log_used());
 }
 
-TEST(distances_are_logged_in_the_order_of_the_sensors)
+TEST(ranges_frame_is_logged_in_order_of_the_sensors)
 {
     char data[17];
 
@@ -130,7 +130,7 @@ static void assert_read(uint32_t which, uint32_t value)
     TEST_ASSERT_EQUAL_UINT32(value, page_command_value());
 }
 
-TEST(a_command_is_read_from_its_frame)
+TEST(command_is_decoded_from_its_frame)
 {
     read_command((struct octet_command_t){.opcode = OPCODE_START, .profile = PROFILE_FIVE, .seed = 0x89ABCDEF});
     assert_read(PROFILE_FIVE, 0x89ABCDEF);
@@ -147,7 +147,7 @@ TEST(a_command_is_read_from_its_frame)
     assert_read(0, 0);
 }
 
-/* Layouts that a page draws, and worlds that people write in it. */
+/* Layouts that a page draws, and worlds written in it. */
 
 static void set_numbers(void)
 {
@@ -179,7 +179,7 @@ static void expect_counts(const double *out, double first, double second, double
     TEST_ASSERT_EQUAL_DOUBLE(third, out[2]);
 }
 
-TEST(an_environment_is_drawn_and_handed_over)
+TEST(drawn_environment_has_bars_food_and_starts)
 {
     const double *out;
 
@@ -193,7 +193,7 @@ TEST(an_environment_is_drawn_and_handed_over)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, -2.400630, out[3 + 4 * 6 + 2 * 3 + 2]);
 }
 
-TEST(the_style_and_the_bands_of_food_count)
+TEST(page_draws_the_requested_style_and_food)
 {
     const double *out;
 
@@ -205,7 +205,7 @@ TEST(the_style_and_the_bands_of_food_count)
     TEST_ASSERT_DOUBLE_WITHIN(500.0, 500.0, out[3 + 4 * 12]);
 }
 
-TEST(a_written_world_takes_the_place_of_the_style)
+TEST(written_world_replaces_the_style)
 {
     double *bar;
     const double *out;
@@ -225,7 +225,7 @@ TEST(a_written_world_takes_the_place_of_the_style)
     expect_counts(page_draw(1, 1, 1), 6.0, 3.0, 1.0);
 }
 
-TEST(a_fault_of_a_written_world_is_told)
+TEST(page_reports_the_mistake_of_a_written_world)
 {
     const double *out;
 
@@ -240,7 +240,7 @@ TEST(a_fault_of_a_written_world_is_told)
     TEST_ASSERT_NULL(page_write_entry(WRITTEN_FOOD, WRITTEN_FOOD_MAX, 2));
 }
 
-TEST(a_world_without_room_has_no_starts)
+TEST(world_without_room_has_no_starts)
 {
     set_numbers();
     page_drawing()[PAGE_DRAW_WIDTH_MM] = page_drawing()[PAGE_DRAW_HEIGHT_MM] = 300.0;

@@ -1,4 +1,4 @@
-/* The eight bytes of a page's robots: as they are, as turns, and as another behaviour would have them. */
+/* Memories of a page's robots: bytes, turns, and translation between memory kinds. */
 #include "page_rig.h"
 
 #include <string.h>
@@ -9,7 +9,7 @@
 
 enum { ALL_FOUR = 15, UPPER = 1 << 4 };
 
-TEST(a_new_robot_remembers_nothing)
+TEST(new_robot_has_an_empty_memory)
 {
     static const uint8_t nothing[CELL_COUNT] = {0};
 
@@ -17,7 +17,7 @@ TEST(a_new_robot_remembers_nothing)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(nothing, page_sides(0), CELL_COUNT);
 }
 
-TEST(what_is_written_is_in_its_cells)
+TEST(write_command_sets_its_cells)
 {
     static const uint8_t expected[CELL_COUNT] = {0, SIDE_LEFT, SIDE_RIGHT, 0, 0, 0, 0, SIDE_LEFT};
 
@@ -30,7 +30,7 @@ TEST(what_is_written_is_in_its_cells)
     TEST_ASSERT_EACH_EQUAL_HEX8(0, page_memory(0), CELL_COUNT);
 }
 
-TEST(a_turn_is_put_into_bytes_of_the_behaviours_own_kind)
+TEST(written_side_has_the_memory_kind_of_the_behaviour)
 {
     static const uint8_t sides[PAGE_BYTES] = {0, 0, SIDE_LEFT}, none[PAGE_BYTES] = {0};
     static const uint8_t expected[PAGE_BYTES] = {0, 0, SIDE_LEFT, SIDE_RIGHT};
@@ -46,7 +46,7 @@ TEST(a_turn_is_put_into_bytes_of_the_behaviours_own_kind)
     TEST_ASSERT_TRUE(feel_memory_is(page_bytes()));
 }
 
-TEST(bytes_of_another_kind_are_translated)
+TEST(bytes_of_another_memory_kind_are_translated)
 {
     static const uint8_t sides[PAGE_BYTES] = {0, 0, SIDE_LEFT, SIDE_RIGHT};
 
@@ -59,7 +59,7 @@ TEST(bytes_of_another_kind_are_translated)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(sides, page_bytes(), PAGE_BYTES);
 }
 
-TEST(bytes_that_are_no_memory_are_left_alone)
+TEST(translation_leaves_invalid_bytes_unchanged)
 {
     static const uint8_t garbage[PAGE_BYTES] = {1, 2, 3, 255, 255, 255, 255, 255};
 
@@ -69,7 +69,7 @@ TEST(bytes_that_are_no_memory_are_left_alone)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(garbage, page_bytes(), PAGE_BYTES);
 }
 
-TEST(turns_are_told_whatever_kind_of_memory_it_is)
+TEST(page_returns_turns_for_each_kind_of_memory)
 {
     static const uint8_t sides[PAGE_BYTES] = {0, 0, SIDE_LEFT, SIDE_RIGHT};
 
@@ -100,7 +100,7 @@ static const double *load(const char *text)
     return page_program_state(0);
 }
 
-TEST(a_program_is_the_robot_s_brain)
+TEST(program_decides_the_actions_of_a_robot)
 {
     const double *state = load("xyString 1, 2, \"on\"\nrForward 5");
     struct input in = {.senses = {.tick = 1}};
@@ -118,7 +118,7 @@ TEST(a_program_is_the_robot_s_brain)
     TEST_ASSERT_EQUAL_STRING("on", page_program_shown(0, 0));
 }
 
-TEST(its_mistake_is_told)
+TEST(page_reports_the_mistake_of_a_program)
 {
     const double *state = load("x = 1\nrTrun 5");
 
@@ -130,7 +130,7 @@ TEST(its_mistake_is_told)
     TEST_ASSERT_EQUAL_DOUBLE(0, state[PAGE_PROGRAM_SHOWN]);
 }
 
-TEST(its_variables_have_their_places)
+TEST(page_reports_the_variables_of_a_program)
 {
     const double *state = load("ab = 5\nlabel:\ndim c[3]"), *variables = state + PAGE_PROGRAM_NUMBERS;
 
@@ -156,7 +156,7 @@ static void fill(uint32_t tick, int16_t action, enum reason reason, int16_t feel
     page_state()->loop.ticks = tick + 1;
 }
 
-/* The robot itself knows nothing, whatever a test has put into the history. */
+/* The robot's own memory is empty, whatever the history contains. */
 static void begin(void)
 {
     page_history_begin(1);
@@ -164,7 +164,7 @@ static void begin(void)
     fill(1, 2, REASON_WANDER, 0);
 }
 
-TEST(the_notes_of_a_block_are_handed_over)
+TEST(history_take_returns_the_notes_of_a_block)
 {
     begin();
     page_history_freeze(1, 1);
@@ -178,7 +178,7 @@ TEST(the_notes_of_a_block_are_handed_over)
     TEST_ASSERT_EQUAL_UINT32(0, page_lesson_count(1));
 }
 
-TEST(javascript_finds_the_numbers_of_notes_and_lessons_in_their_places)
+TEST(notes_and_lessons_have_the_layout_that_javascript_reads)
 {
     TEST_ASSERT_EQUAL_size_t(14 * sizeof(int32_t), sizeof(struct history_note));
     TEST_ASSERT_EQUAL_size_t(8, offsetof(struct history_note, reason));
@@ -187,7 +187,7 @@ TEST(javascript_finds_the_numbers_of_notes_and_lessons_in_their_places)
     TEST_ASSERT_EQUAL_size_t(4 * sizeof(int32_t), sizeof(struct history_lesson));
 }
 
-TEST(a_turn_that_is_no_longer_known_is_a_lesson)
+TEST(cell_that_becomes_empty_is_a_lesson)
 {
     begin();
     page_state()->histories[1].sides[3] = SIDE_RIGHT;
@@ -198,7 +198,7 @@ TEST(a_turn_that_is_no_longer_known_is_a_lesson)
     TEST_ASSERT_EQUAL_UINT32(0, page_lesson_count(0));
 }
 
-TEST(what_is_told_between_ticks_is_by_hand)
+TEST(change_between_ticks_is_a_lesson_by_hand)
 {
     begin();
     page_state()->histories[1].sides[3] = SIDE_RIGHT;

@@ -1,4 +1,4 @@
-/* The world of a page: what is placed is there, and robots drive about in it. */
+/* The world of a page: objects in it, and robots that drive. */
 #include "page_rig.h"
 
 #include <string.h>
@@ -60,7 +60,7 @@ TEST(robots_drive_and_are_recorded)
     TEST_ASSERT_EQUAL_UINT(TICKS, logged("041"));
 }
 
-TEST(walls_and_obstacles_are_felt_where_they_are)
+TEST(walls_and_bars_are_sensed_at_their_positions)
 {
     build();
     starts[0].at.x = 3870.0;
@@ -73,7 +73,7 @@ TEST(walls_and_obstacles_are_felt_where_they_are)
     TEST_ASSERT_EQUAL_INT16(REASON_TRIAL, row(1, 0)[ROW_REASON]);
 }
 
-TEST(what_a_person_puts_there_is_felt_until_it_is_taken_away)
+TEST(added_plant_is_sensed_until_removed)
 {
     build();
     page_enter();
@@ -84,7 +84,7 @@ TEST(what_a_person_puts_there_is_felt_until_it_is_taken_away)
     TEST_ASSERT_EQUAL_STRING("there is no such number", edit(EDIT_KIND_REMOVE_PLANT, 0, (double[]){0.0, 0.0}, ""));
 }
 
-TEST(the_scene_has_all_things_with_their_ids)
+TEST(scene_lists_all_objects_with_their_ids)
 {
     static const double expected[] = {1, 1, 2, 0, 3000, 100, 3000, 200, 0, 2000, 2500, 40, 500, 600, 0, 700, 800, 1};
 
@@ -100,7 +100,7 @@ TEST(the_scene_has_all_things_with_their_ids)
     TEST_ASSERT_EQUAL_DOUBLE_ARRAY(expected, page_scene(), sizeof expected / sizeof *expected);
 }
 
-TEST(food_is_eaten_and_there_again_in_the_next_environment)
+TEST(eaten_food_returns_in_the_next_environment)
 {
     const struct food *food = page_state()->world.food;
 
@@ -121,7 +121,7 @@ TEST(food_is_eaten_and_there_again_in_the_next_environment)
     TEST_ASSERT_EQUAL_UINT32(0, page_state()->robots[0].food_eaten);
 }
 
-TEST(a_body_that_enters_knows_only_how_far_its_wheels_have_rolled)
+TEST(entering_an_environment_keeps_only_odometers)
 {
     build();
     page_enter();
@@ -135,7 +135,7 @@ TEST(a_body_that_enters_knows_only_how_far_its_wheels_have_rolled)
     TEST_ASSERT_EQUAL_INT32(-1, body(0)->seen);
 }
 
-TEST(a_lifted_robot_stays_in_the_air_until_it_is_put_down)
+TEST(lifted_robot_stays_lifted_until_it_is_put_down)
 {
     build();
     page_enter();
@@ -150,30 +150,30 @@ TEST(a_lifted_robot_stays_in_the_air_until_it_is_put_down)
     TEST_ASSERT_EQUAL_DOUBLE(1.5, body(0)->heading_rad);
 }
 
-static const char *break_body(uint32_t robot, const char *what)
+static const char *set_body_fault(uint32_t robot, const char *what)
 {
     return edit(EDIT_KIND_BODY, robot, (double[]){0.0, 0.0}, what);
 }
 
-TEST(a_body_is_broken_as_the_text_says)
+TEST(body_fault_is_set_from_its_text)
 {
     build();
     page_enter();
-    TEST_ASSERT_NULL(break_body(1, "stuck-on:front"));
-    TEST_ASSERT_EQUAL_STRING("write mirror", break_body(1, "mirror:left"));
+    TEST_ASSERT_NULL(set_body_fault(1, "stuck-on:front"));
+    TEST_ASSERT_EQUAL_STRING("write mirror", set_body_fault(1, "mirror:left"));
     TEST_ASSERT_EQUAL_UINT8(FEEL_FRONT, body(1)->faults.stuck_on);
     TEST_ASSERT_EQUAL_UINT8(0, body(0)->faults.stuck_on);
 }
 
-/* Its motors are dead: it denies its drives, stops by itself, and is asked how it is. */
-TEST(a_robot_that_stops_by_itself_is_told_and_starts_again)
+/* Its motors are dead: its actions are denied, it stops by itself, and a report is requested. */
+TEST(robot_that_stops_by_itself_is_reported_and_can_start)
 {
     uint32_t tick = 0;
 
     build();
     page_enter();
-    TEST_ASSERT_NULL(break_body(0, "weak-motor:left:0%"));
-    TEST_ASSERT_NULL(break_body(0, "weak-motor:right:0%"));
+    TEST_ASSERT_NULL(set_body_fault(0, "weak-motor:left:0%"));
+    TEST_ASSERT_NULL(set_body_fault(0, "weak-motor:right:0%"));
     while (tick < 5000 && !page_has_halted(0))
         tick += page_run(tick, PAGE_TICKS_MAX);
     TEST_ASSERT_TRUE(page_has_halted(0));

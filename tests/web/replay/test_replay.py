@@ -1,6 +1,7 @@
 """The page that a run leaves: one file, opened without a server, with all that the robot knew."""
 
 import json
+import shlex
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,8 +13,9 @@ from host_sim.recording.run_recorder import RunRecorder
 from host_sim.report.replay_page import run_data
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
+from tests.runs.support import octet_process
 from tests.web.sim.node import in_node
-from tests.web.support import next_frame, wait_for
+from tests.web.support import next_frame, wait_for, wait_for_text
 
 
 @pytest.fixture
@@ -132,8 +134,29 @@ def test_eliza_answers_in_german_and_any_text_is_answered(page):
     assert page.locator("#talk-said b").count() == 0
 
 
+def test_the_debugger_stops_by_the_command_that_is_copied_where_the_page_shows_it(recorded, page):
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    page.evaluate("octet.go(octet.last)")
+    page.click("#tab-listing")
+    page.click("#copy-debugger")
+    wait_for_text(page, "#note", "The command is copied")
+
+    command = page.evaluate("navigator.clipboard.readText()")
+
+    at, memory = page.evaluate("[octet.tick, octet.scene.state.memory]")
+    assert (
+        command
+        == f"tools/octet debug {recorded.parent / 'run.log'} --node 1 --tick {at}"
+        == page.inner_text("#debugger")
+    )
+    words = shlex.split(command.removeprefix("tools/octet"))
+    shown = octet_process(*words, "--ex", "cells").stdout
+    assert f"tick {at}," in shown
+    assert shown.endswith("{" + ", ".join(map(str, memory)) + "}\n")
+
+
 STATES = """
-const data = await modules["core/run_data.js"].RunData.from(JSON.parse(texts[0]));
+const data = await modules["core/run_data.ts"].RunData.from(JSON.parse(texts[0]));
 const states = [];
 for (let tick = data.first; tick <= data.last; tick += 7) states.push(...data.statesAt(tick));
 return states;
@@ -149,7 +172,7 @@ def test_the_states_of_the_retained_ticks_are_those_of_the_run(tmp_path, monkeyp
     file = tmp_path / "run.json"
     file.write_text(json.dumps(run_data(trajectory, "a long run")))
 
-    states = in_node(tmp_path, "core/run_data.js", STATES, file)
+    states = in_node(tmp_path, "core/run_data.ts", STATES, file)
 
     assert sum(cell.uses for cell in trajectory.tracks[0].cells[:8]) > 0
     assert states == [trajectory.at(tick) for tick in range(trajectory.first_tick, trajectory.ticks, 7)]

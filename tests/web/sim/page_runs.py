@@ -13,7 +13,7 @@ from tests.web.sim.node import in_node
 RUNS = """
 const [worlds, ...experiments] = texts.map((text) => JSON.parse(text));
 return experiments.map((experiment) => {
-  const simulation = new modules["sim/simulation.js"].Simulation(page, experiment, worlds, true);
+  const simulation = new modules["sim/simulation.ts"].Simulation(page, experiment, worlds, true);
   for (const _ of simulation.run());
   const log = Buffer.concat(simulation.log).toString("latin1");
   return { log, run: simulation.result().run };
@@ -33,7 +33,7 @@ LOGS = """async (experiments) => {
 
 
 def experiment(profile: str, seed: int, robots: int = 1, **more: Any) -> dict[str, Any]:
-    setup = {"profile": profile, "settings": RunConfig(body=more.get("body", "ideal")).told, "memory": None}
+    setup = {"profile": profile, "settings": RunConfig(body=more.get("body", "ideal")).robot_settings, "memory": None}
     return {"seed": seed, "environments": 2, "limit_ticks": 1000, "robots": [setup] * robots, "changes": [], **more}
 
 
@@ -61,7 +61,7 @@ def run_in_page(folder: Path, *wanted: dict[str, Any]) -> Sequence[dict[str, Any
     files = [folder / f"{i}.json" for i in range(len(wanted) + 1)]
     for file, content in zip(files, (world_dimensions(), *wanted), strict=True):
         file.write_text(json.dumps(content))
-    return in_node(folder, "sim/simulation.js", RUNS, *files)
+    return in_node(folder, "sim/simulation.ts", RUNS, *files)
 
 
 def page_file(folder: Path) -> Path:

@@ -15,7 +15,7 @@ from tests.web.support import wait_for, wait_for_text
 OPEN = """
 const [worlds, log, world] = texts;
 try {
-  return modules["sim/log_opening.js"].openLog(page, JSON.parse(worlds), log, world ?? "").news;
+  return modules["sim/log_opening.ts"].openLog(page, JSON.parse(worlds), log, world ?? "").news;
 } catch (error) {
   return error.message;
 }
@@ -37,7 +37,7 @@ def opened(folder: Path, log: str, *world: str) -> str:
     files = [folder / str(i) for i in range(len(texts))]
     for file, text in zip(files, texts, strict=True):
         file.write_text(text)
-    return in_node(folder, "sim/log_opening.js", OPEN, *files)
+    return in_node(folder, "sim/log_opening.ts", OPEN, *files)
 
 
 def changed(run: Path, **fields: object) -> str:
@@ -119,7 +119,7 @@ def test_of_several_changes_only_those_that_cannot_be_made_are_taken_back(open_p
     assert page.evaluate("octet.lane.experiment.changes.map((change) => change.do)") == ["freeze"]
 
 
-REPLAY = 'return texts.map((text) => modules["sim/log_replay.js"].replayLog(page, text));'
+REPLAY = 'return texts.map((text) => modules["sim/log_replay.ts"].replayLog(page, text));'
 
 
 def recorded(out: Path, *words: str) -> Path:
@@ -136,7 +136,7 @@ def logs(tmp_path_factory) -> list[Path]:
 
 
 def test_every_recorded_log_is_answered_frame_by_frame(tmp_path, logs):
-    compared = in_node(tmp_path, "sim/log_replay.js", REPLAY, *logs)
+    compared = in_node(tmp_path, "sim/log_replay.ts", REPLAY, *logs)
 
     assert [it.get("difference") for it in compared] == [None] * len(logs)
     assert [it["frames"] for it in compared] == [len(log.read_text().splitlines()) for log in logs]
@@ -149,6 +149,6 @@ def test_a_drive_that_differs_is_found(tmp_path, logs):
     log = tmp_path / "run.log"
     log.write_text("\n".join(lines))
 
-    (compared,) = in_node(tmp_path, "sim/log_replay.js", REPLAY, log)
+    (compared,) = in_node(tmp_path, "sim/log_replay.ts", REPLAY, log)
 
     assert compared["difference"]["line"] == changed + 1

@@ -19,10 +19,11 @@ from tests.web.support import run_in
 from tests.world.golden_layouts import DIGESTS, WRITTEN, digest
 from tests.world.golden_layouts import WANTED as WANTED_LAYOUTS
 
+MODULES = "sim/native_layouts.ts sim/native_run.ts sim/simulation.ts"
 LAYOUTS = """
 const [{ worlds, layouts }] = texts.map((text) => JSON.parse(text));
-const { "sim/native_layouts.js": { drawFrom, drawLayout }, "sim/simulation.js": { worldOf } } = modules;
-const { NativeRun } = modules["sim/native_run.js"];
+const { "sim/native_layouts.ts": { drawFrom, drawLayout }, "sim/simulation.ts": { worldOf } } = modules;
+const { NativeRun } = modules["sim/native_run.ts"];
 const native = new NativeRun(page, 4);
 return layouts.map(({ world, ...which }) => {
   const { params, written } = worldOf(world, worlds);
@@ -39,13 +40,13 @@ def test_the_layouts_of_a_world_stay_the_same_for_ever(tmp_path, name):
     layouts = [{"world": world, **which._asdict()} for which in WANTED_LAYOUTS]
     asked.write_text(json.dumps({"worlds": world_dimensions(), "layouts": layouts}))
 
-    assert digest(in_node(tmp_path, "sim/simulation.js", LAYOUTS, asked)) == DIGESTS[name]
+    assert digest(in_node(tmp_path, MODULES, LAYOUTS, asked)) == DIGESTS[name]
 
 
 TOURS = """
 const [{ worlds, seeds }] = texts.map((text) => JSON.parse(text));
-const { "sim/native_layouts.js": { drawFrom, drawLayout }, "sim/simulation.js": { worldOf } } = modules;
-const { NativeRun } = modules["sim/native_run.js"];
+const { "sim/native_layouts.ts": { drawFrom, drawLayout }, "sim/simulation.ts": { worldOf } } = modules;
+const { NativeRun } = modules["sim/native_run.ts"];
 const native = new NativeRun(page, 1);
 drawFrom(native, worldOf("crowded", worlds).params);
 return seeds.map((seed) => {
@@ -59,18 +60,18 @@ def test_the_shortest_tour_is_the_same_to_the_last_bit(tmp_path):
     asked, world = tmp_path / "asked.json", world_of("crowded")
     asked.write_text(json.dumps({"worlds": world_dimensions(), "seeds": [1, 2, 3, 4]}))
 
-    in_page = in_node(tmp_path, "sim/simulation.js", TOURS, asked)
+    in_page = in_node(tmp_path, MODULES, TOURS, asked)
 
     assert in_page == [tour_mm(world.generate(seed, 1), world.params) for seed in (1, 2, 3, 4)]
 
 
 def comparable(run: dict[str, Any]) -> dict[str, Any]:
-    """A run but for its title and its packed columns, and without what was programmed before its first tick."""
+    """A run but for its title, log and packed columns, and without what was programmed before its first tick."""
     for robot in run["robots"]:
         robot["data"] = ""
         robot["lessons"] = [lesson for lesson in robot["lessons"] if not lesson["by_hand"]]
         robot["cells"] = [[tick, cell, uses] for tick, cell, uses, _, _ in robot["cells"] if tick]
-    return {**run, "title": None}
+    return {**run, "title": None, "log": None}
 
 
 WANTED = [*(experiment(profile, 7 + number) for number, profile in enumerate(PROFILES)), experiment("article", 5, 4)]
@@ -138,9 +139,9 @@ def test_the_kit_has_a_name_in_the_page_too(tmp_path, profile):
 
 @pytest.mark.parametrize("body", ["ideal", "kit"])
 def test_the_page_sets_robots_up_for_their_bodies_as_tools_run_does(tmp_path, body):
-    settings = in_node(tmp_path, "sim/arena.js", f'return modules["sim/arena.js"].settingsOf("{body}");')
+    settings = in_node(tmp_path, "sim/arena.ts", f'return modules["sim/arena.ts"].settingsOf("{body}");')
 
-    assert settings == RunConfig(body=body).told
+    assert settings == RunConfig(body=body).robot_settings
 
 
 def test_a_run_in_which_robots_stop_because_of_their_wheels_is_that_of_tools_run(tmp_path):

@@ -17,7 +17,7 @@ const [worlds, text] = texts;
 const base = { seed: 7, environments: 3, robots: [{ profile: "article", settings: {}, memory: null }], changes: [] };
 try {
   const parts = { module: page, worlds: JSON.parse(worlds) };
-  return modules["sim/world_opening.js"].openWorld(parts, { name: "my.toml", text }, base);
+  return modules["sim/world_opening.ts"].openWorld(parts, { name: "my.toml", text }, base);
 } catch (error) {
   return error.message;
 }
@@ -42,7 +42,7 @@ def opened(folder: Path, text: str, code: str = OPEN) -> object:
     files = [folder / "worlds.json", folder / "text"]
     for file, content in zip(files, (json.dumps(world_dimensions()), text), strict=True):
         file.write_text(content)
-    return in_node(folder, "sim/world_opening.js", code, *files)
+    return in_node(folder, "sim/world_opening.ts", code, *files)
 
 
 def test_a_world_file_is_that_of_the_command_line(tmp_path):

@@ -16,8 +16,8 @@ from tests.web.sim.node import in_node
 
 ANSWERS = """
 const [speakers, run, told, table] = texts.map((text) => JSON.parse(text));
-const data = await modules["core/run_data.js"].RunData.from(run);
-const { Conversation } = modules["talk/conversation.js"];
+const data = await modules["core/run_data.ts"].RunData.from(run);
+const { Conversation } = modules["talk/conversation.ts"];
 const talks = Object.fromEntries(Object.entries(speakers).map(([name, it]) => [name, new Conversation(it)]));
 return table.map(([who, tick, sentence]) => {
   const { mark, text, ticks, cells, food } = talks[who].answer(sentence, { data, robot: 0, tick, told });
@@ -78,7 +78,7 @@ def test_thousands_of_sentences_get_the_same_answers_in_the_page(tmp_path: Path)
     for file, content in zip(files, contents, strict=True):
         file.write_text(json.dumps(content, default=vars))
 
-    answers = in_node(tmp_path, "core/run_data.js talk/conversation.js", ANSWERS, *files)
+    answers = in_node(tmp_path, "core/run_data.ts talk/conversation.ts", ANSWERS, *files)
 
     different = [it for it in zip(table, json.loads(json.dumps(expected)), answers, strict=True) if it[1] != it[2]]
     assert different == []

@@ -1,4 +1,4 @@
-/* fake_space.h: a space that answers as a test says, and notes what it is told. */
+/* fake_space.h: a space whose answers a test sets, and which records its calls. */
 #ifndef FAKE_SPACE_H
 #define FAKE_SPACE_H
 
@@ -7,7 +7,7 @@
 enum { FAKE_STEPS = 16 };
 
 struct fake {
-    double depths[FAKE_STEPS];   /* that body 0 has after each placing, one after the other; 0 after the last */
+    double depths[FAKE_STEPS];   /* of body 0 after each placing in turn; 0 after the last */
     struct vector normal;        /* of these overlaps */
     size_t steps;
     struct vector position;      /* where a body was placed last */

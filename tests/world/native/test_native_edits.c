@@ -44,7 +44,7 @@ static void lift(uint32_t robot)
     TEST_ASSERT_NULL(edit((struct edit){.kind = EDIT_KIND_LIFT, .robot = robot}));
 }
 
-TEST(bars_get_the_next_ids_which_are_never_used_again)
+TEST(bar_ids_increase_and_are_not_reused)
 {
     TEST_ASSERT_NULL(bar(EDIT_KIND_ADD_BAR, 0, 3000.0, 100.0, 3000.0, 200.0));
     TEST_ASSERT_NULL(edit((struct edit){.kind = EDIT_KIND_REMOVE_BAR, .id = 0}));
@@ -57,7 +57,7 @@ TEST(bars_get_the_next_ids_which_are_never_used_again)
     TEST_ASSERT_EQUAL_DOUBLE(3500.0, furniture.capsules[WALLS + 1].a.x);
 }
 
-TEST(a_bar_is_moved)
+TEST(bar_is_moved_by_its_id)
 {
     TEST_ASSERT_NULL(bar(EDIT_KIND_MOVE_BAR, 0, 3000.0, 100.0, 3000.0, 200.0));
     TEST_ASSERT_EQUAL_DOUBLE(200.0, furniture.bars[0].b.y);
@@ -65,7 +65,7 @@ TEST(a_bar_is_moved)
     TEST_ASSERT_EQUAL_STRING("there is no such number", edit((struct edit){.kind = EDIT_KIND_REMOVE_BAR, .id = 1}));
 }
 
-TEST(a_bar_that_is_pushed_may_press_against_a_robot)
+TEST(pushed_bar_may_overlap_a_robot)
 {
     TEST_ASSERT_EQUAL_STRING("the robot stands there", bar(EDIT_KIND_MOVE_BAR, 0, 1119.0, 900.0, 1119.0, 1100.0));
     TEST_ASSERT_EQUAL_DOUBLE(500.0, furniture.bars[0].a.x);
@@ -77,7 +77,7 @@ TEST(a_bar_that_is_pushed_may_press_against_a_robot)
     TEST_ASSERT_EQUAL_DOUBLE(1119.0, furniture.bars[0].a.x);
 }
 
-TEST(a_bar_lies_in_the_arena_on_no_robot_and_is_as_long_as_it_is_thick)
+TEST(bar_must_fit_the_arena_and_be_clear_of_robots)
 {
     TEST_ASSERT_EQUAL_STRING("that is outside of the arena", bar(EDIT_KIND_ADD_BAR, 0, -1.0, 0.0, 100.0, 0.0));
     TEST_ASSERT_EQUAL_STRING("that is outside of the arena", bar(EDIT_KIND_ADD_BAR, 0, 100.0, 0.0, 100.0, 3001.0));
@@ -88,14 +88,14 @@ TEST(a_bar_lies_in_the_arena_on_no_robot_and_is_as_long_as_it_is_thick)
     TEST_ASSERT_EQUAL_DOUBLE(500.0, furniture.bars[0].a.x);
 }
 
-TEST(a_bar_may_lie_where_a_robot_is_in_the_air)
+TEST(bar_may_lie_under_a_lifted_robot)
 {
     lift(0);
     TEST_ASSERT_NULL(bar(EDIT_KIND_ADD_BAR, 0, 900.0, 1000.0, 1100.0, 1000.0));
     TEST_ASSERT_EQUAL_STRING("the robot stands there", bar(EDIT_KIND_ADD_BAR, 0, 900.0, 2500.0, 1100.0, 2500.0));
 }
 
-TEST(the_arena_does_not_fill_up_for_ever)
+TEST(bars_and_plants_are_limited_in_number)
 {
     for (unsigned i = 1; i < EDIT_BARS_MAX; i++)
         TEST_ASSERT_NULL(bar(EDIT_KIND_ADD_BAR, 0, 3000.0, 100.0, 3000.0, 200.0));
@@ -106,7 +106,7 @@ TEST(the_arena_does_not_fill_up_for_ever)
     TEST_ASSERT_EQUAL_size_t(WALLS + EDIT_BARS_MAX + FURNITURE_PLANTS_MAX, furniture.capsule_count);
 }
 
-TEST(plants_are_moved_grow_and_are_removed)
+TEST(plants_can_be_moved_grown_and_removed)
 {
     TEST_ASSERT_NULL(plant(EDIT_KIND_PLANT, 0, 3000.0, 1000.0, 80.0));
     TEST_ASSERT_NULL(plant(EDIT_KIND_PLANT, 0, 3500.0, 1000.0, 20.0));
@@ -121,7 +121,7 @@ TEST(plants_are_moved_grow_and_are_removed)
     TEST_ASSERT_EQUAL_size_t(WALLS + 2, furniture.capsule_count);
 }
 
-TEST(a_plant_stands_in_the_arena_on_no_robot_and_has_a_size)
+TEST(plant_must_fit_the_arena_and_be_clear_of_robots)
 {
     TEST_ASSERT_EQUAL_STRING("that is outside of the arena", plant(EDIT_KIND_PLANT, 0, 4001.0, 0.0, 80.0));
     TEST_ASSERT_EQUAL_STRING("a plant has a radius of 20 to 500 mm", plant(EDIT_KIND_PLANT, 0, 3000.0, 1000.0, 19.0));
@@ -143,7 +143,7 @@ TEST(food_is_moved_within_the_arena)
     TEST_ASSERT_EQUAL_DOUBLE(0.0, world.food[0].y_mm);
 }
 
-TEST(a_robot_is_lifted_once_and_put_down_where_there_is_room)
+TEST(lifted_robot_is_put_down_only_where_there_is_room)
 {
     TEST_ASSERT_EQUAL_STRING("the robot is not in the air", put(3000.0, 1000.0));
     lift(0);
@@ -160,14 +160,14 @@ TEST(a_robot_is_lifted_once_and_put_down_where_there_is_room)
     TEST_ASSERT_EQUAL_DOUBLE(-0.5, world.bodies[0].heading_rad);
 }
 
-TEST(a_robot_in_the_air_takes_no_room)
+TEST(lifted_robot_blocks_no_position)
 {
     lift(0);
     lift(1);
     TEST_ASSERT_NULL(put(1000.0, 2500.0));
 }
 
-TEST(a_body_is_broken)
+TEST(body_fault_is_set_for_one_robot)
 {
     struct edit mirror = {.kind = EDIT_KIND_BODY, .robot = 1};
 

@@ -1,4 +1,4 @@
-/* Trials and their results, lessons and who gave them, and the use of each cell. */
+/* Trials and their results, lessons and their origin, and the uses of each cell. */
 #include "host_sim/world/native/history.h"
 #include "tests/test.h"
 
@@ -53,7 +53,7 @@ static void expect_lesson(int32_t cell, int32_t side, int32_t by_hand)
     TEST_ASSERT_EQUAL_INT32(by_hand, history.by_hand[cell]);
 }
 
-TEST(in_the_beginning_nothing_was_learned)
+TEST(new_history_is_empty)
 {
     TEST_ASSERT_EQUAL_INT32(-1, history.action);
     TEST_ASSERT_EQUAL_DOUBLE(-1.0, history.trial.tick);
@@ -61,7 +61,7 @@ TEST(in_the_beginning_nothing_was_learned)
     TEST_ASSERT_EQUAL_INT32(0, history.trials);
 }
 
-TEST(a_trial_is_under_way_until_the_next_action)
+TEST(trial_is_pending_until_the_next_action)
 {
     try_left(7.0);
     TEST_ASSERT_EQUAL_DOUBLE(7.0, history.trial.tick);
@@ -74,7 +74,7 @@ TEST(a_trial_is_under_way_until_the_next_action)
     TEST_ASSERT_EQUAL_INT32(1, history.trials);
 }
 
-TEST(a_trial_helps_if_fewer_sensors_are_triggered)
+TEST(trial_helps_if_fewer_sensors_are_triggered)
 {
     try_left(7.0);
     begin(9.0, FRONT, REASON_WANDER, LEARNED);
@@ -85,7 +85,7 @@ TEST(a_trial_helps_if_fewer_sensors_are_triggered)
     TEST_ASSERT_EQUAL_DOUBLE(7.0, history.trial.tick);
 }
 
-TEST(a_trial_that_does_not_help_teaches_nothing)
+TEST(lesson_after_a_failed_trial_is_by_hand)
 {
     try_left(7.0);
     history.frozen = true;
@@ -95,14 +95,14 @@ TEST(a_trial_that_does_not_help_teaches_nothing)
     expect_lesson(FRONT_RIGHT_TOO, SIDE_LEFT, 1);
 }
 
-TEST(a_right_turn_has_the_faster_left_wheel)
+TEST(trial_side_is_right_when_the_left_wheel_is_faster)
 {
     rows[0][ROW_RIGHT_MM_S] = -200;
     begin(3.0, FRONT, REASON_TRIAL, NOTHING);
     TEST_ASSERT_EQUAL_INT32(SIDE_RIGHT, history.trial.side);
 }
 
-TEST(another_turn_than_the_tried_one_was_told)
+TEST(history_counts_a_turn_learned_without_its_trial_as_taught)
 {
     static const uint8_t right[CELL_COUNT] = {[FRONT_RIGHT_TOO] = SIDE_RIGHT}, elsewhere[CELL_COUNT] = {[FRONT] = SIDE_LEFT};
 
@@ -115,7 +115,7 @@ TEST(another_turn_than_the_tried_one_was_told)
     expect_lesson(FRONT, SIDE_LEFT, 1);
 }
 
-TEST(a_robot_that_generalizes_learned_all_turns_that_follow)
+TEST(generalized_lessons_are_not_by_hand)
 {
     static const uint8_t all[CELL_COUNT] = {
         [1] = SIDE_LEFT, [FRONT] = SIDE_LEFT, [3] = SIDE_LEFT, [4] = SIDE_RIGHT, [5] = SIDE_LEFT, [6] = SIDE_LEFT,
@@ -132,7 +132,7 @@ TEST(a_robot_that_generalizes_learned_all_turns_that_follow)
     TEST_ASSERT_EQUAL_INT32(1, history.by_hand[6]);       /* the wrong one */
 }
 
-TEST(the_use_of_a_remembered_turn_is_counted_until_it_changes)
+TEST(uses_of_a_cell_are_counted_until_it_changes)
 {
     history_begin(&history, LEARNED);
     begin(1.0, FRONT_RIGHT_TOO, REASON_REMEMBERED, LEARNED);
@@ -143,7 +143,7 @@ TEST(the_use_of_a_remembered_turn_is_counted_until_it_changes)
     TEST_ASSERT_EQUAL_INT32(0, history.uses[FRONT_RIGHT_TOO]);
 }
 
-TEST(only_a_robot_that_may_forget_erases_by_itself)
+TEST(erasing_is_by_hand_except_after_boredom_or_a_remembered_turn)
 {
     history_begin(&history, LEARNED);
     begin(1.0, 0, REASON_WANDER, NOTHING);
@@ -156,7 +156,7 @@ TEST(only_a_robot_that_may_forget_erases_by_itself)
     expect_lesson(FRONT_RIGHT_TOO, SIDE_NOTHING, 0);
 }
 
-TEST(within_an_action_turns_are_told)
+TEST(lesson_within_an_action_is_by_hand)
 {
     try_left(7.0);
     take(8.0, LEARNED);
@@ -167,7 +167,7 @@ TEST(within_an_action_turns_are_told)
     TEST_ASSERT_EQUAL_UINT32(0, history.lesson_count);
 }
 
-TEST(what_a_tick_explains_is_told_before_the_next_one)
+TEST(relearned_cells_between_ticks_are_by_hand)
 {
     history_begin(&history, LEARNED);
     begin(1.0, FRONT_RIGHT_TOO, REASON_REMEMBERED, LEARNED);
@@ -175,7 +175,7 @@ TEST(what_a_tick_explains_is_told_before_the_next_one)
     expect_lesson(FRONT_RIGHT_TOO, SIDE_NOTHING, 1);
 }
 
-TEST(a_turn_that_is_learned_as_it_is_used_was_used_once)
+TEST(uses_are_counted_after_the_lesson)
 {
     try_left(7.0);
     begin(9.0, FRONT, REASON_REMEMBERED, LEARNED);
@@ -184,7 +184,7 @@ TEST(a_turn_that_is_learned_as_it_is_used_was_used_once)
     TEST_ASSERT_EQUAL_INT32(1, history.uses[FRONT_RIGHT_TOO]);
 }
 
-TEST(a_block_fills_in_what_its_rows_have_of_learning)
+TEST(history_take_sets_pattern_and_frozen_of_rows)
 {
     rows[0][ROW_FEEL] = FRONT << 1;
     rows[1][ROW_ACTION] = 2;
@@ -196,7 +196,7 @@ TEST(a_block_fills_in_what_its_rows_have_of_learning)
     TEST_ASSERT_EQUAL_INT16(1, rows[1][ROW_FROZEN]);
 }
 
-TEST(turns_that_begin_and_trials_that_end_are_noted)
+TEST(notes_record_starts_of_turns_and_ends_of_trials)
 {
     TEST_ASSERT_EQUAL_size_t(0, begin(1.0, 0, REASON_WANDER, NOTHING));
     TEST_ASSERT_EQUAL_size_t(1, begin(2.0, FRONT, REASON_TRIAL, NOTHING));
@@ -211,7 +211,7 @@ TEST(turns_that_begin_and_trials_that_end_are_noted)
     TEST_ASSERT_EQUAL_size_t(1, begin(6.0, FRONT, REASON_BOREDOM, NOTHING));
 }
 
-TEST(a_robot_that_is_started_again_has_learned_nothing_here)
+TEST(history_restart_clears_lessons_but_not_the_trial_count)
 {
     try_left(7.0);
     begin(9.0, FRONT, REASON_WANDER, LEARNED);

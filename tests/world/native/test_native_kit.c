@@ -1,5 +1,7 @@
-#include "host_sim/world/native/kit/kit.h"
 #include "tests/test.h"
+#include "host_sim/world/native/kit/kit.h"
+
+#include <string.h>
 
 enum { TICKS = 100 };
 
@@ -9,7 +11,7 @@ static double counted_mm[KIT_WHEELS], rolled_mm[KIT_WHEELS];
 static struct kit_kind kind;
 static struct body body;
 
-void setUp(void)
+BEFORE_EACH(kit)
 {
     for (unsigned i = 0; i < TRAIT_COUNT; i++) {
         kind.trait[i] = KIT_TRAITS[i].ideal;
@@ -23,7 +25,7 @@ static void draw(void)
     kit_draw(&kit, &kind, 1, 0);
 }
 
-/* All that the left wheel rolls in some ticks at a speed, and then at rest. */
+/* The distance that the left wheel rolls in some ticks at a speed, and then at rest. */
 static double roll(double mm_s, unsigned ticks)
 {
     double way_mm = 0;
@@ -36,7 +38,7 @@ static double roll(double mm_s, unsigned ticks)
     return way_mm;
 }
 
-TEST(each_trait_of_the_kit_is_one_that_a_body_can_have)
+TEST(trait_defaults_and_tolerances_are_within_limits)
 {
     for (unsigned i = 0; i < TRAIT_COUNT; i++) {
         const struct trait_row *row = &KIT_TRAITS[i];
@@ -46,7 +48,7 @@ TEST(each_trait_of_the_kit_is_one_that_a_body_can_have)
     }
 }
 
-TEST(an_ideal_body_is_left_as_it_is)
+TEST(ideal_kit_changes_neither_motion_nor_senses)
 {
     struct senses senses = {.tick = 3, .feel = FEEL_FRONT};
 
@@ -56,7 +58,7 @@ TEST(an_ideal_body_is_left_as_it_is)
     TEST_ASSERT_EQUAL_UINT8(FEEL_FRONT, senses.feel);
 }
 
-TEST(another_robot_has_other_traits_and_each_is_within_its_tolerance)
+TEST(traits_differ_by_robot_within_tolerance)
 {
     double first;
 
@@ -71,7 +73,7 @@ TEST(another_robot_has_other_traits_and_each_is_within_its_tolerance)
     TEST_ASSERT_EQUAL_DOUBLE(first, kit.trait[TRAIT_LAG_MS]);
 }
 
-TEST(late_wheels_roll_in_the_end_what_they_were_told)
+TEST(lagging_wheels_roll_the_commanded_distance_in_the_end)
 {
     kind.trait[TRAIT_LAG_MS] = 60;
     draw();
@@ -82,7 +84,7 @@ TEST(late_wheels_roll_in_the_end_what_they_were_told)
     TEST_ASSERT_LESS_THAN_DOUBLE(44.1, roll(200, 10));
 }
 
-TEST(the_boards_own_controller_makes_the_way)
+TEST(kit_with_motors_rolls_as_its_speed_controller_does)
 {
     kind.trait[TRAIT_MOTOR_MS] = 60;
     draw();
@@ -92,7 +94,7 @@ TEST(the_boards_own_controller_makes_the_way)
     TEST_ASSERT_EQUAL_DOUBLE(0, roll(200, 50));
 }
 
-TEST(orders_below_the_dead_band_move_nothing)
+TEST(speed_below_the_dead_band_causes_no_motion)
 {
     kind.trait[TRAIT_DEAD_MM_S] = 10;
     draw();
@@ -100,7 +102,7 @@ TEST(orders_below_the_dead_band_move_nothing)
     TEST_ASSERT_EQUAL_DOUBLE(2.2, roll(11, 10));
 }
 
-TEST(slack_hides_its_way_from_the_odometer)
+TEST(slack_shortens_the_distance_rolled)
 {
     kind.trait[TRAIT_SLACK_MM] = 1;
     draw();
@@ -108,7 +110,7 @@ TEST(slack_hides_its_way_from_the_odometer)
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, -39, roll(-200, 10));
 }
 
-TEST(the_floor_sees_another_way_than_the_odometer_where_a_wheel_is_larger_or_slips)
+TEST(wheel_size_and_slip_change_the_distance_rolled)
 {
     kind.trait[TRAIT_LEFT_WHEEL] = 1.01;
     draw();
@@ -120,7 +122,7 @@ TEST(the_floor_sees_another_way_than_the_odometer_where_a_wheel_is_larger_or_sli
     TEST_ASSERT_EQUAL_DOUBLE(0, counted_mm[0]);
 }
 
-TEST(an_odometer_counts_in_whole_steps)
+TEST(odometer_counts_whole_steps)
 {
     kind.trait[TRAIT_COUNT_MM] = 3;
     draw();
@@ -129,7 +131,7 @@ TEST(an_odometer_counts_in_whole_steps)
     TEST_ASSERT_EQUAL_DOUBLE(3, counted_mm[0]);
 }
 
-TEST(orders_and_senses_come_late)
+TEST(drives_and_senses_are_delayed)
 {
     struct senses senses = {.tick = 1, .odometer_left = 7};
 
@@ -143,8 +145,8 @@ TEST(orders_and_senses_come_late)
         TEST_ASSERT_EQUAL_DOUBLE(i < 2 ? 0 : 4, rolled_mm[0]);
     }
     kit_sense(&kit, NULL, NULL, 1, &senses);
-    TEST_ASSERT_EQUAL_UINT16(7, senses.odometer_left);   /* there are none before the first */
-    for (unsigned times = 0; times < 2; times++) {   /* asked again in the same tick, it says the same */
+    TEST_ASSERT_EQUAL_UINT16(7, senses.odometer_left);   /* there are no earlier ones */
+    for (unsigned times = 0; times < 2; times++) {   /* the same result twice in a tick */
         senses = (struct senses){.tick = 2, .odometer_left = 9};
         kit_sense(&kit, NULL, NULL, 2, &senses);
         TEST_ASSERT_EQUAL_UINT8(2, senses.tick);
@@ -168,7 +170,7 @@ static uint8_t felt_at(double away_mm)
     return senses.feel;
 }
 
-TEST(a_sensor_reaches_as_far_as_its_own_and_lets_go_farther_away)
+TEST(sensor_has_its_own_reach_and_hysteresis)
 {
     kind.trait[TRAIT_FRONT_MM] = 50;
     kind.trait[TRAIT_HYSTERESIS_MM] = 5;
@@ -179,7 +181,7 @@ TEST(a_sensor_reaches_as_far_as_its_own_and_lets_go_farther_away)
     TEST_ASSERT_EQUAL_UINT8(0, felt_at(56));
 }
 
-TEST(a_dark_wall_is_seen_from_nearer)
+TEST(dark_wall_reduces_the_sensor_reach)
 {
     kind.trait[TRAIT_WALL] = 0.3;
     draw();
@@ -187,7 +189,7 @@ TEST(a_dark_wall_is_seen_from_nearer)
     TEST_ASSERT_EQUAL_UINT8(FEEL_FRONT, felt_at(15));
 }
 
-TEST(nearer_than_its_fold_a_thing_seems_to_go_away_again)
+TEST(reading_below_the_fold_distance_rises_again)
 {
     kind.trait[TRAIT_FOLD_MM] = 40;
     draw();
@@ -196,7 +198,7 @@ TEST(nearer_than_its_fold_a_thing_seems_to_go_away_again)
     TEST_ASSERT_EQUAL_UINT8(0, felt_at(28));
 }
 
-TEST(a_narrow_cone_does_not_see_what_stands_beside_it)
+TEST(narrow_cone_misses_a_post_at_its_side)
 {
     kind.trait[TRAIT_CONE_DEG] = 10;
     draw();
@@ -206,7 +208,7 @@ TEST(a_narrow_cone_does_not_see_what_stands_beside_it)
     TEST_ASSERT_EQUAL_UINT8(FEEL_FRONT, felt_at(30));
 }
 
-TEST(a_beam_widens_with_the_distance_and_narrows_where_the_beacon_is_faint)
+TEST(beam_widens_with_distance_and_narrows_near_its_limit)
 {
     kind.trait[TRAIT_BEAM_DEG] = 2;
     kind.trait[TRAIT_BEACON_MM] = 2000;
@@ -220,7 +222,7 @@ TEST(a_beam_widens_with_the_distance_and_narrows_where_the_beacon_is_faint)
     TEST_ASSERT_FALSE(kit_sees(&kit, 2000, 0, 100));
 }
 
-TEST(a_fault_comes_on_top_of_what_a_body_has_and_goes_without_a_trace)
+TEST(faults_add_to_traits_and_are_removed_completely)
 {
     struct body_faults faults = {.lag_ms = 60, .slack_deg = 3, .slip_percent = 5, .latency_ticks = 1, .dark_wall = true};
 
@@ -238,17 +240,105 @@ TEST(a_fault_comes_on_top_of_what_a_body_has_and_goes_without_a_trace)
         TEST_ASSERT_EQUAL_DOUBLE(kind.trait[i], kit.trait[i]);
 }
 
-TEST(a_weak_battery_slows_a_body_that_had_no_motors)
+TEST(weak_battery_slows_a_kit_without_motors)
 {
     draw();
     kit_suffer(&kit, &(struct body_faults){.weak_battery = true});
     TEST_ASSERT_LESS_THAN_DOUBLE(380, roll(400, 50));
 }
 
-TEST(a_body_that_was_never_drawn_can_suffer_too)
+TEST(fault_of_an_undrawn_kit_applies_to_ideal_traits)
 {
     kit = (struct kit){0};
     kit_suffer(&kit, &(struct body_faults){.latency_ticks = 2});
     TEST_ASSERT_FALSE(kit.wheels_differ);
     TEST_ASSERT_EQUAL_DOUBLE(60.5, kit.trait[TRAIT_FRONT_MM]);
+}
+
+/* A kit whose board drives the motors itself, and measures light. */
+
+enum { PERIODS = 200, HALF = 32768 };
+
+static struct kit by_speeds;
+
+BEFORE_EACH(kit_push)
+{
+    struct kit_kind built = {.tolerance = {0}};
+
+    for (unsigned i = 0; i < TRAIT_COUNT; i++)
+        built.trait[i] = KIT_TRAITS[i].kit;
+    built.trait[TRAIT_SLIP] = built.trait[TRAIT_NOISE_MM] = 0;
+    kit = by_speeds = (struct kit){0};
+    kit_draw(&kit, &built, 1, 0);
+    kit_draw(&by_speeds, &built, 1, 0);
+}
+
+static void push(int32_t left, int32_t right, unsigned periods)
+{
+    const int32_t duty[KIT_WHEELS] = {left, right};
+
+    for (unsigned i = 0; i < periods; i++)
+        kit_push(&kit, duty);
+}
+
+TEST(kit_driven_by_duties_ignores_speeds)
+{
+    uint16_t left = kit_count(&kit, 0), right = kit_count(&kit, 1);
+
+    push(HALF, -HALF, PERIODS);
+    rolled_mm[0] = rolled_mm[1] = 99;
+    (void)kit_roll(&kit, 0.02, counted_mm, rolled_mm);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 0.0916 * (int16_t)(uint16_t)(kit_count(&kit, 0) - left), counted_mm[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(0.2, 0.0916 * (int16_t)(uint16_t)(kit_count(&kit, 1) - right), counted_mm[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(0.5, counted_mm[0], rolled_mm[0]);
+    TEST_ASSERT_TRUE(counted_mm[0] > 200 && counted_mm[1] < -200);
+}
+
+TEST(tick_without_a_duty_does_not_roll)
+{
+    push(HALF, HALF, PERIODS);
+    (void)kit_roll(&kit, 0.02, counted_mm, rolled_mm);
+    (void)kit_roll(&kit, 0.02, counted_mm, rolled_mm);
+    TEST_ASSERT_EQUAL_DOUBLE(0, rolled_mm[0]);
+    TEST_ASSERT_EQUAL_DOUBLE(0, counted_mm[1]);
+}
+
+/* The board's own controller, in the world and outside of it. */
+TEST(kit_driven_by_duties_rolls_as_far_as_by_speeds)
+{
+    struct wheel wheels[KIT_WHEELS] = {{.known = false}};
+    double by_speeds_mm = 0;
+
+    for (unsigned tick = 0; tick < 50; tick++) {
+        rolled_mm[0] = rolled_mm[1] = 200 * 0.02;
+        (void)kit_roll(&by_speeds, 0.02, counted_mm, rolled_mm);
+        by_speeds_mm += counted_mm[0];
+    }
+    for (unsigned period = 0; period < 200; period++) {
+        int32_t duty[KIT_WHEELS];
+
+        for (unsigned side = 0; side < KIT_WHEELS; side++)
+            duty[side] = wheel_run(&wheels[side], kit_count(&kit, side), 200, (uint32_t)(kit.trait[TRAIT_BATTERY_V] * 1000));
+        kit_push(&kit, duty);
+    }
+    (void)kit_roll(&kit, 0.02, counted_mm, rolled_mm);
+    TEST_ASSERT_DOUBLE_WITHIN(1.0, by_speeds_mm, counted_mm[0]);
+}
+
+TEST(wall_at_sensor_reach_gives_the_threshold_light)
+{
+    struct capsule wall;
+    struct ranges ranges = {.body_radius_mm = 100, .reach_mm = 180, .capsules = &wall, .capsule_count = 1};
+    struct body robot = {.ahead = {1, 0}, .feel = FEEL_RIGHT};
+    struct world world = {.params = {.tick_s = 0.02}};
+    uint16_t light[FEEL_COUNT];
+
+    capsule_set(&wall, (struct vector){-500, 160}, (struct vector){500, 160}, 0);
+    kit.ranges = &ranges;
+    kit_light(&kit, &world, &robot, 0, light);
+    TEST_ASSERT_UINT_WITHIN(40, KIT_LIGHT_NEAR, light[0] > light[FEEL_COUNT - 1] ? light[0] : light[FEEL_COUNT - 1]);
+    TEST_ASSERT_EQUAL_UINT16(0, light[2]);
+    robot.feel = 0;
+    kit_light(&kit, &world, &robot, 0, light);
+    TEST_ASSERT_EQUAL_UINT16(0, light[0]);
 }

@@ -1,6 +1,6 @@
-/* Judges a pupil's behaviour, decision by decision. A shadow with a brain of its own meets the same senses, and
- * decides as the exercise asks. Its dice are scripted: each outcome is right, and it goes on with the one that was
- * chosen, so that a pupil may draw in any order. The first decision that no outcome explains is told. */
+/* Judges a pupil's behaviour, decision by decision. A shadow, a brain that decides as the exercise requires, receives
+ * the same senses. Its random draws are scripted: every outcome is right, and it continues with the pupil's one, so
+ * that a pupil may draw in any order. The first decision that no outcome explains is reported. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,7 +28,7 @@ static uint8_t scripted_below(struct random *random, uint8_t n);
 #include "firmware/behaviours/article.c"
 #include "firmware/behaviours/recheck.c"
 
-enum { ALIKE_MAX = 30, DRAWS_MAX = 4, WORDS_MAX = 120, ENDED = 3, NO_FOOD_MM = 1023, NEVER_BORED = 0 };
+enum { SAME_MAX = 30, DRAWS_MAX = 4, WORDS_MAX = 120, ENDED = 3, NO_FOOD_MM = 1023, NEVER_BORED = 0 };
 enum { ONE_IF = 1, TABLE, COUNT, TRIAL, REMEMBER, BOREDOM, RECHECK };
 
 bool own_begin(struct brain *brain);
@@ -39,14 +39,14 @@ struct action pupil_next(struct brain *brain, const struct config *config, const
 static struct brain shadow;
 static int exercise;
 static unsigned long decisions;
-static bool told;             /* of a wrong decision */
+static bool reported;         /* a wrong decision */
 static uint8_t drawn[DRAWS_MAX], faces[DRAWS_MAX];
 static unsigned draws;
 
-static unsigned alike;        /* draws of a side that had the same outcome, one after the other, */
-static uint8_t alike_face;    /* and which */
+static unsigned same_count;   /* draws of a side in a row with the same outcome, */
+static uint8_t same_face;     /* which is this */
 
-/* What the actions that are right have in common. */
+/* The first right action, and the range of all right turns. */
 struct asked {
     struct action first;
     int least_deg, most_deg;
@@ -168,14 +168,14 @@ static void widen(struct asked *asked, const struct action *action)
     asked->right = asked->right || action->turn_deg > 0;
 }
 
-/* Prints when it is, and what the shadow knows; the caller prints the rest of the line. */
+/* Prints the start of a line: tick, time, and the shadow's state. The caller prints the rest. */
 static void begin_line(const struct brain *before, const struct senses *senses)
 {
     uint8_t pattern = pattern_of(senses->feel);
     char when[GUARD_TEXT_MAX];
 
-    guard_when(when, sizeof when);
-    printf("own: %s, decision %lu", when, decisions);
+    long tick = guard_when(when, sizeof when);
+    printf("own: %ld %s, decision %lu", tick, when, decisions);
     if (exercise >= REMEMBER && pattern)
         printf(", %s remembered", name_of(memory_recall(&before->memory, pattern)));
     if (exercise >= BOREDOM && before->awaits == AWAITS_BOREDOM)
@@ -185,12 +185,12 @@ static void begin_line(const struct brain *before, const struct senses *senses)
     printf(": ");
 }
 
-/* The process ends at the next decision: the log has the wrong one, too. */
+/* The process ends only at the next decision, so that the log contains the wrong one. */
 static void end_line(void)
 {
     printf("\n");
     fflush(stdout);
-    told = true;
+    reported = true;
 }
 
 static void check_memory(const struct brain *pupil, const struct brain *before, const struct senses *senses)
@@ -209,17 +209,17 @@ static void check_memory(const struct brain *pupil, const struct brain *before, 
         }
 }
 
-/* Each outcome of a draw is right, but not the same one for ever. */
+/* Every outcome of a draw is right, but not the same one more than SAME_MAX times in a row. */
 static void check_dice(const struct brain *before, const struct senses *senses)
 {
     if (draws == 0 || faces[0] != 2)
         return;
-    alike = drawn[0] == alike_face ? alike + 1 : 1;
-    alike_face = drawn[0];
-    if (alike <= ALIKE_MAX)
+    same_count = drawn[0] == same_face ? same_count + 1 : 1;
+    same_face = drawn[0];
+    if (same_count <= SAME_MAX)
         return;
     begin_line(before, senses);
-    printf("you have chosen the same side %u times in a row; asked is a side that is drawn", alike);
+    printf("you have chosen the same side %u times in a row; asked is a side that is drawn", same_count);
     end_line();
 }
 
@@ -261,14 +261,14 @@ struct action own_next(struct brain *brain, const struct config *config, const s
     struct brain before;
     struct action did;
 
-    if (told)
+    if (reported)
         _exit(ENDED);
     did = pupil_next(brain, config, senses);
     decisions++;
     shadow.frozen = brain->frozen;
     before = shadow;
     check_action(&did, &before, config, senses);
-    if (!told && exercise >= REMEMBER)
+    if (!reported && exercise >= REMEMBER)
         check_memory(brain, &before, senses);
     return did;
 }

@@ -50,7 +50,7 @@ bool capsule_hides(const struct capsule *capsule, struct vector from, struct vec
 bool capsule_disc_hides(struct vector centre, double radius_mm, struct vector from, struct vector to);
         /* The same for a disc. */
 
-/* The five proximity cones around the front of a body. host_sim/world/plain_space.py makes pymunk's. */
+/* The five proximity cones around the front of a body. host_sim/world/native_world.py makes pymunk's. */
 
 enum { CONES = 5, CONE_CORNERS = 6 };
 

@@ -76,7 +76,7 @@ void rig_open_filters(void)
     can.filters.banks[0] = can.filters.banks[1] = 0;    /* ... that asks for nothing */
 }
 
-bool rig_is_apart(void)
+bool rig_is_off_bus(void)
 {
     return CAN1.msr & 1u;
 }

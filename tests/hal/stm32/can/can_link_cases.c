@@ -10,7 +10,7 @@ struct frame numbered(uint32_t id, uint8_t number)
     return (struct frame){.id = id, .len = 8, .data = {number, 1, 2, 3, 4, 5, 6, 0xF7}};
 }
 
-int open_it(void)
+int open_link(void)
 {
     return link_open(&link_here, "", WANTED, 2);
 }

@@ -11,9 +11,9 @@ extern const uint16_t WANTED[2];   /* identifiers that it listens for */
 extern struct link *link_here;
 
 struct frame numbered(uint32_t id, uint8_t number);
-        /* A frame that can be told from others. */
+        /* A frame with a number in its first byte. */
 
-int open_it(void);
+int open_link(void);
         /* Opens the link for two identifiers; as link_open. */
 
 void assert_frame(const struct frame *expected, const struct frame *actual);

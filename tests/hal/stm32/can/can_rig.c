@@ -25,7 +25,7 @@ void rig_pass_us(uint32_t us)
     registers_pass_us(us);
 }
 
-void rig_bring(const struct frame *frame)
+void rig_deliver(const struct frame *frame)
 {
     TEST_ASSERT_TRUE(wire_put(&wire, frame));
     registers_pass_us(300);
@@ -54,19 +54,19 @@ void rig_occupy(uint32_t id)
     registers_pass_us(0);
 }
 
-void rig_stick(void)
+void rig_stall(void)
 {
     CAN_MEMORY.node->stuck_mailboxes = 7;
 }
 
-void rig_lose_bus(void)
+void rig_enter_bus_off(void)
 {
     CAN_MEMORY.node->tec = 255;
     node_failed(CAN_MEMORY.node, NODE_BIT_DOMINANT);
     registers_pass_us(0);
 }
 
-bool rig_has_lost_bus(void)
+bool rig_is_bus_off(void)
 {
     return CAN_MEMORY.node->bus_off;
 }
@@ -76,7 +76,7 @@ void rig_keep_bus_off(void)
     CAN_MEMORY.node->recovery_stuck = true;
 }
 
-void rig_fall_silent(void)
+void rig_stop_answering(void)
 {
     CAN_MEMORY.node->init_stuck = true;
 }

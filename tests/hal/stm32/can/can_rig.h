@@ -23,7 +23,7 @@ void rig_pass_us(uint32_t us);
 struct rig_bit rig_bit(void);
         /* As the driver has set it up. */
 
-void rig_bring(const struct frame *frame);
+void rig_deliver(const struct frame *frame);
         /* Arrives over the bus. */
 
 int rig_fifo_for(uint32_t id);
@@ -42,21 +42,21 @@ void rig_block(bool blocked);
 void rig_occupy(uint32_t id);
         /* From here on other nodes send frames of this identifier without a pause, for at least 200 ms. 0: they stop. */
 
-void rig_stick(void);
+void rig_stall(void);
         /* From here on the controller neither sends what it has nor gives it up. */
 
-void rig_lose_bus(void);
-bool rig_has_lost_bus(void);
+void rig_enter_bus_off(void);
+bool rig_is_bus_off(void);
 void rig_keep_bus_off(void);
         /* The idle times that end bus-off never come. */
 
-void rig_fall_silent(void);
+void rig_stop_answering(void);
         /* The controller does not answer when it is to leave the bus. */
 
 unsigned rig_departures(void);
         /* How often the controller has left the bus so far. */
 
-bool rig_is_apart(void);
+bool rig_is_off_bus(void);
         /* Neither on the bus nor about to join it. */
 
 void rig_set_errors(uint8_t tx, uint8_t rx, bool passive);

@@ -75,7 +75,7 @@ void rig_open_filters(void)
     can.rxgfc = 0;
 }
 
-bool rig_is_apart(void)
+bool rig_is_off_bus(void)
 {
     return FDCAN.cccr & 1u;
 }

@@ -15,7 +15,7 @@ void setUp(void)
     registers_pass_us(100);
 }
 
-TEST(the_registers_lie_where_the_manual_has_them)
+TEST(register_offsets_match_the_manual)
 {
     TEST_ASSERT_EQUAL_HEX(0x01C, offsetof(struct can_registers, btr));
     TEST_ASSERT_EQUAL_HEX(0x180, offsetof(struct can_registers, sent));
@@ -28,13 +28,13 @@ TEST(the_registers_lie_where_the_manual_has_them)
     TEST_ASSERT_EQUAL_HEX(0x240, offsetof(struct can_registers, bank));
 }
 
-TEST(it_wakes_up_and_the_lowest_identifier_leaves_first)
+TEST(bxcan_leaves_sleep_with_priority_by_identifier)
 {
     TEST_ASSERT_EQUAL_HEX32(0, CAN1.mcr);
 }
 
 /* Banks of zeros let everything in. */
-TEST(filters_of_a_boot_loader_let_nothing_in)
+TEST(link_open_replaces_the_filters_that_a_boot_loader_left)
 {
     static const uint32_t modes[] = {0, 0x3FFF};
     static const uint16_t ids[] = {0x0C1, LINK_FAMILY | 0x680};
@@ -50,7 +50,7 @@ TEST(filters_of_a_boot_loader_let_nothing_in)
     }
 }
 
-TEST(what_came_before_the_bus_was_lost_is_still_received)
+TEST(frames_before_bus_off_are_still_received)
 {
     struct frame frame;
 
@@ -73,7 +73,7 @@ TEST(mailboxes_are_written_whole)
     TEST_ASSERT_EQUAL_HEX32(8, CAN1.sent[0].length);
 }
 
-TEST(a_frame_being_released_does_not_come_twice)
+TEST(frame_being_released_is_received_once)
 {
     struct frame frame;
 
@@ -88,7 +88,7 @@ TEST(a_frame_being_released_does_not_come_twice)
     TEST_ASSERT_EQUAL(0, link_receive(link_here, &frame, 1));
 }
 
-TEST(no_interrupt_is_asked_for)
+TEST(interrupts_stay_disabled)
 {
     TEST_ASSERT_EQUAL_HEX32(0, CAN1.ier);
 }

@@ -4,11 +4,11 @@
 void setUp(void)
 {
     rig_reset();
-    TEST_ASSERT_EQUAL(0, open_it());
+    TEST_ASSERT_EQUAL(0, open_link());
     rig_pass_us(100);
 }
 
-TEST(a_frame_goes_out_as_it_is)
+TEST(sent_frame_is_unchanged)
 {
     struct frame frame = {.id = 0x7A5, .len = 3, .data = {0x11, 0x82, 0xF3}};
 
@@ -18,7 +18,7 @@ TEST(a_frame_goes_out_as_it_is)
     assert_frame(&frame, rig_sent(0));
 }
 
-TEST(all_eight_bytes_go_out_in_their_order)
+TEST(eight_bytes_are_sent_in_order)
 {
     struct frame frame = {.id = 0x001, .len = 8, .data = {0x81, 0x92, 0xA3, 0xB4, 0xC5, 0xD6, 0xE7, 0xF8}};
 
@@ -28,7 +28,7 @@ TEST(all_eight_bytes_go_out_in_their_order)
 }
 
 /* All that a robot tells of itself when it is asked: nothing is lost, and the drive is the last. */
-TEST(on_an_idle_bus_frames_leave_in_the_order_sent)
+TEST(frames_leave_in_order_on_an_idle_bus)
 {
     static const uint32_t ids[] = {ANSWER, HEARTBEAT, MEMORY, MEMORY, 0x781, 0x781, 0x7A1, HEALTH, DRIVE};
     enum { COUNT = sizeof ids / sizeof ids[0] };
@@ -42,7 +42,7 @@ TEST(on_an_idle_bus_frames_leave_in_the_order_sent)
     TEST_ASSERT_EQUAL_UINT8(0, health_now().dropped);
 }
 
-TEST(frames_of_one_identifier_never_overtake_each_other)
+TEST(frames_of_one_identifier_keep_their_order)
 {
     rig_block(true);
     for (uint8_t n = 0; n < 8; n++)
@@ -54,8 +54,8 @@ TEST(frames_of_one_identifier_never_overtake_each_other)
     TEST_ASSERT_EQUAL_UINT8(0, health_now().dropped);
 }
 
-/* Others have all of the bus that identifiers like theirs can have. */
-TEST(a_drive_leaves_at_once_whatever_else_waits)
+/* Other nodes fill the bus with less urgent frames. */
+TEST(drive_leaves_at_once_on_a_loaded_bus)
 {
     rig_occupy(0x300);
     for (uint8_t tick = 0; tick < 8; tick++) {
@@ -72,7 +72,7 @@ TEST(a_drive_leaves_at_once_whatever_else_waits)
     }
 }
 
-TEST(what_is_urgent_takes_the_place_of_what_is_least_so)
+TEST(urgent_frame_replaces_the_least_urgent)
 {
     rig_block(true);
     send_numbered(HEARTBEAT, 0);
@@ -88,7 +88,7 @@ TEST(what_is_urgent_takes_the_place_of_what_is_least_so)
     TEST_ASSERT_EQUAL_UINT8(1, health_now().dropped);
 }
 
-TEST(what_is_less_urgent_than_what_waits_stays_behind_it)
+TEST(less_urgent_frame_stays_behind_queued_ones)
 {
     rig_occupy(0x300);
     send_numbered(HEALTH, 0);
@@ -106,11 +106,11 @@ TEST(what_is_less_urgent_than_what_waits_stays_behind_it)
             assert_sent(n + 1, HEARTBEAT, 4);
 }
 
-TEST(a_controller_that_sticks_is_given_up_in_time)
+TEST(send_to_a_stuck_controller_times_out)
 {
     uint32_t start;
 
-    rig_stick();
+    rig_stall();
     send_numbered(HEALTH, 0);
     send_numbered(HEARTBEAT, 1);
     send_numbered(ANSWER, 2);
@@ -119,7 +119,7 @@ TEST(a_controller_that_sticks_is_given_up_in_time)
     TEST_ASSERT_LESS_OR_EQUAL_UINT32(start + LINK_SEND_MS + 6, rig_ms());
 }
 
-TEST(a_bus_that_takes_nothing_is_waited_for_no_longer_than_promised)
+TEST(send_on_a_blocked_bus_times_out)
 {
     uint32_t start;
 
@@ -132,7 +132,7 @@ TEST(a_bus_that_takes_nothing_is_waited_for_no_longer_than_promised)
     TEST_ASSERT_EQUAL_UINT8(2, health_now().dropped);
 }
 
-TEST(what_no_bus_takes_is_dropped_and_counted_and_the_newest_drive_leaves)
+TEST(blocked_frames_are_dropped_and_the_newest_drive_leaves)
 {
     unsigned count;
 
@@ -148,7 +148,7 @@ TEST(what_no_bus_takes_is_dropped_and_counted_and_the_newest_drive_leaves)
     assert_sent(0, DRIVE, 2);
 }
 
-TEST(what_waits_leaves_while_the_robot_listens)
+TEST(waiting_frames_leave_during_a_receive)
 {
     rig_block(true);
     TEST_ASSERT_GREATER_THAN_UINT(8, fill_up());
@@ -156,4 +156,152 @@ TEST(what_waits_leaves_while_the_robot_listens)
     wait_ms(5);
     for (uint8_t n = 0; n < 9; n++)
         assert_sent(n, HEARTBEAT, n);
+}
+
+/* What every CAN controller's driver has to do, with the link on top of it: trouble on the bus. Built once with each rig. */
+
+TEST(bus_not_yet_joined_is_down)
+{
+    struct frame frame;
+
+    rig_reset();
+    rig_block(true);
+    TEST_ASSERT_EQUAL(0, open_link());
+    TEST_ASSERT_EQUAL(LINK_E_DOWN, link_receive(link_here, &frame, WAIT_MS));
+    TEST_ASSERT_EQUAL(LINK_E_DOWN, try_to_send(0x100, 0));
+    rig_block(false);
+    wait_ms(WAIT_MS);
+}
+
+TEST(bus_off_is_down_for_the_time_asked)
+{
+    struct frame frame;
+    uint32_t start;
+
+    rig_enter_bus_off();
+    rig_block(true);
+    start = rig_ms();
+    TEST_ASSERT_EQUAL(LINK_E_DOWN, try_to_send(0x100, 0));
+    TEST_ASSERT_LESS_THAN_UINT32(start + 5, rig_ms());
+    TEST_ASSERT_EQUAL(LINK_E_DOWN, link_receive(link_here, &frame, WAIT_MS));
+    TEST_ASSERT_UINT32_WITHIN(6, start + WAIT_MS, rig_ms());
+}
+
+TEST(bus_off_is_recovered_from_and_counted)
+{
+    struct frame frame;
+
+    rig_enter_bus_off();
+    (void)link_receive(link_here, &frame, WAIT_MS);
+    TEST_ASSERT_FALSE(rig_is_bus_off());
+    TEST_ASSERT_EQUAL_UINT8(1, health_now().bus_offs);
+    send_numbered(0x100, 7);
+    rig_pass_us(1500);
+    assert_sent(0, 0x100, 7);
+}
+
+TEST(bus_off_drops_waiting_frames)
+{
+    struct frame frame;
+
+    rig_block(true);
+    for (uint8_t n = 0; n < 5; n++)
+        send_numbered(HEARTBEAT, n);
+    rig_enter_bus_off();
+    rig_block(false);
+    (void)link_receive(link_here, &frame, WAIT_MS);
+    TEST_ASSERT_EQUAL_UINT(0, rig_sent_count());
+    TEST_ASSERT_EQUAL_UINT8(5, health_now().dropped);
+}
+
+TEST(lasting_bus_off_is_retried_every_250_ms_and_counted_once)
+{
+    struct frame frame;
+    unsigned before = rig_departures();
+
+    rig_keep_bus_off();
+    rig_enter_bus_off();
+    (void)link_receive(link_here, &frame, 10 * RECOVERY_MS - 1);
+    TEST_ASSERT_EQUAL_UINT(10, rig_departures() - before);
+    TEST_ASSERT_EQUAL_UINT8(1, health_now().bus_offs);
+}
+
+static void receive_until_departures(unsigned count)
+{
+    struct frame frame;
+
+    while (rig_departures() < count)
+        TEST_ASSERT_EQUAL(LINK_E_DOWN, link_receive(link_here, &frame, 0));
+}
+
+TEST(bus_off_recovery_is_retried_after_250_ms)
+{
+    unsigned before = rig_departures();
+    struct frame frame;
+    uint32_t start;
+
+    rig_keep_bus_off();
+    rig_enter_bus_off();
+    receive_until_departures(before + 1);
+    start = rig_ms();
+    receive_until_departures(before + 2);
+    TEST_ASSERT_EQUAL_UINT32(start + RECOVERY_MS, rig_ms());
+    rig_pass_us(1000 * (RECOVERY_MS + 50));
+    TEST_ASSERT_EQUAL(LINK_E_DOWN, link_receive(link_here, &frame, 1));
+    TEST_ASSERT_EQUAL_UINT(before + 3, rig_departures());
+}
+
+TEST(bus_with_many_errors_is_still_used)
+{
+    rig_set_errors(100, 100, false);
+    send_numbered(HEARTBEAT, 1);
+    rig_pass_us(1500);
+    assert_sent(0, HEARTBEAT, 1);
+}
+
+TEST(bus_off_with_a_dead_controller_stays_bounded)
+{
+    struct frame frame;
+    uint32_t start;
+
+    rig_enter_bus_off();
+    rig_stop_answering();
+    start = rig_ms();
+    TEST_ASSERT_EQUAL(LINK_E_DOWN, link_receive(link_here, &frame, WAIT_MS));
+    TEST_ASSERT_UINT32_WITHIN(5, start + WAIT_MS, rig_ms());
+}
+
+TEST(health_counters_stay_at_255)
+{
+    struct frame frame;
+
+    for (unsigned i = 0; i < 300; i++) {
+        rig_block(true);
+        send_numbered(HEARTBEAT, 0);
+        rig_block(false);
+        rig_enter_bus_off();
+        (void)link_receive(link_here, &frame, WAIT_MS);
+    }
+    TEST_ASSERT_EQUAL_UINT8(255, health_now().bus_offs);
+    TEST_ASSERT_EQUAL_UINT8(255, health_now().dropped);
+}
+
+TEST(health_reports_the_error_counters_of_the_controller)
+{
+    rig_set_errors(100, 120, false);
+    TEST_ASSERT_EQUAL_UINT8(100, health_now().tx_errors);
+    TEST_ASSERT_EQUAL_UINT8(120, health_now().rx_errors);
+    TEST_ASSERT_EQUAL(BUS_ACTIVE, health_now().state);
+    rig_set_errors(100, 120, true);
+    TEST_ASSERT_EQUAL(BUS_PASSIVE, health_now().state);
+    rig_enter_bus_off();
+    TEST_ASSERT_EQUAL(BUS_OFF, health_now().state);
+}
+
+TEST(link_close_leaves_the_bus)
+{
+    link_close(NULL);
+    TEST_ASSERT_FALSE(rig_is_off_bus());
+    link_close(link_here);
+    TEST_ASSERT_TRUE(rig_is_off_bus());
 }

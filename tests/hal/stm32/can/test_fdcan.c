@@ -16,7 +16,7 @@ void setUp(void)
     registers_pass_us(100);
 }
 
-TEST(the_registers_lie_where_the_manual_has_them)
+TEST(register_offsets_match_the_manual)
 {
     TEST_ASSERT_EQUAL_HEX(0x018, offsetof(struct fdcan_registers, cccr));
     TEST_ASSERT_EQUAL_HEX(0x01C, offsetof(struct fdcan_registers, nbtp));
@@ -35,7 +35,7 @@ TEST(the_registers_lie_where_the_manual_has_them)
     TEST_ASSERT_EQUAL_HEX(0x0E8, offsetof(struct fdcan_registers, txefa));
 }
 
-TEST(the_message_ram_is_laid_out_as_the_manual_has_it)
+TEST(message_ram_layout_matches_the_manual)
 {
     TEST_ASSERT_EQUAL_HEX(0x070, offsetof(struct fdcan_ram, extended_filters));
     TEST_ASSERT_EQUAL_HEX(0x0B0, offsetof(struct fdcan_ram, received[0]));
@@ -45,19 +45,19 @@ TEST(the_message_ram_is_laid_out_as_the_manual_has_it)
     TEST_ASSERT_EQUAL_HEX(0x350, sizeof(struct fdcan_ram));
 }
 
-TEST(it_speaks_classic_can_without_test_modes_and_the_lowest_identifier_first)
+TEST(fdcan_runs_in_classic_mode_with_priority_by_identifier)
 {
     TEST_ASSERT_EQUAL_HEX32(0, FDCAN.cccr);
     TEST_ASSERT_EQUAL_HEX32(1 << 24, FDCAN.txbc);
 }
 
-TEST(no_frame_but_those_wanted_gets_in)
+TEST(global_filter_rejects_unmatched_frames)
 {
     TEST_ASSERT_EQUAL_HEX32(3 | 2 << 2 | 2 << 4, FDCAN.rxgfc & 0xFFFF);
     TEST_ASSERT_EQUAL_HEX32(0, FDCAN.rxgfc >> 24);   /* no extended filters */
 }
 
-TEST(an_odd_number_of_identifiers_fits)
+TEST(filter_accepts_an_odd_number_of_identifiers)
 {
     static const uint16_t three[] = {0x0C1, 0x041, 0x7FF};
 
@@ -68,7 +68,7 @@ TEST(an_odd_number_of_identifiers_fits)
         TEST_ASSERT_EQUAL(id == 0x0C1 || id == 0x041 || id == 0x7FF ? 0 : -1, rig_fifo_for(id));
 }
 
-TEST(filters_and_losses_of_before_are_forgotten)
+TEST(link_open_clears_earlier_filters_and_loss_flags)
 {
     struct frame frame;
 
@@ -84,7 +84,7 @@ TEST(filters_and_losses_of_before_are_forgotten)
         TEST_ASSERT_EQUAL(id == WANTED[0] || id == WANTED[1] ? 0 : -1, rig_fifo_for(id));
 }
 
-TEST(a_controller_that_leaves_the_bus_forgets_what_waits)
+TEST(link_close_discards_waiting_frames)
 {
     wire.busy = true;
     TEST_ASSERT_EQUAL(0, link_send(link_here, &(struct frame){.id = 0x041}));
@@ -102,18 +102,18 @@ TEST(buffers_are_written_whole)
     TEST_ASSERT_EQUAL_HEX32(8u << 16, FDCAN_RAM.sent[0].control);
 }
 
-TEST(the_places_of_the_fifo_are_gone_through_in_a_ring)
+TEST(receive_fifo_wraps_around)
 {
     struct frame frame;
 
     for (uint8_t n = 0; n < 10; n++) {
-        rig_bring(&(struct frame){.id = 0x0C1, .len = 1, .data = {n}});
+        rig_deliver(&(struct frame){.id = 0x0C1, .len = 1, .data = {n}});
         TEST_ASSERT_EQUAL(1, link_receive(link_here, &frame, 1));
         TEST_ASSERT_EQUAL_UINT8(n, frame.data[0]);
     }
 }
 
-TEST(no_interrupt_is_asked_for)
+TEST(interrupts_stay_disabled)
 {
     TEST_ASSERT_EQUAL_HEX32(0, FDCAN.ie | FDCAN.ile);
 }

@@ -12,7 +12,7 @@ void setUp(void)
     cones_set(&cones, 160.0, 0.5);
 }
 
-TEST(a_disc_overlaps_a_side)
+TEST(disc_overlaps_the_side_of_a_capsule)
 {
     capsule_meet_disc(&bar, CENTRE, 100.0, &contact);
     TEST_ASSERT_TRUE(contact.touches);
@@ -22,7 +22,7 @@ TEST(a_disc_overlaps_a_side)
     TEST_ASSERT_EQUAL_DOUBLE(1.0, contact.normal.y);
 }
 
-TEST(a_disc_overlaps_a_round_end)
+TEST(disc_overlaps_the_end_cap_of_a_capsule)
 {
     capsule_meet_disc(&bar, (struct vector){1160.0, 1190.0}, 100.0, &contact);
     TEST_ASSERT_TRUE(contact.touches);
@@ -32,20 +32,20 @@ TEST(a_disc_overlaps_a_round_end)
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, -0.8, contact.normal.y);
 }
 
-TEST(a_disc_that_only_just_reaches_does_not_overlap)
+TEST(tangent_disc_does_not_overlap)
 {
     capsule_meet_disc(&bar, CENTRE, 90.0, &contact);
     TEST_ASSERT_FALSE(contact.touches);
 }
 
-TEST(a_disc_on_the_centre_line_is_pushed_sideways)
+TEST(disc_on_the_centre_line_is_pushed_sideways)
 {
     capsule_meet_disc(&bar, (struct vector){1000.0, 1110.0}, 100.0, &contact);
     TEST_ASSERT_EQUAL_DOUBLE(120.0, contact.depth_mm);
     TEST_ASSERT_EQUAL_DOUBLE(-1.0, contact.normal.y);
 }
 
-TEST(two_discs_overlap_along_the_line_between_their_centres)
+TEST(discs_overlap_along_the_line_between_their_centres)
 {
     capsule_meet_discs(CENTRE, (struct vector){1150.0, 1000.0}, 100.0, &contact);
     TEST_ASSERT_TRUE(contact.touches);
@@ -58,7 +58,7 @@ TEST(two_discs_overlap_along_the_line_between_their_centres)
     TEST_ASSERT_EQUAL_DOUBLE(1.0, contact.normal.x);
 }
 
-TEST(the_walls_insides_are_the_arenas_edge)
+TEST(inner_faces_of_the_walls_are_the_edge_of_the_arena)
 {
     static const struct vector INSIDE[] = {{2000.0, 99.0}, {3901.0, 1500.0}, {2000.0, 2901.0}, {99.0, 1500.0}};
     struct capsule walls[WALLS];
@@ -73,7 +73,7 @@ TEST(the_walls_insides_are_the_arenas_edge)
         }
 }
 
-TEST(a_thing_is_at_least_as_far_away_as_its_box)
+TEST(capsule_distance_is_bounded_by_its_box)
 {
     static const struct vector FAR[] = {{879.0, 1100.0}, {1121.0, 1100.0}, {1000.0, 1089.0}, {1000.0, 1131.0}};
 
@@ -87,7 +87,7 @@ static bool hides(double x, double y)
     return capsule_hides(&bar, CENTRE, (struct vector){x, y});
 }
 
-TEST(a_capsule_hides_what_is_behind_it)
+TEST(capsule_hides_points_behind_it)
 {
     TEST_ASSERT_TRUE(hides(1000.0, 1200.0));
     TEST_ASSERT_TRUE(hides(900.0, 1300.0));
@@ -96,7 +96,7 @@ TEST(a_capsule_hides_what_is_behind_it)
     TEST_ASSERT_FALSE(hides(1300.0, 1110.0));
 }
 
-TEST(its_round_ends_hide_too)
+TEST(capsule_end_caps_hide_points_behind)
 {
     TEST_ASSERT_TRUE(hides(1200.0, 1180.0));
     TEST_ASSERT_TRUE(hides(800.0, 1180.0));
@@ -104,13 +104,13 @@ TEST(its_round_ends_hide_too)
     TEST_ASSERT_FALSE(hides(1105.0, 1085.0));
 }
 
-TEST(everything_is_hidden_from_inside)
+TEST(point_inside_a_capsule_sees_nothing)
 {
     TEST_ASSERT_TRUE(capsule_hides(&bar, (struct vector){1000.0, 1095.0}, (struct vector){1000.0, 0.0}));
     TEST_ASSERT_TRUE(capsule_disc_hides(CENTRE, 100.0, (struct vector){1050.0, 1000.0}, (struct vector){2000.0, 0.0}));
 }
 
-TEST(a_disc_hides_what_is_behind_it)
+TEST(disc_hides_points_behind_it)
 {
     const struct vector from = {500.0, 1000.0};
 
@@ -120,7 +120,7 @@ TEST(a_disc_hides_what_is_behind_it)
     TEST_ASSERT_FALSE(capsule_disc_hides(CENTRE, 100.0, from, (struct vector){1200.0, 1300.0}));
 }
 
-TEST(a_plant_hides_what_is_right_behind_its_middle)
+TEST(capsule_of_no_length_hides_points_behind_it)
 {
     struct capsule plant;
 
@@ -145,7 +145,7 @@ static unsigned felt_at(double x, double y)
     return felt(x, y, x, y);
 }
 
-TEST(each_cone_feels_what_is_in_its_direction)
+TEST(cone_detects_capsules_in_its_direction)
 {
     TEST_ASSERT_EQUAL_HEX(1, felt_at(0.0, 120.0));
     TEST_ASSERT_EQUAL_HEX(2, felt_at(85.0, 85.0));
@@ -154,13 +154,13 @@ TEST(each_cone_feels_what_is_in_its_direction)
     TEST_ASSERT_EQUAL_HEX(16, felt_at(0.0, -120.0));
 }
 
-TEST(nothing_is_felt_behind_the_body)
+TEST(cones_detect_no_capsule_behind_the_body)
 {
     TEST_ASSERT_EQUAL_HEX(0, felt_at(-120.0, 0.0));
     TEST_ASSERT_EQUAL_HEX(0, felt(-150.0, -300.0, -200.0, 300.0));
 }
 
-TEST(the_front_cone_reaches_a_little_farther)
+TEST(front_cone_reaches_half_a_millimetre_farther)
 {
     TEST_ASSERT_EQUAL_HEX(4, felt_at(180.2, 0.0));
     TEST_ASSERT_EQUAL_HEX(0, felt_at(180.9, 0.0));
@@ -169,19 +169,19 @@ TEST(the_front_cone_reaches_a_little_farther)
     TEST_ASSERT_DOUBLE_WITHIN(0.5, 160.5, cones.reach_mm);
 }
 
-TEST(a_wall_straight_ahead_is_in_the_three_front_cones)
+TEST(wall_ahead_is_in_the_three_front_cones)
 {
     TEST_ASSERT_EQUAL_HEX(14, felt(150.0, -500.0, 150.0, 500.0));
     TEST_ASSERT_EQUAL_HEX(4, felt(180.2, -500.0, 180.2, 500.0));
     TEST_ASSERT_EQUAL_HEX(0, felt(181.0, -500.0, 181.0, 500.0));
 }
 
-TEST(an_end_that_pokes_in_between_the_corners_is_felt)
+TEST(cone_detects_a_bar_end_between_its_edges)
 {
     TEST_ASSERT_EQUAL_HEX(4, felt(175.0, 17.0, 400.0, 17.0));
 }
 
-TEST(what_lies_right_through_a_cone_is_felt)
+TEST(cone_detects_a_bar_across_it)
 {
     const struct capsule thin = {.a = {100.0, -300.0}, .b = {100.0, 300.0}, .radius_mm = 0.001};
     const struct capsule inside = {.a = {100.0, 5.0}, .b = {110.0, 5.0}, .radius_mm = 0.001};

@@ -1,8 +1,8 @@
+#include "tests/test.h"
+#include "host_sim/world/native/space/plain_near.h"
 #include "host_sim/world/native/space/plain_space.h"
 
 #include <string.h>
-
-#include "tests/test.h"
 
 enum { BODIES = 2, CAPSULES = WALLS + 1, WORDS = PLAIN_WORDS(CAPSULES + BODIES) };
 
@@ -16,7 +16,7 @@ static struct world world;
 static struct body *body;
 
 /* Two bodies, far from each other, from the walls and from a bar at x = 2000. */
-void setUp(void)
+BEFORE_EACH(plain_space)
 {
     static const struct world_params params = {160.0, 100.0, 150.0, 0.02, 500.0};
 
@@ -42,14 +42,14 @@ static void put(struct body *which, double x_mm, double y_mm)
     world.space->place(&world, which);
 }
 
-TEST(a_body_in_the_open_feels_nothing)
+TEST(body_in_the_open_triggers_no_sensor)
 {
     put(body, 1500.0, 1000.0);
     TEST_ASSERT_EQUAL_HEX8(0, body->feel);
     TEST_ASSERT_EQUAL_INT32(0, body->touches);
 }
 
-TEST(a_bar_ahead_is_felt_and_then_touched)
+TEST(bar_ahead_is_sensed_before_it_is_touched)
 {
     put(body, 1850.0, 1000.0);
     TEST_ASSERT_EQUAL_HEX8(FEEL_FRONT_RIGHT | FEEL_FRONT | FEEL_FRONT_LEFT, body->feel);
@@ -61,7 +61,7 @@ TEST(a_bar_ahead_is_felt_and_then_touched)
     TEST_ASSERT_EQUAL_DOUBLE(1.0, body->normal.x);
 }
 
-TEST(a_collision_counts_when_it_begins)
+TEST(collision_is_counted_at_its_start)
 {
     for (unsigned i = 0; i < 3; i++)
         put(body, 1885.0, 1000.0 + i);
@@ -72,7 +72,7 @@ TEST(a_collision_counts_when_it_begins)
     TEST_ASSERT_EQUAL_INT32(2, body->collisions);
 }
 
-TEST(the_deepest_of_two_overlaps_counts)
+TEST(body_takes_the_deeper_of_two_overlaps)
 {
     put(body, 95.0, 98.0);
     TEST_ASSERT_EQUAL_INT32(2, body->touches);
@@ -97,7 +97,7 @@ TEST(bodies_feel_and_touch_each_other)
     TEST_ASSERT_EQUAL_INT32(1, body->collisions);
 }
 
-TEST(a_lifted_body_neither_feels_nor_is_felt)
+TEST(lifted_body_neither_senses_nor_is_sensed)
 {
     put(&bodies[1], 1190.0, 1000.0);
     bodies[1].lifted = true;
@@ -107,7 +107,7 @@ TEST(a_lifted_body_neither_feels_nor_is_felt)
     TEST_ASSERT_EQUAL_INT32(0, bodies[1].touches);
 }
 
-TEST(an_obstacle_that_is_moved_is_felt_once_it_has_settled)
+TEST(moved_obstacle_is_sensed_after_settling)
 {
     capsule_set(&capsules[WALLS], (struct vector){1150.0, 500.0}, (struct vector){1150.0, 1500.0}, 20.0);
     plain_space_take(&space, &world);
@@ -115,11 +115,68 @@ TEST(an_obstacle_that_is_moved_is_felt_once_it_has_settled)
     TEST_ASSERT_EQUAL_HEX8(FEEL_FRONT, body->feel & FEEL_FRONT);
 }
 
-TEST(what_a_body_touches_when_the_space_is_taken_is_not_new)
+TEST(contact_before_taking_the_space_is_not_counted_again)
 {
     put(body, 1885.0, 1000.0);
     plain_space_take(&space, &world);
     put(body, 1885.0, 1001.0);
     TEST_ASSERT_EQUAL_INT32(1, body->touches);
     TEST_ASSERT_EQUAL_INT32(1, body->collisions);
+}
+
+enum { COLUMNS = 8 };
+
+static struct capsule bar;
+
+/* Two bodies, one below the other, and a bar at x = 2000. */
+BEFORE_EACH(plain_view)
+{
+    for (unsigned i = 0; i < BODIES; i++)
+        bodies[i] = (struct body){.x_mm = 1000.0, .y_mm = 1000.0 + 1000.0 * i};
+    capsule_set(&bar, (struct vector){2000.0, 500.0}, (struct vector){2000.0, 1500.0}, 20.0);
+    space = (struct plain_world){.body_radius_mm = 100.0, .capsule_count = 1, .capsules = &bar};
+    world = (struct world){.space = &space.space, .body_count = BODIES, .bodies = bodies};
+}
+
+static bool is_hidden(double x_mm, double y_mm)
+{
+    return plain_view_hides(&world, &bodies[0], (struct vector){x_mm, y_mm});
+}
+
+TEST(bar_hides_points_behind_it)
+{
+    TEST_ASSERT_TRUE(is_hidden(2500.0, 1000.0));
+    TEST_ASSERT_FALSE(is_hidden(1900.0, 1000.0));
+    TEST_ASSERT_FALSE(is_hidden(2500.0, 100.0));
+}
+
+TEST(other_body_hides_points_behind_it)
+{
+    TEST_ASSERT_TRUE(is_hidden(1000.0, 2500.0));
+    TEST_ASSERT_FALSE(is_hidden(1000.0, 500.0));
+}
+
+TEST(lifted_body_hides_no_point)
+{
+    bodies[1].lifted = true;
+    TEST_ASSERT_FALSE(is_hidden(1000.0, 2500.0));
+}
+
+TEST(body_does_not_hide_its_own_position)
+{
+    TEST_ASSERT_FALSE(is_hidden(1000.0, 1000.0));
+}
+
+TEST(view_searches_the_grid_cells_along_the_line)
+{
+    static const uint32_t firsts[COLUMNS + 1] = {0, 0, 0, 0, 1, 2, 2, 2, 2}, numbers[] = {0, 0};
+    static uint32_t heads[COLUMNS], nexts[BODIES], cells[BODIES];
+    static struct plain_grid grid = {500.0, COLUMNS, 1, firsts, numbers, heads, nexts, cells};
+
+    space.grid = &grid;
+    bodies[1].x_mm = 3000.0;
+    plain_grid_put(&grid, 1, (struct vector){bodies[1].x_mm, bodies[1].y_mm});
+    TEST_ASSERT_TRUE(is_hidden(2500.0, 1000.0));
+    TEST_ASSERT_TRUE(is_hidden(3800.0, 2400.0));
+    TEST_ASSERT_FALSE(is_hidden(1900.0, 1000.0));
 }

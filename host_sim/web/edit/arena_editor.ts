@@ -1,0 +1,191 @@
+/* What a person does to the world: selects items, moves obstacles, plants, food and robots, adds and removes obstacles. */
+
+import { byId, setText, typedById } from "../core/dom.js";
+import { say } from "../core/language.js";
+import { allItems, whole } from "./hit_testing.js";
+import { endsOf, insideWalls, isInside, movedBar, plantOf, turnedBar, wirePlace } from "./placement.js";
+import { PLANT_GROWTH_MM, PLANT_RADIUS_MM } from "../generated.js";
+import type { Ghost, Item, Scene } from "../draw/scene.js";
+import type { Command, Place } from "../types.js";
+
+/** Beyond the reach of the robot's sensors. */
+const PLANT_GAP_MM = 20;
+/** Ahead, right, left, behind. */
+const BEARINGS = [0, 0.5, -0.5, 1].map((half) => half * Math.PI);
+const NEW_BAR_MM = 250;
+/** A new obstacle lies in the middle, or higher up if the robot is about there. */
+const NEW_BAR_ROOM_MM = 300;
+
+/** Sends commands about the world. */
+export class ArenaEditor {
+  barPending = false;
+  plantPending = false;
+  /** Robots that we asked to be lifted, and that are not yet. */
+  lifting: Set<number> = new Set();
+
+  /**
+   * @param scene - Its `item`, `node` and `ghosts` are ours.
+   * @param onChange - Called when there is something new to draw.
+   */
+  constructor(public scene: Scene, readonly send: (command: Command) => void, readonly onChange: () => void) {
+    byId("lift").addEventListener("click", () => this.liftOrPut());
+    byId("add-bar").addEventListener("click", () => this.addBar());
+    byId("add-plant").addEventListener("click", () => this.addPlant());
+    byId("grow").addEventListener("click", () => this.grow());
+    byId("remove-bar").addEventListener("click", () => this.removeBar());
+  }
+
+  /** The arena has changed: what was selected may be gone, and an obstacle that we asked for may be there. */
+  onEnvironment() {
+    const { environment, item } = this.scene;
+    if (this.barPending) this.select(whole("bar", Math.max(...environment.bars.map(([id]) => id))));
+    else if (this.plantPending) this.select(whole("plant", Math.max(...(environment.plants ?? []).map(([id]) => id))));
+    else if (item?.kind === "bar" && !endsOf(environment, item.id)) this.select(undefined);
+    else if (item?.kind === "plant" && !plantOf(environment, item.id)) this.select(undefined);
+    this.barPending = this.plantPending = false;
+  }
+
+  /**
+   * Shows robots where their states say, except those that a person holds.
+   * @param dragged - The robot that is being dragged.
+   */
+  onStates(dragged?: number) {
+    const { states, ghosts, item } = this.scene;
+    for (const { node, lifted } of states) {
+      if (lifted) this.lifting.delete(node);
+      else if (node !== dragged && !this.lifting.has(node)) ghosts.delete(node);
+    }
+    const { node, lifted } = this.robot;
+    const several = states.length > 1;
+    typedById("remove-bar", HTMLButtonElement).disabled = item?.kind !== "bar" && item?.kind !== "plant";
+    typedById("grow", HTMLButtonElement).disabled = item?.kind !== "plant";
+    setText(byId("lift"), say(lifted ? (several ? "putDownNumber" : "putDown") : several ? "pickUpNumber" : "pickUp", { node }));
+  }
+
+  /** Something could not be done: no robot is about to be lifted, and no obstacle about to come. */
+  onRefusal() {
+    this.lifting.clear();
+    this.barPending = this.plantPending = false;
+    this.onChange();
+  }
+
+  /** The state of the robot that the buttons act on: that of the panel. */
+  get robot() {
+    return this.scene.state;
+  }
+
+  select(item: Item | undefined) {
+    this.scene.item = item;
+    if (item?.kind === "robot") this.scene.node = item.id;
+    this.onChange();
+  }
+
+  /** @param step - 1 forward, -1 back. */
+  selectNext(step: number) {
+    const items = allItems(this.scene);
+    const { item } = this.scene;
+    const now = items.findIndex(({ kind, id }) => kind === item?.kind && id === item.id);
+    const first = step > 0 ? 0 : items.length - 1;
+    this.select(items[now < 0 ? first : (now + step + items.length) % items.length]);
+  }
+
+  /** Shows a robot in the panel; if another robot is selected in the arena, selects this one instead. */
+  pick(node: number) {
+    if (this.scene.item?.kind === "robot") this.select(whole("robot", node));
+    this.scene.node = node;
+    this.onChange();
+  }
+
+  liftOrPut() {
+    const { robot, scene } = this;
+    const { x, y, heading } = scene.poseOf(robot);
+    this.hold(robot.node, { x, y, heading });
+    if (robot.lifted) this.put(robot.node);
+    else this.lift(robot.node);
+    this.select(whole("robot", robot.node));
+  }
+
+  lift(node: number) {
+    this.lifting.add(node);
+    this.send({ do: "lift", node });
+  }
+
+  /** @param node - Of a robot that a person holds: it is put down there. */
+  put(node: number) {
+    const ghost = this.scene.ghosts.get(node);
+    if (!ghost) return;
+    this.send({ do: "put", node, at: wirePlace(ghost, this.scene.measures), heading: ghost.heading });
+  }
+
+  /** Draws a robot where a person holds it, which is never beyond the walls. */
+  hold(node: number, ghost: Ghost) {
+    this.scene.ghosts.set(node, insideWalls(ghost, this.scene.measures));
+    this.onChange();
+  }
+
+  addBar() {
+    const { width, height } = this.scene.measures;
+    const isFree = this.scene.states.every(({ y }) => Math.abs(y - height / 2) > NEW_BAR_ROOM_MM);
+    const x = Math.round(width / 2);
+    const y = Math.round(height * (isFree ? 0.5 : 0.2));
+    this.barPending = true;
+    this.send({ do: "add_bar", a: [x - NEW_BAR_MM, y], b: [x + NEW_BAR_MM, y] });
+  }
+
+  /** Puts a plant down ahead of the robot or, if a wall is there, beside it. */
+  addPlant() {
+    const { measures } = this.scene;
+    const { x, y, heading } = this.robot;
+    const far = measures.body + measures.reach + PLANT_GAP_MM + PLANT_RADIUS_MM;
+    const places = BEARINGS.map((bearing) => {
+      const angle = heading / 1000 + bearing;
+      return { x: x + far * Math.cos(angle), y: y + far * Math.sin(angle) };
+    });
+    const at = places.find((place) => isInside(place, measures)) ?? places[0];
+    this.plantPending = true;
+    this.send({ do: "plant", at: wirePlace(at, measures), radius: PLANT_RADIUS_MM });
+  }
+
+  /** The selected plant grows to all sides. */
+  grow() {
+    const { item, environment } = this.scene;
+    const plant = item?.kind === "plant" && plantOf(environment, item.id);
+    if (plant) this.send({ do: "grow_plant", id: item.id, radius: Math.round(plant.radius) + PLANT_GROWTH_MM });
+  }
+
+  removeBar() {
+    const { item } = this.scene;
+    if (item?.kind === "bar") this.send({ do: "remove_bar", id: item.id });
+    if (item?.kind === "plant") this.send({ do: "remove_plant", id: item.id });
+  }
+
+  /** @param by - mm */
+  nudge(by: Place) {
+    const { item, environment, measures, ghosts } = this.scene;
+    if (!item) return;
+    const ghost = item.kind === "robot" && ghosts.get(item.id);
+    if (ghost) this.hold(item.id, { ...ghost, x: ghost.x + by.x, y: ghost.y + by.y });
+    if (item.kind === "food") {
+      const [x, y] = environment.food[item.id];
+      this.send({ do: "move_food", id: item.id, at: wirePlace({ x: x + by.x, y: y + by.y }, measures) });
+    }
+    const ends = item.kind === "bar" && endsOf(environment, item.id);
+    if (ends) this.send({ do: "move_bar", id: item.id, ...movedBar(ends, "whole", by, measures) });
+    const plant = item.kind === "plant" && plantOf(environment, item.id);
+    if (plant) this.send({ do: "move_plant", id: item.id, at: wirePlace({ x: plant.x + by.x, y: plant.y + by.y }, measures) });
+  }
+
+  /** @param radians - To the right. */
+  turn(radians: number) {
+    const { item, environment, measures, ghosts } = this.scene;
+    const ghost = item?.kind === "robot" && ghosts.get(item.id);
+    if (ghost) this.hold(item.id, { ...ghost, heading: Math.round(1000 * wrap(ghost.heading / 1000 + radians)) });
+    const ends = item?.kind === "bar" && endsOf(environment, item.id);
+    if (ends) this.send({ do: "move_bar", id: item.id, ...turnedBar(ends, radians, measures) });
+  }
+}
+
+/** @param radians - The angle that it returns is in -pi..pi. */
+function wrap(radians: number) {
+  return Math.atan2(Math.sin(radians), Math.cos(radians));
+}

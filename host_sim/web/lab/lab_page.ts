@@ -1,0 +1,268 @@
+/* The page of a source: a recorded run, or runs of the real firmware, side by side; each change leads to another future. */
+
+import { AtlasTab } from "./atlas_tab.js";
+import { SidePanel } from "./side_panel.js";
+import { buttonOf, byId, isForPage, mayMove, setText, typedById } from "../core/dom.js";
+import { LANGUAGES, heard, inEachLanguage, languageCode, nameIn, say } from "../core/language.js";
+import { LabEditor } from "./lab_editor.js";
+import { experimentOf, inWords } from "./shown_run.js";
+import { nextTick } from "./run_events.js";
+import { Laboratory } from "./laboratory.js";
+import { Course } from "../lessons/course.js";
+import { PLANS } from "../lessons/plans.js";
+import { settingAt } from "../lessons/evidence.js";
+import { Panel } from "../panel/panel.js";
+import { DivergenceView } from "../panel/divergence.js";
+import { RobotPicker } from "../panel/robot_picker.js";
+import { linkOf } from "../program/link.js";
+import { ProgramTab } from "../program/program_tab.js";
+import { LinkCode, fieldsOf } from "./share.js";
+import { drawMarks } from "../panel/timeline.js";
+import { Conversations } from "../talk/conversation.js";
+import { TalkBox } from "../talk/talk_box.js";
+import type { RunData } from "../core/run_data.js";
+import type { Toast } from "../core/toast.js";
+import type { Linked } from "../program/link.js";
+import type { Experiment } from "../types.js";
+import type { Parts } from "./laboratory.js";
+
+/** What a page that simulates nothing does not have, and what of it a live run has all the same. */
+const SIMULATED = "#behaviour, #robot-seed, #when, #tab-parameters, #tab-program, #tab-atlas, #tab-files, #tab-lessons";
+const CHANGES = "#lift, #add-bar, #add-plant, #erase, #freeze, #break, #new-run :is(button, input, select)";
+
+/** Shows the laboratory's runs, and what belongs to the one that is selected. */
+export class LabPage extends Laboratory {
+  panel: Panel;
+  desk: SidePanel;
+  atlas: AtlasTab;
+  conversations: Conversations;
+  talk: TalkBox;
+  course: Course;
+  programTab: ProgramTab;
+  parting: DivergenceView;
+  share: HTMLButtonElement;
+  /** The tick that the memory is compared with. */
+  pinned: number | undefined;
+  picker: RobotPicker | undefined;
+  editor: LabEditor | undefined;
+
+  /** @param recorded - The run to show; a new one by default. */
+  constructor(parts: Parts, recorded?: RunData) {
+    const { seed, of } = recorded?.sceneAt(recorded.first) ?? { seed: 1, of: 5 };
+    const robots = recorded?.robots.length ?? 1;
+    const { profile, settings } = parts.live ?? { profile: recorded ? "" : "article", settings: {} };
+    const experiment = experimentOf({ seed, environments: of, robots, profile });
+    experiment.robots.forEach((it) => Object.assign(it.settings, settings));
+    super(parts, experiment, recorded);
+    this.panel = new Panel((cell, side) => this.change({ do: "write", robot: this.lane.robot, cell, side }));
+    this.desk = new SidePanel(this);
+    this.atlas = new AtlasTab(byId("panel-atlas"), this, parts.atlas);
+    this.conversations = new Conversations();
+    this.talk = new TalkBox(byId("panel-talk"), this);
+    this.course = new Course(this);
+    this.programTab = new ProgramTab(this);
+    this.parting = new DivergenceView();
+    const code = new LinkCode();
+    const showCode = buttonOf("", () => code.show(new URL(this.link(this.lane.experiment), location.href).href));
+    this.share = buttonOf("", () => this.copyLink());
+    this.share.id = "copy-link";
+    showCode.id = "show-link-code";
+    byId("status").after(this.share, showCode);
+    byId("pin").addEventListener("click", () => this.pin());
+    byId("back").addEventListener("click", () => this.goBack());
+    inEachLanguage(() => {
+      setText(this.share, say("copyLink"));
+      this.share.title = say("copyLinkHelp");
+      setText(showCode, say("linkCode"));
+      showCode.title = say("linkCodeHelp");
+      this.showPin();
+    });
+    addEventListener("hashchange", () => location.reload()); // what follows the # is read when the page begins
+    this.playsNext = !recorded && !location.hash && mayMove();
+    const { why, live } = parts;
+    if (why) withhold(live ? SIMULATED : `${SIMULATED}, ${CHANGES}`, () => heard(why), this.note);
+    this.onScene();
+    if (recorded) this.go(recorded.run.shown ?? this.first);
+  }
+
+  /** Shows the recorded run again, after others. */
+  goBack() {
+    location.reload();
+  }
+
+  /** Whether the recorded run is not shown any more. */
+  get isAway() {
+    return this.recorded !== undefined && !this.lanes.some(({ isRecorded }) => isRecorded);
+  }
+
+  /** Begins to compare the present memory with that of other times; called again, ends it. */
+  pin() {
+    this.pinned = this.pinned === undefined ? this.tick : undefined;
+    this.showPin();
+    this.stale = true;
+  }
+
+  showPin() {
+    const { pinned, scene } = this;
+    byId("pin").setAttribute("aria-pressed", `${pinned !== undefined}`);
+    setText(byId("pin"), pinned === undefined ? say("compareNow") : say("comparedWith", { time: scene?.clock(pinned) ?? "" }));
+  }
+
+  override onLanes() {
+    byId("back").hidden = !this.isAway;
+    byId("floors").dataset.lanes = `${this.lanes.length}`;
+    typedById("remove-lane", HTMLButtonElement).disabled = this.lanes.length < 2;
+    typedById("what-if", HTMLButtonElement).disabled = this.isFull;
+    this.stale = true;
+  }
+
+  override onScene() {
+    const { scene } = this;
+    this.resize();
+    if (!scene) return;
+    if (this.playsNext) this.setPlaying(true);
+    this.playsNext = false;
+    this.picker ??= new RobotPicker(scene, (node) => this.pick(node));
+    this.picker.scene = scene;
+    this.editor ??= new LabEditor(this, scene);
+    this.editor.scene = scene;
+    for (const lane of this.lanes) this.editor.watch(lane);
+  }
+
+  override onRefusal() {
+    this.editor?.onRefusal();
+  }
+
+  async ask(who: string, sentence: string) {
+    const { data, robot, experiment } = this.lane;
+    if (!data) return;
+    const { profile } = experiment.robots[robot];
+    const starts: [number, string][] = profile ? [[0, profile]] : []; // of a recorded run it may not be known
+    for (const change of experiment.changes) {
+      const told = inWords(change);
+      if (told.do === "start" && told.robot === robot) starts.push([change.tick, told.profile]);
+    }
+    const about = { data, robot, tick: Math.min(this.tick, data.last), told: { starts, health: [] } };
+    const [exchange, places] = await this.conversations.ask(who, sentence, about);
+    this.talk.answer({ ...exchange, changes: experiment.changes.length }, places);
+  }
+
+  /** Teaches a speaker what to say to a word. */
+  async teach(who: string, word: string, answer: string) {
+    (await this.conversations.all)[who].teach(word, answer);
+    this.talk.taught.add(answer.toUpperCase());
+  }
+
+  /** All that was said and taught is forgotten. */
+  restartTalk() {
+    this.conversations = new Conversations();
+    this.talk.forget();
+  }
+
+  /** What a link can name. */
+  get known() {
+    const lessons = PLANS.map(({ id }) => id);
+    return { programs: this.programs, worlds: Object.keys(this.worlds), lessons, languages: LANGUAGES.map(([code]) => code) };
+  }
+
+  /**
+   * The part of an address behind the page's own, with its #, that shows a run as it is shown now.
+   * @param others - Fields that are not those of the experiment.
+   */
+  link(experiment: Experiment, others: Partial<Linked> = {}) {
+    const { course, tick } = this;
+    const lesson = course.begun ? { lesson: course.plan.id, step: course.view.place } : {};
+    return linkOf({ ...fieldsOf(experiment), tick: Math.round(tick), ...lesson, language: languageCode(), ...others }, this.known);
+  }
+
+  /** Puts all that is shown into the address, and into the clipboard. */
+  copyLink() {
+    const { experiment } = this.lane;
+    history.replaceState(null, "", this.link(experiment));
+    const where = typeof (experiment.world ?? "") === "string" ? "linkCopied" : "linkWithoutWorld";
+    const tell = (words: "linkCopied" | "linkInAddress" | "linkWithoutWorld") => this.note.show(say(words));
+    tell("linkInAddress");
+    navigator.clipboard?.writeText(location.href).then(() => tell(where), () => {});
+  }
+
+  pick(node: number) {
+    if (this.scene) this.scene.node = node;
+    this.onScene();
+  }
+
+  override drawMarks() {
+    const { data, robot } = this.lane;
+    if (data) drawMarks(this.marks, data.eventsOf(robot), { first: this.first, last: this.last });
+  }
+
+  override jump(step: number) {
+    const { data, robot } = this.lane;
+    if (!data) return;
+    const kind = typedById("kind", HTMLSelectElement).value;
+    const tick = nextTick(data.robots[robot], kind, this.tick, step);
+    if (tick === undefined) this.note.show(say(step > 0 ? "noLater" : "noEarlier", { kind: nameIn("kinds", kind) }));
+    else this.seek(tick);
+  }
+
+  override draw() {
+    const { lane, lanes, tick } = this;
+    const { scene, data } = lane;
+    if (!scene || !data) return;
+    this.editor?.beforeDrawing();
+    for (const each of lanes) {
+      if (each.scene) this.panel.settle(each.scene, !this.playing);
+      each.draw(tick);
+      each.figure.classList.toggle("selected", each === lane);
+    }
+    this.panel.settle(scene, !this.playing);
+    if (!lane.isRecorded) {
+      const boredom = settingAt(lane, { robot: lane.robot, name: "boredom_limit" }, tick);
+      scene.measures = { ...scene.measures, boredom };
+    }
+    this.panel.show(scene, { exact: !this.playing, ...this.otherMemory(data) });
+    this.picker?.show();
+    this.desk.show();
+    setText(byId("news"), scene.lastNews);
+    if (!byId("panel-atlas").hidden) this.atlas.show();
+    if (!byId("panel-talk").hidden) this.talk.moveTo(byId("panel-talk"));
+    this.course.show();
+    this.programTab.show();
+    this.parting.show(lanes, lane);
+    this.showTime(scene.clock(tick));
+  }
+
+  /** The memory at another time, or in the first other run, to compare with. */
+  otherMemory(data: RunData) {
+    if (this.pinned !== undefined) return { then: data.robots[this.lane.robot].memoryAt(this.pinned) };
+    const other = this.lanes.find((lane) => lane !== this.lane && lane.scene);
+    const states = other?.scene?.states ?? [];
+    return { then: states[Math.min(this.lane.robot, states.length - 1)]?.memory, where: say("inRun") };
+  }
+
+  override takesKey(event: KeyboardEvent) {
+    const inArena = event.target instanceof HTMLCanvasElement;
+    const fields = event.key === " " ? "select, button, input:not(#scrub), summary, textarea" : "select, input:not(#scrub), [role=tab], textarea";
+    return isForPage(event, fields) && !event.defaultPrevented && !(inArena && event.key.startsWith("Arrow"));
+  }
+
+  override actions(step: number) {
+    return { ...super.actions(step), p: () => this.jump(-1), w: () => this.whatIf() };
+  }
+}
+
+/** Controls of which this page cannot do what they are for say why, when they are looked at or pressed. */
+export function withhold(selector: string, why: () => string, note: Toast) {
+  const controls = [...document.querySelectorAll(selector)];
+  inEachLanguage(() => controls.forEach((control) => control.setAttribute("title", why())));
+  for (const control of controls) {
+    control.setAttribute("aria-disabled", "true");
+    if (control instanceof HTMLInputElement || control instanceof HTMLSelectElement) control.disabled = true;
+  }
+  document.addEventListener("click", (event) => {
+    const { target } = event;
+    if (!(target instanceof Node && controls.some((control) => control.contains(target)))) return;
+    event.preventDefault();
+    event.stopPropagation();
+    note.show(why());
+  }, { capture: true });
+}

@@ -1,0 +1,167 @@
+/* A page that plays a run, forward and back: the tick that it shows, its buttons and its keys. */
+
+import { byId, isForPage, setText, typedById } from "../core/dom.js";
+import { inEachLanguage, say } from "../core/language.js";
+import { Viewport } from "../draw/viewport.js";
+import { explainMarks } from "../panel/timeline.js";
+
+/**
+ * A class that extends it says which ticks there are (`last`, `tickMs`), shows one (`show`), draws (`draw`, `drawMarks`),
+ * and does what the buttons ask for (`jump`, `whatIf`).
+ */
+export class PlayingPage {
+  /** The tick that is shown. */
+  tick: number;
+  /** The same with a fraction, while it plays. */
+  exactTick: number;
+  playing = false;
+  /** When the last frame was drawn, ms. */
+  frameAt: number | undefined;
+  /** Whether there is anything new to draw. */
+  stale = true;
+  viewport: Viewport;
+  scrub: HTMLInputElement;
+  marks: HTMLCanvasElement;
+
+  /** @param first - The first tick. */
+  constructor(public first: number) {
+    this.tick = first;
+    this.exactTick = first;
+    this.viewport = new Viewport(() => (this.stale = true));
+    this.scrub = typedById("scrub", HTMLInputElement);
+    this.marks = typedById("marks", HTMLCanvasElement);
+    this.scrub.min = `${first}`;
+    this.scrub.addEventListener("input", () => this.go(Number(this.scrub.value)));
+    byId("play").addEventListener("click", () => this.setPlaying(!this.playing));
+    byId("before").addEventListener("click", () => this.jump(-1));
+    byId("after").addEventListener("click", () => this.jump(1));
+    byId("what-if").addEventListener("click", () => this.whatIf());
+    document.addEventListener("keydown", (event) => this.onKey(event));
+    explainMarks();
+    inEachLanguage(() => {
+      this.showPlaying();
+      this.stale = true;
+    });
+    new ResizeObserver(() => this.resize()).observe(this.marks);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.resize());
+    requestAnimationFrame((now) => this.frame(now));
+  }
+
+  /** The last tick. */
+  get last() {
+    return this.first;
+  }
+
+  /** Length of a tick, ms of robot time. */
+  get tickMs() {
+    return Infinity;
+  }
+
+  /** Shows the tick. */
+  show() {}
+
+  draw() {}
+
+  /** Draws the marks above the scrubber. */
+  drawMarks() {}
+
+  /** @param _step - 1 for the next event of the chosen kind, -1 for the one before. */
+  jump(_step: number) {}
+
+  /** Opens "What if?" at this tick. */
+  whatIf() {}
+
+  resize() {
+    this.drawMarks();
+    this.stale = true;
+  }
+
+  /** @param tick - One beyond the ends shows the end. */
+  go(tick: number) {
+    this.goAhead(Math.min(this.last, Math.max(this.first, tick)));
+  }
+
+  /** @param tick - It may be there only later. */
+  goAhead(tick: number) {
+    this.exactTick = tick;
+    this.tick = Math.floor(tick);
+    this.show();
+    this.stale = true;
+  }
+
+  /** @param tick - To stay at. */
+  seek(tick: number) {
+    this.setPlaying(false);
+    this.go(tick);
+  }
+
+  /** Something else is to be drawn at the same tick. */
+  lightUp() {
+    this.stale = true;
+  }
+
+  setPlaying(playing: boolean) {
+    if (playing && this.tick >= this.last) this.go(this.first);
+    this.playing = playing;
+    this.frameAt = undefined;
+    this.showPlaying();
+    this.stale = true;
+  }
+
+  showPlaying() {
+    setText(byId("play"), say(this.playing ? "pause" : "play"));
+  }
+
+  frame(now: number) {
+    if (this.playing) this.advance(now);
+    if (this.stale) {
+      this.stale = false;
+      this.draw();
+    }
+    requestAnimationFrame((next) => this.frame(next));
+  }
+
+  advance(now: number) {
+    const speed = Number(typedById("speed", HTMLSelectElement).value);
+    const passed = ((now - (this.frameAt ?? now)) / this.tickMs) * speed;
+    this.frameAt = now;
+    this.go(this.exactTick + passed);
+    if (this.tick >= this.last) this.setPlaying(false);
+  }
+
+  /** @param clock - The robot time that is shown. */
+  showTime(clock: string) {
+    this.scrub.max = `${this.last}`;
+    this.scrub.value = `${this.tick}`;
+    this.scrub.setAttribute("aria-valuetext", clock);
+    setText(byId("clock"), clock);
+  }
+
+  onKey(event: KeyboardEvent) {
+    if (!this.takesKey(event)) return;
+    const action = this.actions(event.shiftKey ? Math.round(1000 / this.tickMs) : 1)[event.key.toLowerCase()];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  }
+
+  /** @param event - Of a key that may be meant for the page. */
+  takesKey(event: KeyboardEvent) {
+    return isForPage(event, event.key === " " ? "select, button" : "select");
+  }
+
+  /**
+   * What each key does.
+   * @param step - Ticks that an arrow goes.
+   */
+  actions(step: number): Record<string, () => void> {
+    return {
+      " ": () => this.setPlaying(!this.playing),
+      arrowright: () => this.go(this.tick + step),
+      arrowleft: () => this.go(this.tick - step),
+      home: () => this.go(this.first),
+      end: () => this.go(this.last),
+      n: () => this.jump(1),
+    };
+  }
+}

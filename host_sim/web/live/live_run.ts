@@ -1,0 +1,69 @@
+/* A live run as far as a page knows it: its present, and what its robots have just learned. */
+
+import { RunData } from "../core/run_data.js";
+import type { RobotData } from "../core/run_data.js";
+import type { Trail } from "../draw/trail.js";
+import type { State } from "../generated_types.js";
+import type { Message, RobotRun } from "../types.js";
+
+const LESSONS_SHOWN = 30;
+const MEMORIES_KEPT = 1000;
+
+/** A run of which there is only the last tick. Each message makes that another one. */
+export class LiveRun extends RunData {
+  /** The events of each robot so far. */
+  events: RobotRun["events"][] = [];
+
+  /** @param message - The first one. */
+  constructor(public message: Message) {
+    const { measures, environment, states } = message;
+    if (!measures || !environment) throw new Error("the first message of a live run has its world");
+    const robots = states.map(({ node, memory }) => ({
+      node, memory: [[0, memory]] as [number, number[]][], trials: [], lessons: [], cells: [], events: [], columns: [], data: "",
+    }));
+    super({
+      version: 0, title: "", measures, first_tick: 0, ticks: 1, shown: states[0].tick, scenes: [[0, environment]], eaten: [], robots,
+    }, states.map(() => ({})));
+    this.accept(message);
+  }
+
+  accept(message: Message) {
+    const { measures, environment, states, lessons, events, news } = message;
+    const { run, robots } = this;
+    this.events = events.map((more, i) => (measures ? more : this.events[i].concat(more)));
+    this.message = message;
+    this.last = states[0].tick;
+    if (environment) run.scenes[0][1] = environment;
+    run.news = news ?? run.news;
+    robots.forEach((robot, i) => {
+      const { node, lessons: known } = robot.run;
+      robot.run.lessons = [...(measures ? [] : known), ...lessons.filter((lesson) => lesson.node === node)].slice(-LESSONS_SHOWN);
+      keepState(robot, states[i]);
+    });
+  }
+
+  override eventsOf(robot: number) {
+    return this.events[robot];
+  }
+
+  override statesAt() {
+    return this.message.states;
+  }
+
+  /** Adds what the last message has, once. */
+  override addTrails(trails: Trail[]) {
+    this.message.trails.forEach((points, robot) => {
+      for (let i = 0; i < points.length; i += 3) trails[robot].add(points[i], points[i + 1], points[i + 2]);
+    });
+    this.message.trails = [];
+  }
+}
+
+/** The columns have the present alone; their tick is that in which its action began. */
+function keepState(robot: RobotData, { tick, action, pattern, reason, memory }: State) {
+  if (robot.columns.action?.[0] !== action) robot.first = tick;
+  robot.columns = { action: Int32Array.of(action), pattern: Int32Array.of(pattern), reason: Int32Array.of(reason) };
+  const memories = robot.run.memory;
+  if (`${memories[memories.length - 1][1]}` !== `${memory}`) memories.push([tick, memory]);
+  memories.splice(1, memories.length - MEMORIES_KEPT);
+}
