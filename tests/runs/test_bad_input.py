@@ -14,7 +14,7 @@ from host_sim.sim import access
 from tests.runs.support import ROBOT, ROOT, octet, octet_process
 
 
-def test_an_option_whose_low_end_is_a_fraction_says_so():
+def test_option_with_a_fractional_lower_limit_names_it_in_its_error():
     assert "0.1 to 1000" in octet("picture", "x.log", "--gif", "x.gif", "--speed", "0").stderr
 
 
@@ -27,7 +27,7 @@ OVER_ITS_INPUT = {
 
 
 @pytest.mark.parametrize(("command", "option"), OVER_ITS_INPUT.values(), ids=OVER_ITS_INPUT.keys())
-def test_no_command_writes_over_the_log_that_it_reads(run, tmp_path, command, option):
+def test_command_refuses_to_overwrite_its_input_log(run, tmp_path, command, option):
     done = run("--environments", "1", "--bus", "none", "--limit-s", "2")
     (tmp_path / "link").symlink_to(done.out / "run.log")
 
@@ -41,7 +41,7 @@ def test_no_command_writes_over_the_log_that_it_reads(run, tmp_path, command, op
 
 
 @pytest.mark.parametrize("words", [("picture", "--png", "--gif"), ("export", "--csv", "--asc")])
-def test_no_command_writes_two_things_into_one_file(run, tmp_path, words):
+def test_command_refuses_one_file_for_two_outputs(run, tmp_path, words):
     command, first, second = words
     done = run("--environments", "1", "--bus", "none", "--limit-s", "2")
 
@@ -52,7 +52,7 @@ def test_no_command_writes_two_things_into_one_file(run, tmp_path, words):
     assert not (tmp_path / "x").exists()
 
 
-def test_a_world_is_not_drawn_over_its_own_file(tmp_path):
+def test_world_command_refuses_to_overwrite_its_world_file(tmp_path):
     world = tmp_path / "my.toml"
     shutil.copy(ROOT / "docs/worlds/two_walls.toml", world)
     (tmp_path / "link").symlink_to(world)
@@ -64,7 +64,7 @@ def test_a_world_is_not_drawn_over_its_own_file(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["run.log", "summary.json", "run.world.json", "fleet.png"])
-def test_a_memory_is_not_kept_in_a_file_of_the_run(tmp_path, name):
+def test_run_refuses_a_memory_file_named_like_one_of_its_outputs(tmp_path, name):
     done = octet("run", "--bus", "none", "--limit-s", "2", "--out", tmp_path, "--memory", tmp_path / name)
 
     said = f"octet: the run would overwrite {tmp_path / name}: choose another file with --memory\n"
@@ -72,7 +72,7 @@ def test_a_memory_is_not_kept_in_a_file_of_the_run(tmp_path, name):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_memory_that_is_no_regular_file_is_refused(tmp_path):
+def test_memory_path_that_is_no_regular_file_is_refused(tmp_path):
     (tmp_path / "robot.mem").mkdir()
 
     done = octet(
@@ -83,7 +83,7 @@ def test_a_memory_that_is_no_regular_file_is_refused(tmp_path):
     assert done.stderr == f"octet: cannot write {tmp_path / 'robot.mem'}: it is not a regular file\n"
 
 
-def test_two_runs_do_not_learn_into_one_memory(tmp_path):
+def test_memory_file_in_use_by_another_run_is_refused(tmp_path):
     memory, words = tmp_path / "robot.mem", ("run", "--bus", "none", "--limit-s", "2", "--out", tmp_path / "out")
 
     with memory_lock(memory):
@@ -106,7 +106,7 @@ BAD_MEMORIES = {
 
 
 @pytest.mark.parametrize(("content", "named"), BAD_MEMORIES.values(), ids=BAD_MEMORIES.keys())
-def test_a_file_that_is_no_memory_is_refused_and_left(run, tmp_path, content, named):
+def test_invalid_memory_file_is_refused_and_left_unchanged(run, tmp_path, content, named):
     memory = tmp_path / "robot.mem"
     memory.write_bytes(content)
 
@@ -118,7 +118,7 @@ def test_a_file_that_is_no_memory_is_refused_and_left(run, tmp_path, content, na
 
 
 @pytest.mark.parametrize("name", ["summary.json", "arena.png", "run.log"])
-def test_a_folder_in_the_place_of_an_output_file_is_named(tmp_path, name):
+def test_folder_in_place_of_an_output_file_is_named(tmp_path, name):
     (tmp_path / name / "mine").mkdir(parents=True)
 
     done = octet("run", "--bus", "none", "--environments", "1", "--limit-s", "1", "--out", tmp_path)
@@ -128,7 +128,7 @@ def test_a_folder_in_the_place_of_an_output_file_is_named(tmp_path, name):
     assert (tmp_path / name / "mine").is_dir()
 
 
-def test_an_output_folder_that_is_a_file_is_refused(tmp_path):
+def test_output_folder_that_is_a_file_is_refused(tmp_path):
     in_the_way = tmp_path / "out"
     in_the_way.write_text("mine")
 
@@ -144,7 +144,7 @@ def no_large_files() -> None:
     resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
 
 
-def test_a_full_disk_is_named_and_the_old_log_stays(tmp_path):
+def test_full_disk_is_reported_and_the_old_log_stays(tmp_path):
     (tmp_path / "run.log").write_text("old")
 
     done = octet_process("run", "--bus", "none", "--environments", "1", "--out", tmp_path, preexec_fn=no_large_files)
@@ -170,14 +170,14 @@ def test_text_may_begin_with_a_byte_order_mark(run, tmp_path):
     assert octet("world", world).stderr == ""
 
 
-def test_a_run_finds_its_bus_without_with_vcan(tmp_path, monkeypatch):
+def test_auto_bus_is_fd_when_the_with_vcan_script_is_missing(tmp_path, monkeypatch):
     monkeypatch.setattr(access, "_WITH_VCAN", tmp_path / "with-vcan")
     monkeypatch.delenv("OCTET_VCAN_CHOSEN", raising=False)
 
     assert access.choose_bus("auto", "spawn") == "fd"
 
 
-def test_a_robot_with_another_layout_of_messages_is_refused(tmp_path):
+def test_robot_with_another_message_layout_is_refused(tmp_path):
     """A simulator of its own, in whose octet.dbc two signals have changed places, with the robot that is here."""
     shutil.copytree(ROOT / "host_sim", tmp_path / "host_sim")
     dbc, python = tmp_path / "hal/protocol/octet.dbc", tmp_path / "host_sim/protocol/generated.py"
@@ -209,7 +209,7 @@ ROBOT_WRONG = {
 
 
 @pytest.mark.parametrize(("words", "code"), ROBOT_WRONG.values(), ids=ROBOT_WRONG.keys())
-def test_the_robot_itself_says_what_it_cannot_use(words, code):
+def test_robot_program_reports_arguments_that_it_cannot_use(words, code):
     done = subprocess.run([os.fspath(ROBOT), *words], capture_output=True, text=True, check=False)
 
     assert done.returncode == code

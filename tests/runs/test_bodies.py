@@ -38,17 +38,17 @@ def results(native: bool = True, physics: str = "fast", limit_s: float = 60.0) -
         return [(it.ticks, it.robots[0].food_eaten, *it.robots[0].memory) for it in simulation.run()]
 
 
-def test_a_run_is_the_same_in_python_in_c_and_with_pymunk():
+def test_kit_run_is_the_same_in_python_in_c_and_with_pymunk():
     assert results() == results(native=False) == results(physics="pymunk")
 
 
-def test_a_robot_of_a_fleet_does_what_it_does_alone():
+def test_kit_robot_does_the_same_in_a_fleet_as_alone():
     fleet = run_fleet(RunConfig(seed=3, robots=1, worlds="own", environments=2, limit_s=60.0, body=KIT))
 
     assert [(it.ticks, it.food_eaten, *it.memory) for it in fleet] == results()
 
 
-def test_a_run_is_repeated_from_its_log_and_the_same_over_another_bus(run):
+def test_kit_run_is_repeated_from_its_log_and_the_same_over_another_bus(run):
     done = run(*BRIEF)
 
     assert (done.code, done.errors) == (0, "")
@@ -56,13 +56,13 @@ def test_a_run_is_repeated_from_its_log_and_the_same_over_another_bus(run):
     assert done.log == run(*BRIEF, "--bus", "fd").log
 
 
-def test_each_robot_comes_off_the_bench_a_little_different():
+def test_kit_bodies_of_different_robots_differ():
     kits = [draw_body(body_kind(KIT), 1, robot) for robot in range(3)]
 
     assert len({kit.trait[kit_trait] for kit in kits for kit_trait in (5,)}) == len(kits)
 
 
-def test_a_file_takes_the_rest_from_its_base(tmp_path):
+def test_body_file_takes_missing_traits_from_its_base(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text('base = "kit"\nlag_ms = [40, 10]\nslip = 0\n')
 
@@ -76,7 +76,7 @@ def test_a_file_takes_the_rest_from_its_base(tmp_path):
     ("body", "step_mm"),
     [("ideal", None), ("kit", 24), ("docs/bodies/sharp_body.toml", 24), ("docs/bodies/late_body.toml", None)],
 )
-def test_a_kit_and_what_is_based_on_it_bring_their_settings_unless_a_run_says_otherwise(body, step_mm):
+def test_kit_based_body_brings_its_settings_unless_the_run_sets_them(body, step_mm):
     assert RunConfig(body=body).robot_settings.get("step_mm") == step_mm
     assert RunConfig(body=body, settings={"step_mm": 12}).robot_settings["step_mm"] == 12
 
@@ -92,7 +92,7 @@ def test_a_kit_and_what_is_based_on_it_bring_their_settings_unless_a_run_says_ot
         ("base = ['kit']", "base is ideal or kit, not ['kit']"),
     ],
 )
-def test_a_value_that_no_body_can_have_is_named_with_its_line(tmp_path, line, why):
+def test_invalid_body_value_is_reported_with_its_line(tmp_path, line, why):
     path = tmp_path / "mine.toml"
     path.write_text(f"# a body\n{line}\n")
 
@@ -101,7 +101,7 @@ def test_a_value_that_no_body_can_have_is_named_with_its_line(tmp_path, line, wh
     assert why in str(refused.value)
 
 
-def test_the_command_line_refuses_it_too(tmp_path):
+def test_command_line_refuses_an_invalid_body_file(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text("slack_mm = 99\n")
 
@@ -111,7 +111,7 @@ def test_the_command_line_refuses_it_too(tmp_path):
     assert f"{path}:1: slack_mm is 0 to 10" in done.stderr
 
 
-def test_a_lag_that_the_robot_cannot_hold_stops_it_in_order(tmp_path):
+def test_robot_stops_in_order_when_its_wheels_lag_too_much(tmp_path):
     path = tmp_path / "late.toml"
     path.write_text("lag_ms = 300\n")
 
@@ -157,13 +157,13 @@ def test_ranges_go_before_the_senses_of_their_tick(tmp_path):
     assert seen
 
 
-def test_a_robot_that_does_not_ask_gets_none(tmp_path):
+def test_robot_that_does_not_ask_for_distances_gets_none(tmp_path):
     run(tmp_path / "run.log", RunConfig(seed=3, environments=1, limit_s=2))
 
     assert {message.name for _, message in messages(tmp_path / "run.log")} == {"SENSES"}
 
 
-def test_a_run_with_distances_is_replayed_and_simulated_again(tmp_path):
+def test_run_with_distances_is_replayed_and_simulated_again(tmp_path):
     run(tmp_path / "run.log", ASKED)
 
     outcome = replay(read_log(tmp_path / "run.log"), PROTOCOL)
@@ -171,7 +171,7 @@ def test_a_run_with_distances_is_replayed_and_simulated_again(tmp_path):
     assert resimulate(tmp_path / "run.log").trajectory.ticks == 1000
 
 
-def test_a_replay_without_the_distances_finds_a_difference(tmp_path):
+def test_replay_without_the_distances_finds_a_difference(tmp_path):
     run(tmp_path / "run.log", ASKED)
     ranges = f" {PROTOCOL.id_of('RANGES'):03X}#"
     lines = (tmp_path / "run.log").read_text().splitlines(keepends=True)
@@ -180,7 +180,7 @@ def test_a_replay_without_the_distances_finds_a_difference(tmp_path):
     assert replay(read_log(tmp_path / "without.log"), PROTOCOL).difference is not None
 
 
-def test_a_bad_bus_repeats_them_too_and_changes_nothing(tmp_path):
+def test_distances_are_repeated_on_a_bad_bus_and_arrive_unchanged(tmp_path):
     clean, bad = tmp_path / "clean.log", tmp_path / "bad.log"
     run(clean, ASKED)
     faults = ("drop:20%", "duplicate:10%", "reorder:10%")
@@ -191,13 +191,13 @@ def test_a_bad_bus_repeats_them_too_and_changes_nothing(tmp_path):
     assert messages(bad) == messages(clean)
 
 
-def test_the_loop_in_c_is_left_out():
+def test_simulation_with_distances_does_not_use_the_loop_in_c():
     with make(ASKED) as simulation:
         simulation.enter(1)
         assert simulation.loop is None
 
 
-def test_what_is_known_of_a_robot_that_is_asked_how_it_is_stays():
+def test_client_still_wants_distances_after_a_recovery():
     with make(ASKED) as simulation:
         simulation.enter(1)
         simulation.step()
@@ -213,7 +213,7 @@ BLIND = [word for sensor in ("front", "front-left", "front-right") for word in (
 SHORT_RUN = ("--world", "crates", "--environments", "2", "--limit-s", "20", "--seed", "2", *BLIND)
 
 
-def test_a_run_is_the_same_over_another_bus_and_repeated_from_its_log(run):
+def test_crates_run_is_repeated_from_its_log_and_the_same_over_another_bus(run):
     done = run(*SHORT_RUN, "--bus", "none")
 
     assert (done.code, done.errors) == (0, "")
@@ -225,7 +225,7 @@ def test_a_run_is_the_same_over_another_bus_and_repeated_from_its_log(run):
     assert octet("replay", str(done.out / "run.log")).returncode == 0
 
 
-def test_pushes_are_no_news_and_their_page_says_why_it_cannot_ask_what_if(run):
+def test_pushes_are_not_news_and_the_page_explains_why_it_has_no_what_if(run):
     done = run(*SHORT_RUN, "--bus", "none")
     page = unpacked((done.out / "replay.html").read_text())
 
@@ -235,7 +235,7 @@ def test_pushes_are_no_news_and_their_page_says_why_it_cannot_ask_what_if(run):
 
 
 @pytest.mark.parametrize("ends", [((-1.0, 500.0), (200.0, 500.0)), ((500.0, 500.0), (550.0, 550.0))], ids=str)
-def test_a_crate_that_cannot_be_where_it_is_pushed_stays_where_it_was(monkeypatch, ends):
+def test_crate_pushed_to_an_impossible_place_stays_where_it_was(monkeypatch, ends):
     """A person can put one halfway into a wall, or make it so short that rounding is too much for it."""
     monkeypatch.setattr(Crates, "push", lambda *_: [Edit("push_bar", 0, a=ends[0], b=ends[1])])
     with make(RunConfig(world="crates", environments=1, limit_s=0.2)) as simulation:
@@ -254,7 +254,7 @@ def test_a_crate_that_cannot_be_where_it_is_pushed_stays_where_it_was(monkeypatc
     [("--physics", "fast"), ("--robots", "2", "--worlds", "own"), ("--robots", "40")],
     ids=" ".join,
 )
-def test_what_cannot_push_is_refused_in_a_line(tmp_path, words):
+def test_crates_world_is_refused_with_fast_physics_and_for_fleets(tmp_path, words):
     done = octet("run", "--world", "crates", *words, "--out", str(tmp_path / "out"))
 
     assert done.returncode == 2
@@ -264,13 +264,13 @@ def test_what_cannot_push_is_refused_in_a_line(tmp_path, words):
 
 @pytest.mark.parametrize("delay_ticks", DELAYS_TICKS)
 @pytest.mark.parametrize("lag_ms", LAGS_MS)
-def test_a_dead_motor_is_noticed_within_three_seconds_and_no_sound_one_is_denied(lag_ms, delay_ticks):
+def test_dead_motor_is_noticed_within_3_s_and_sound_wheels_are_not_denied(lag_ms, delay_ticks):
     of = figures(lag_ms, delay_ticks, 3)
 
     assert (of.unnoticed, of.denied) == (0, 0)
 
 
-def test_the_page_has_what_the_table_prints():
+def test_faults_page_has_the_printed_table():
     page = (ROOT / "docs/faults.md").read_text().splitlines()
 
     for line in lines(SEEDS, LAGS_MS[:2]):

@@ -21,7 +21,7 @@ def words(changes) -> list[str]:
 
 
 @pytest.mark.faulty
-def test_a_run_full_of_changes_can_be_repeated_from_its_log(run):
+def test_run_with_many_changes_is_repeated_from_its_log(run):
     done = run(*BRIEF, *words(ALL))
 
     again = resimulate(done.out / "run.log")
@@ -33,7 +33,7 @@ def test_a_run_full_of_changes_can_be_repeated_from_its_log(run):
 
 
 @pytest.mark.faulty
-def test_the_page_made_from_the_log_is_that_of_the_run(run, tmp_path):
+def test_page_made_from_the_log_equals_that_of_the_run(run, tmp_path):
     done = run(*BRIEF, *words(ALL))
     page = tmp_path / "again.html"
 
@@ -48,7 +48,7 @@ def test_changes_depend_on_seed_and_options_only(run):
 
 @pytest.mark.faulty
 @pytest.mark.parametrize("bus", ["none", "fd"])
-def test_a_run_in_which_the_robot_stops_because_of_its_wheels_can_be_repeated_from_its_log(run, bus):
+def test_run_whose_robot_stops_for_its_wheels_is_repeated_from_its_log(run, bus):
     deadened = ("odometer:left:-100%@2s", "odometer:right:-100%@2s", "repair@env2")
 
     done = run(*BRIEF[:4], "--bus", bus, *BRIEF[6:], *words(deadened))
@@ -58,7 +58,7 @@ def test_a_run_in_which_the_robot_stops_because_of_its_wheels_can_be_repeated_fr
     assert octet("replay", done.out / "run.log").returncode == 0
 
 
-def test_a_robot_that_reports_its_wheels_in_the_tick_in_which_they_stop_it_was_stopped_by_nobody_else(run):
+def test_stop_for_a_dead_motor_is_not_reported_as_a_stop_by_somebody_else(run):
     dead = words(["weak-motor:left:0%@2s"])
 
     done = run("--environments", "1", "--limit-s", "30", "--seed", "12", "--bus", "none", *dead)
@@ -67,13 +67,13 @@ def test_a_robot_that_reports_its_wheels_in_the_tick_in_which_they_stop_it_was_s
     assert "somebody else" not in done.errors
 
 
-def test_another_seed_has_other_noise_and_a_run_without_changes_none(run):
+def test_noise_changes_the_log_and_noise_of_zero_does_not(run):
     logs = {run(*BRIEF, *words(changes)).log for changes in ([], ["noise:100/1000@0s"], ["noise:0/1000@0s"])}
 
     assert len(logs) == 2
 
 
-def test_a_change_that_cannot_be_is_said_when_it_is_due_and_counted_and_the_run_goes_on(run):
+def test_impossible_change_is_reported_and_counted_and_the_run_goes_on(run):
     done = run(*BRIEF, "--change", "grow@2s", "--change", "plant:3999,2999@env2+99s")
 
     assert done.code == 0
@@ -87,7 +87,7 @@ def test_a_change_that_cannot_be_is_said_when_it_is_due_and_counted_and_the_run_
     assert len(done.summary["environments"]) == 2
 
 
-def test_a_plant_on_the_robot_cannot_be(run):
+def test_plant_on_the_robot_is_refused(run):
     done = run(*BRIEF, "--change", "plant:100,100@0s", "--world", "small", "--seed", "1")
     x, y = (round(place) for place in resimulate(done.out / "run.log").trajectory.tracks[0].pose(0)[:2])
 
@@ -104,14 +104,14 @@ def test_a_plant_on_the_robot_cannot_be(run):
         ("swap-motors@5s/2", "swap-motors is scheduled for robot 2, but the run has 1"),
     ],
 )
-def test_a_mistake_ends_the_run_before_it_begins(run, change, why):
+def test_invalid_change_is_refused_before_the_run_begins(run, change, why):
     done = run(*BRIEF, "--change", change)
 
     assert (done.code, done.errors) == (2, f"octet: {why}\n")
     assert not (done.out / "run.log").exists()
 
 
-def test_a_mistake_in_a_schedule_names_its_line(run, tmp_path):
+def test_mistake_in_a_schedule_is_reported_with_its_line(run, tmp_path):
     schedule = tmp_path / "day.txt"
     schedule.write_text("# a day\nplant@5s\nnoise@6s\n")
 
@@ -127,7 +127,7 @@ SHORT = ("--environments", "1", "--limit-s", "5", "--bus", "none")
 
 
 @pytest.mark.parametrize("world", ["corridors", "small"])
-def test_a_run_in_another_world_can_be_repeated_from_its_log(run, world):
+def test_run_in_another_world_is_repeated_from_its_log(run, world):
     done = run("--world", world, "--environments", "2", "--limit-s", "5", "--bus", "none")
 
     result = resimulate(done.out / "run.log")
@@ -136,7 +136,7 @@ def test_a_run_in_another_world_can_be_repeated_from_its_log(run, world):
     assert result.trajectory.ticks == sum(environment["ticks"] for environment in done.summary["environments"])
 
 
-def test_a_run_in_a_world_of_ones_own_can_be_repeated_when_its_file_is_gone(run, tmp_path):
+def test_run_in_a_custom_world_is_repeated_after_its_file_is_deleted(run, tmp_path):
     own = tmp_path / "own.toml"
     own.write_text("size = [1000, 1000]\nstart = [200, 500, 0]\nfood = [[800, 500]]")
     done = run("--world", own, *SHORT)
@@ -146,11 +146,11 @@ def test_a_run_in_a_world_of_ones_own_can_be_repeated_when_its_file_is_gone(run,
     assert done.summary["environments"][0]["finished"]
 
 
-def test_the_random_world_is_what_a_run_takes_place_in_unless_another_is_named(run):
+def test_default_world_of_a_run_is_random(run):
     assert run(*SHORT).log == run("--world", "random", *SHORT).log
 
 
-def test_a_mistake_in_a_world_leaves_everything_as_it_was(run, tmp_path):
+def test_mistake_in_a_world_file_is_refused_before_anything_is_written(run, tmp_path):
     own = tmp_path / "own.toml"
     own.write_text("# two mistakes\nfoot = []")
     done = run("--world", own, *SHORT)
@@ -174,7 +174,7 @@ SEEDS, ENVIRONMENTS = 12, 3
 CAREFUL = {"filter": 1, "distrust": 32}
 
 
-def test_a_careful_robot_with_a_stuck_front_sensor_rarely_touches_anything():
+def test_careful_robot_with_a_stuck_front_sensor_rarely_touches_anything():
     # Given a front sensor that always shows something, and robots that stop believing it
     touched = 0
     for seed in range(1, SEEDS + 1):
@@ -187,7 +187,7 @@ def test_a_careful_robot_with_a_stuck_front_sensor_rarely_touches_anything():
 
 
 @pytest.mark.parametrize(("how", "left_out", "said"), [("on", 0, True), ("off", 0, True), ("on", 1, False)])
-def test_that_every_sensor_is_stuck_is_said(run, how, left_out, said):
+def test_run_reports_when_every_sensor_is_stuck(run, how, left_out, said):
     sensors = [name.lower().replace("_", "-") for name in FEEL][left_out:]
     words = [word for sensor in sensors for word in ("--change", f"stuck-{how}:{sensor}@1s")]
 

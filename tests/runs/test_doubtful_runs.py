@@ -13,7 +13,7 @@ FORGED = ("--fault", "forge:write@500/to")
 
 
 @pytest.mark.faulty
-def test_the_good_memory_is_as_it_was(run, tmp_path):
+def test_doubtful_run_leaves_the_good_memory_unchanged(run, tmp_path):
     memory = tmp_path / "robot.mem"
     memory.write_bytes(GOOD)
 
@@ -26,7 +26,7 @@ def test_the_good_memory_is_as_it_was(run, tmp_path):
 
 
 @pytest.mark.faulty
-def test_what_was_saved_before_the_doubt_is_taken_out_of_the_good_memory_again(run, tmp_path):
+def test_lesson_saved_before_the_doubt_is_taken_out_of_the_good_memory(run, tmp_path):
     memory = tmp_path / "robot.mem"
     memory.write_bytes(bytes(8))
     learned = run(*LONG, "--memory", memory, "--seed", "6").memory
@@ -49,7 +49,7 @@ def test_memories_that_come_seconds_late_are_asked_for_again(run):
 
 
 @pytest.mark.faulty
-def test_a_run_that_somebody_ended_is_doubtful_too(run, tmp_path):
+def test_run_ended_by_somebody_else_is_doubtful(run, tmp_path):
     memory = tmp_path / "robot.mem"
     memory.write_bytes(GOOD)
 
@@ -69,7 +69,7 @@ PASS_FOR_WHOLE = {
 
 @pytest.mark.faulty
 @pytest.mark.parametrize("what", PASS_FOR_WHOLE)
-def test_frames_that_were_damaged_and_pass_for_whole_are_noticed(what, run, tmp_path):
+def test_damaged_frames_that_pass_the_crc_are_noticed(what, run, tmp_path):
     memory = tmp_path / "robot.mem"
     fault, seed = PASS_FOR_WHOLE[what]
     words = f"--bus none --environments 1 --limit-s 60 --seed 6 --fault {fault} --fault-seed {seed}"
@@ -82,7 +82,7 @@ def test_frames_that_were_damaged_and_pass_for_whole_are_noticed(what, run, tmp_
 
 
 @pytest.mark.faulty
-def test_where_there_was_none_there_is_none(run, tmp_path):
+def test_doubtful_run_creates_no_memory_file(run, tmp_path):
     memory = tmp_path / "robot.mem"
 
     done = run(*LONG, *FORGED, "--memory", memory)
@@ -91,7 +91,7 @@ def test_where_there_was_none_there_is_none(run, tmp_path):
     assert (tmp_path / "robot.mem.doubtful").read_bytes() == bytes(done.memory)
 
 
-def test_a_good_run_sets_nothing_aside(run, tmp_path):
+def test_good_run_sets_no_memory_aside(run, tmp_path):
     memory = tmp_path / "robot.mem"
 
     done = run(*LONG, "--memory", memory)
@@ -111,7 +111,7 @@ IN_BETWEEN = {
 @pytest.mark.faulty
 @pytest.mark.parametrize("opcode", OPCODES)
 @pytest.mark.parametrize("way", IN_BETWEEN)
-def test_from_in_between(run, opcode, way):
+def test_command_forged_on_the_link_makes_the_run_doubtful(run, opcode, way):
     done = run("--environments", "1", *(word.format(opcode) for word in IN_BETWEEN[way]))
 
     assert done.code == 1
@@ -121,7 +121,7 @@ def test_from_in_between(run, opcode, way):
 @pytest.mark.vcan
 @pytest.mark.faulty
 @pytest.mark.parametrize("pace", PACES)
-def test_from_the_bus(tmp_path, pace):
+def test_command_forged_on_vcan_makes_the_run_doubtful(tmp_path, pace):
     forge_on_vcan(tmp_path, pace, "set")
 
 
@@ -129,7 +129,7 @@ SHORT = ("--environments", "1", "--limit-s", "4", "--bus", "none")
 
 
 @pytest.mark.faulty
-def test_a_forged_command_is_kept_with_its_time(run):
+def test_forged_command_is_recorded_with_its_time(run):
     done = run(*SHORT, "--fault", "forge:freeze@100/from")
 
     line, *more = (done.out / "refused.log").read_text().splitlines()
@@ -139,7 +139,7 @@ def test_a_forged_command_is_kept_with_its_time(run):
 
 
 @pytest.mark.faulty
-def test_no_more_are_kept_than_there_is_room_for(run, monkeypatch):
+def test_refused_frames_beyond_the_maximum_are_only_counted(run, monkeypatch):
     monkeypatch.setattr("host_sim.client.robot_client.REFUSED_MAX", 5)
 
     done = run(*SHORT, "--fault", "corrupt:10%/from")
@@ -151,7 +151,7 @@ def test_no_more_are_kept_than_there_is_room_for(run, monkeypatch):
 
 
 @pytest.mark.faulty
-def test_a_run_that_refused_nothing_leaves_no_file_of_an_earlier_one(run):
+def test_run_that_refused_nothing_removes_an_earlier_refused_log(run):
     bad = run(*SHORT, "--fault", "corrupt:10%/from")
     assert (bad.out / "refused.log").exists()
 
@@ -170,7 +170,7 @@ DEAF = {
 
 @pytest.mark.faulty
 @pytest.mark.parametrize("name", DEAF)
-def test_where_most_ticks_have_no_answer_the_result_is_doubtful(run, name):
+def test_run_is_doubtful_when_too_many_ticks_have_no_answer(run, name):
     done = run(*REAL_TIME, *(word for rule in DEAF[name] for word in ("--fault", rule)))
 
     real_time = done.summary["robots"][0]["real_time"]
@@ -180,7 +180,7 @@ def test_where_most_ticks_have_no_answer_the_result_is_doubtful(run, name):
 
 
 @pytest.mark.faulty
-def test_the_limits_are_options(run):
+def test_real_time_limits_are_options(run):
     done = run(*REAL_TIME, "--fault", "drop:30%@20-/to", "--unanswered-max", "100", "--late-max", "100")
 
     assert (done.code, done.errors) == (0, "")
@@ -188,7 +188,7 @@ def test_the_limits_are_options(run):
 
 
 @pytest.mark.faulty
-def test_a_gap_beyond_its_limit_is_doubtful(run):
+def test_gap_beyond_its_limit_makes_the_run_doubtful(run):
     loose = ("--unanswered-max", "100", "--late-max", "100", "--gap-max-s", "0.4")
 
     done = run(*REAL_TIME, "--fault", "drop@80-105/to", *loose)
@@ -199,7 +199,7 @@ def test_a_gap_beyond_its_limit_is_doubtful(run):
 
 
 @pytest.mark.parametrize(("limit", "code"), [("5", 1), ("100", 0)])
-def test_a_host_that_stands_still_makes_the_result_doubtful_unless_the_limit_is_wide(limit, code, tmp_path):
+def test_host_that_stands_still_makes_the_run_doubtful_beyond_the_limit(limit, code, tmp_path):
     words = (*REAL_TIME, "--gap-max-s", "60", "--unanswered-max", "100", "--late-max", limit, "--out", tmp_path)
     running = start_octet("run", *words)
     wait_until((tmp_path / "run.log.part").exists, "the log of the run")
@@ -213,7 +213,7 @@ def test_a_host_that_stands_still_makes_the_result_doubtful_unless_the_limit_is_
     assert (running.returncode, "this host was too slow for real time" in errors) == (code, code == 1)
 
 
-def test_in_lockstep_nothing_is_late(run):
+def test_lockstep_run_has_no_real_time_figures(run):
     done = run("--environments", "1", "--limit-s", "2", "--bus", "none")
 
     assert done.summary["robots"][0]["real_time"] is None

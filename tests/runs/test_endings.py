@@ -47,7 +47,7 @@ def assert_whole(out: Path, seed: int) -> None:
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_run_that_is_interrupted_leaves_one_whole_run(tmp_path, number):
+def test_interrupted_run_leaves_one_whole_run(tmp_path, number):
     assert octet("run", *SHORT, "--quiet", "--out", tmp_path).returncode == 0
     process = start_octet("run", *LONG, "--quiet", "--out", tmp_path)
     wait_for_lines(process, tmp_path / "run.log", 4000)
@@ -62,7 +62,7 @@ def test_a_run_that_is_interrupted_leaves_one_whole_run(tmp_path, number):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
-def test_a_watched_run_that_is_interrupted_leaves_one_whole_run(tmp_path, number):
+def test_interrupted_watched_run_leaves_one_whole_run(tmp_path, number):
     assert octet("run", *SHORT, "--quiet", "--out", tmp_path).returncode == 0
     process = start_octet("run", "--watch", "--port", "0", *BUSY_HOST, *LONG, "--out", tmp_path)
     wait_for_lines(process, tmp_path / "run.log", 4000)
@@ -74,7 +74,7 @@ def test_a_watched_run_that_is_interrupted_leaves_one_whole_run(tmp_path, number
     assert_whole(tmp_path, 8)
 
 
-def test_a_robot_that_is_killed_leaves_one_whole_run_and_is_named(tmp_path):
+def test_run_whose_robot_is_killed_names_it_and_leaves_one_whole_run(tmp_path):
     assert octet("run", *SHORT, "--quiet", "--out", tmp_path).returncode == 0
     process = start_octet("run", *LONG, "--quiet", "--out", tmp_path)
     robot = robot_of(process)
@@ -110,7 +110,7 @@ def queued_s(process: subprocess.Popen) -> float:
 
 
 @pytest.mark.parametrize("options", [(), ("--robots", "3"), ("--watch", "--port", "0")])
-def test_a_run_whose_robot_hangs_ends_soon(tmp_path, options):
+def test_run_whose_robot_hangs_ends_soon(tmp_path, options):
     process = start_octet("run", "--environments", "1000", "--bus", "fd", *options, "--out", tmp_path)
     robot = robot_of(process)
     wait_for_lines(process, tmp_path / "run.log", 4000)
@@ -128,7 +128,7 @@ def test_a_run_whose_robot_hangs_ends_soon(tmp_path, options):
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(FILES)
 
 
-def test_ctrl_c_while_the_program_is_loaded_is_no_traceback():
+def test_ctrl_c_while_the_program_loads_prints_no_traceback():
     interrupt = (
         "import os, runpy, signal, sys\n"
         "moment = sys.argv.pop(1)\n"
@@ -145,7 +145,7 @@ def test_ctrl_c_while_the_program_is_loaded_is_no_traceback():
         assert "Traceback" not in done.stderr
 
 
-def test_what_is_overwritten_is_said(tmp_path):
+def test_run_says_which_run_it_replaces(tmp_path):
     assert octet("run", *SHORT, "--seed", "3", "--quiet", "--out", tmp_path).returncode == 0
 
     done = octet("run", *SHORT, "--out", tmp_path)
@@ -153,7 +153,7 @@ def test_what_is_overwritten_is_said(tmp_path):
     assert f"replaced  the run in {tmp_path} (seed 3), which is in {tmp_path.name}.1 now\n" in done.stdout
 
 
-def test_the_run_before_is_kept_beside(tmp_path):
+def test_previous_run_is_kept_beside_the_new_one(tmp_path):
     out, kept = tmp_path / "out", tmp_path / "out.1"
     for seed in ("3", "4", "5"):
         assert octet("run", *SHORT, "--seed", seed, "--quiet", "--out", out).returncode == 0
@@ -162,7 +162,7 @@ def test_the_run_before_is_kept_beside(tmp_path):
     assert_whole(kept, 4)
 
 
-def test_whatever_the_next_run_is_the_run_before_is_kept_whole(tmp_path):
+def test_previous_run_is_kept_whole_whatever_the_next_run_is(tmp_path):
     out, kept = tmp_path / "out", tmp_path / "out.1"
     for words in (("--fault", "forge/from"), ("--robots", "40"), ()):
         before = {path.name: path.read_bytes() for path in out.glob("*")}
@@ -179,7 +179,7 @@ def test_whatever_the_next_run_is_the_run_before_is_kept_whole(tmp_path):
         ("watch", "--bus", "none", "--terminal", "--fault", "drop:10%"),
     ],
 )
-def test_a_run_that_ends_before_its_first_tick_leaves_the_last_one(tmp_path, words):
+def test_run_that_ends_before_its_first_tick_leaves_the_previous_one(tmp_path, words):
     out = tmp_path / "out"
     assert octet("run", *SHORT, "--seed", "3", "--fault", "drop:10%", "--quiet", "--out", out).returncode == 0
     before = {path.name: path.read_bytes() for path in out.iterdir()}
@@ -192,7 +192,7 @@ def test_a_run_that_ends_before_its_first_tick_leaves_the_last_one(tmp_path, wor
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
 
 
-def test_a_watched_run_that_no_page_began_leaves_the_last_one(tmp_path):
+def test_watched_run_that_no_page_began_leaves_the_previous_one(tmp_path):
     assert octet("run", *SHORT, "--seed", "3", "--quiet", "--out", tmp_path).returncode == 0
     before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
     process = start_octet("watch", "--port", "0", "--bus", "none", "--out", tmp_path)
@@ -204,7 +204,7 @@ def test_a_watched_run_that_no_page_began_leaves_the_last_one(tmp_path):
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
-def test_a_run_without_a_page_names_none(tmp_path):
+def test_watched_run_that_no_page_began_names_no_recorded_page(tmp_path):
     process = start_octet("watch", "--port", "0", "--bus", "none", "--out", tmp_path)
     wait_until(lambda: "watch" in process.stdout.readline(), "the address")
     process.send_signal(signal.SIGINT)
@@ -213,7 +213,7 @@ def test_a_run_without_a_page_names_none(tmp_path):
 
 
 @pytest.mark.parametrize("summary", [b"", b"{", b"[]", b"\xff\xfe", b"{}"])
-def test_a_summary_that_is_none_does_no_harm(tmp_path, summary):
+def test_invalid_summary_of_the_previous_run_does_no_harm(tmp_path, summary):
     (tmp_path / "run.log").write_text("old")
     (tmp_path / "summary.json").write_bytes(summary)
 
@@ -223,7 +223,7 @@ def test_a_summary_that_is_none_does_no_harm(tmp_path, summary):
     assert f"replaced  the run in {tmp_path}, which is in {tmp_path.name}.1 now\n" in done.stdout
 
 
-def test_a_memory_file_that_is_not_there_is_named(tmp_path):
+def test_missing_memory_file_is_named(tmp_path):
     memory = tmp_path / "typo.mem"
 
     done = octet("run", *SHORT, "--out", tmp_path, "--memory", memory)
@@ -234,7 +234,7 @@ def test_a_memory_file_that_is_not_there_is_named(tmp_path):
 
 
 @pytest.mark.parametrize("where", ["nowhere/robot.mem", "file/robot.mem"])
-def test_a_memory_file_that_cannot_be_written_is_named_before_the_run(tmp_path, where):
+def test_unwritable_memory_file_is_named_before_the_run(tmp_path, where):
     (tmp_path / "file").write_text("no folder")
     done = octet("run", *SHORT, "--out", tmp_path / "out", "--memory", tmp_path / where)
 
@@ -267,7 +267,7 @@ def crashing_robot(folder: Path, then: str) -> RobotProcess:
         ("sleep 0.2; kill -40 $$", "was killed by signal 40 and"),
     ],
 )
-def test_a_robot_that_crashes_is_quoted(tmp_path, then, said):
+def test_last_output_of_a_crashed_robot_is_quoted(tmp_path, then, said):
     robot = crashing_robot(tmp_path, then)
 
     with pytest.raises(RobotError, match=said) as error:
@@ -277,7 +277,7 @@ def test_a_robot_that_crashes_is_quoted(tmp_path, then, said):
     robot.close()
 
 
-def test_a_run_in_real_time_pauses_after_an_environment_and_the_log_knows_nothing_of_it(tmp_path):
+def test_real_time_run_pauses_between_environments_but_not_in_its_log(tmp_path):
     words = ("run", "--bus", "fd", "--environments", "2", "--limit-s", "1")
     paused, at_once = tmp_path / "paused", tmp_path / "at once"
 
@@ -290,7 +290,7 @@ def test_a_run_in_real_time_pauses_after_an_environment_and_the_log_knows_nothin
     assert octet("replay", paused / "run.log").returncode == 0
 
 
-def test_a_command_without_a_log_that_is_interrupted_speaks_of_none(monkeypatch):
+def test_interrupted_command_without_a_log_mentions_none(monkeypatch):
     def interrupted(_: object) -> int:
         raise KeyboardInterrupt
 
@@ -300,7 +300,7 @@ def test_a_command_without_a_log_that_is_interrupted_speaks_of_none(monkeypatch)
     assert ended.stderr == "octet: interrupted\n"
 
 
-def test_a_command_that_is_interrupted_while_it_loads_says_so_in_one_line():
+def test_command_interrupted_while_it_loads_says_so_in_one_line():
     while_loading = """
 import os, signal, sys
 class Finder:

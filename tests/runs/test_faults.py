@@ -37,7 +37,7 @@ ENDS = [
 
 
 @pytest.mark.parametrize(("victim", "number"), ENDS)
-def test_whatever_ends_a_run_the_last_lesson_is_in_the_memory_file(tmp_path, victim, number):
+def test_last_lesson_is_in_the_memory_file_whatever_ends_the_run(tmp_path, victim, number):
     memory = tmp_path / "robot.mem"
     process = start_octet("run", "--out", tmp_path, "--memory", memory, *LONG)
     robot = robot_of(process)
@@ -51,7 +51,7 @@ def test_whatever_ends_a_run_the_last_lesson_is_in_the_memory_file(tmp_path, vic
     assert any(learned)
 
 
-def test_a_robot_that_hangs_is_named_with_its_tick_and_last_frame(long_run):
+def test_robot_that_hangs_is_named_with_its_tick_and_last_frame(long_run):
     process, robot = long_run
 
     os.kill(robot, signal.SIGSTOP)
@@ -63,7 +63,7 @@ def test_a_robot_that_hangs_is_named_with_its_tick_and_last_frame(long_run):
     assert "is running and printed: octet-robot: node 1 listens" in errors
 
 
-def test_a_robot_does_not_outlive_its_simulator(long_run):
+def test_robot_does_not_outlive_its_simulator(long_run):
     process, robot = long_run
 
     process.kill()
@@ -84,7 +84,7 @@ def hold_up(pid: int, seconds: float) -> None:
     os.kill(pid, signal.SIGCONT)
 
 
-def test_delays_on_either_side_change_nothing(tmp_path, run):
+def test_delays_on_either_side_do_not_change_the_log(tmp_path, run):
     words = ("--environments", "2", "--limit-s", "40", "--bus", "fd", "--quiet")
     undisturbed = run(*words)
     chance = random.Random(1)
@@ -101,7 +101,7 @@ def test_delays_on_either_side_change_nothing(tmp_path, run):
     assert (tmp_path / "delayed/run.log").read_bytes() == undisturbed.log
 
 
-def test_in_real_time_a_held_up_robot_stops_and_then_goes_on(tmp_path):
+def test_real_time_run_goes_on_after_its_robot_was_held_up(tmp_path):
     words = ("--environments", "1", "--bus", "fd", "--limit-s", "4", "--real-time", "--json", *BUSY_HOST)
     process = start_octet("run", "--out", tmp_path, *words)
     robot = robot_of(process)
@@ -115,7 +115,7 @@ def test_in_real_time_a_held_up_robot_stops_and_then_goes_on(tmp_path):
     assert octet("replay", tmp_path / "run.log").returncode in (0, 1)
 
 
-def test_a_second_run_does_not_write_to_the_folder_of_the_first(long_run, tmp_path):
+def test_second_run_does_not_write_to_the_folder_of_the_first(long_run, tmp_path):
     process, _ = long_run
 
     second = octet("run", "--out", tmp_path, "--bus", "none", "--environments", "1")
@@ -126,7 +126,7 @@ def test_a_second_run_does_not_write_to_the_folder_of_the_first(long_run, tmp_pa
     assert process.poll() is None
 
 
-def test_the_folder_of_a_run_that_was_killed_is_free_again(long_run, tmp_path):
+def test_folder_of_a_killed_run_is_free_again(long_run, tmp_path):
     process, _ = long_run
     process.kill()
     process.wait()
@@ -135,7 +135,7 @@ def test_the_folder_of_a_run_that_was_killed_is_free_again(long_run, tmp_path):
 
 
 @pytest.mark.faulty
-def test_a_robot_whose_drives_are_all_damaged_is_told_so(run):
+def test_run_reports_that_all_drives_of_the_robot_are_damaged(run):
     done = run("--environments", "1", "--bus", "none", "--limit-s", "2", "--fault", "corrupt:1@60-/from")
 
     assert done.code == 1
@@ -147,7 +147,7 @@ BAD = ("--fault", "drop:30%", "--fault", "duplicate:10%", "--fault", "reorder:10
 
 
 @pytest.mark.faulty
-def test_a_run_over_a_bad_bus_has_the_drives_of_a_clean_one_and_counts_what_was_repeated(run):
+def test_run_over_a_bad_bus_counts_repeats_and_has_the_same_drives(run):
     bad, clean = run(*SHORT, "--bus", "none", *BAD), run(*SHORT, "--bus", "none")
 
     assert (bad.code, bad.errors) == (0, "")
@@ -160,7 +160,7 @@ def test_a_run_over_a_bad_bus_has_the_drives_of_a_clean_one_and_counts_what_was_
 
 
 @pytest.mark.faulty
-def test_a_bad_socket_pair_changes_nothing_either(run):
+def test_bad_socket_pair_changes_no_drive(run):
     words = ("--environments", "1", "--limit-s", "1")
 
     bad = run(*words, "--bus", "fd", "--fault", "drop:20%", "--fault", "delay:10%:0-30ms")
@@ -170,7 +170,7 @@ def test_a_bad_socket_pair_changes_nothing_either(run):
 
 
 @pytest.mark.faulty
-def test_recorded_faults_are_made_again(run):
+def test_recorded_faults_are_reproduced(run):
     first = run(*SHORT, "--bus", "none", *BAD)
 
     again = run(*SHORT, "--bus", "none", "--fault", f"@{first.out / 'faults.txt'}")
@@ -180,7 +180,7 @@ def test_recorded_faults_are_made_again(run):
 
 
 @pytest.mark.faulty
-def test_faults_that_were_too_many_to_record_are_said_to_be_left_out(run, monkeypatch):
+def test_fault_record_says_that_it_leaves_faults_out(run, monkeypatch):
     monkeypatch.setattr("host_sim.transport.faulty_link.RECORD_MAX", 3)
 
     first = run("--environments", "1", "--limit-s", "1", "--bus", "none", "--fault", "duplicate:20%")
@@ -192,7 +192,7 @@ def test_faults_that_were_too_many_to_record_are_said_to_be_left_out(run, monkey
 
 
 @pytest.mark.faulty
-def test_a_forged_stop_ends_a_run_with_its_tick(run):
+def test_forged_stop_ends_the_run_and_names_its_tick(run):
     done = run(*SHORT, "--bus", "none", "--fault", "forge:stop@100/to")
 
     assert done.code == 1
@@ -211,7 +211,7 @@ def test_a_forged_stop_ends_a_run_with_its_tick(run):
         ("forge:COMMAND@100-110/from", "another simulator commands node 1"),
     ],
 )
-def test_a_twin_or_a_second_simulator_ends_a_run(run, rule, reason):
+def test_second_robot_or_second_simulator_ends_the_run(run, rule, reason):
     done = run(*SHORT, "--bus", "none", "--fault", rule)
 
     assert done.code == 1
@@ -232,7 +232,7 @@ def test_forged_reports_never_make_a_wrong_result_look_right(run, message):
 
 
 @pytest.mark.faulty
-def test_a_forged_power_up_is_counted_and_changes_nothing(run):
+def test_forged_power_up_is_counted_and_changes_no_drive(run):
     forged, clean = run(*SHORT, "--bus", "none", "--fault", "forge:BOOT@100/from"), run(*SHORT, "--bus", "none")
 
     assert (forged.code, forged.errors) == (0, "")
@@ -243,7 +243,7 @@ def test_a_forged_power_up_is_counted_and_changes_nothing(run):
 @pytest.mark.parametrize(
     ("words", "named"), [(("--fault", "meteor"), "meteor"), (("--fault", "@nowhere"), "nowhere")]
 )
-def test_what_is_no_fault_is_one_line(run, words, named):
+def test_invalid_fault_is_refused_in_one_line(run, words, named):
     done = run(*SHORT, "--bus", "none", *words)
 
     assert done.code == 2

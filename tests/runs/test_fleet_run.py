@@ -33,7 +33,7 @@ def fleet(tmp_path_factory) -> tuple[str, Path]:
     return done.stdout, folder
 
 
-def test_more_robots_than_a_bus_has_numbers_have_a_world_each(fleet):
+def test_more_robots_than_node_numbers_have_a_world_each(fleet):
     text, _ = fleet
 
     assert text.startswith("fleet     40 robots, each in its own world, profile article, seeds from 3\n")
@@ -41,7 +41,7 @@ def test_more_robots_than_a_bus_has_numbers_have_a_world_each(fleet):
     assert "learned   front-right: left " in text
 
 
-def test_the_table_has_a_row_for_each_robot_and_environment(fleet):
+def test_table_has_a_row_for_each_robot_and_environment(fleet):
     rows = table(fleet[1])
 
     assert [(row["robot"], row["environment"]) for row in rows] == [
@@ -51,7 +51,7 @@ def test_the_table_has_a_row_for_each_robot_and_environment(fleet):
     assert all(int(row["ticks"]) <= 1000 for row in rows)
 
 
-def test_the_summary_sums_the_table_up(fleet):
+def test_summary_adds_up_the_table(fleet):
     summary, rows = json.loads((fleet[1] / "summary.json").read_text()), table(fleet[1])
 
     assert summary["robot_ticks"] == sum(int(row["ticks"]) for row in rows)
@@ -61,13 +61,13 @@ def test_the_summary_sums_the_table_up(fleet):
     assert summary["environments"][1]["learned"][1][1] == len(right) > 0
 
 
-def test_the_picture_shows_all_of_it(fleet):
+def test_fleet_picture_has_its_full_width_and_colours(fleet):
     with Image.open(fleet[1] / "fleet.png") as picture:
         assert picture.width == 1680
         assert len(picture.getcolors()) > 20
 
 
-def test_a_robot_of_the_fleet_is_the_robot_of_a_run_with_its_seed(fleet, tmp_path):
+def test_robot_of_a_fleet_equals_the_robot_of_a_run_with_its_seed(fleet, tmp_path):
     done = octet("run", "--environments", "2", "--limit-s", "20", "--seed", "9", "--bus", "none", "--out", tmp_path)
 
     alone = json.loads((tmp_path / "summary.json").read_text())
@@ -77,7 +77,7 @@ def test_a_robot_of_the_fleet_is_the_robot_of_a_run_with_its_seed(fleet, tmp_pat
     assert int(last["trials"]) == alone["environments"][1]["robots"][0]["trials"]
 
 
-def test_a_fleet_is_the_same_on_any_number_of_processors(monkeypatch, tmp_path):
+def test_fleet_is_the_same_on_any_number_of_processors(monkeypatch, tmp_path):
     def files_on(processors: int) -> dict[str, str]:
         monkeypatch.setattr(os, "cpu_count", lambda: processors)
         with mock.patch.object(native_fleet, "ThreadPoolExecutor", wraps=ThreadPoolExecutor) as threads:
@@ -91,7 +91,7 @@ def test_a_fleet_is_the_same_on_any_number_of_processors(monkeypatch, tmp_path):
 
 
 @pytest.mark.parametrize("world", ["random", "posts"])
-def test_a_fleet_in_one_world_is_drawn_there(tmp_path, world):
+def test_fleet_in_one_world_is_drawn_there(tmp_path, world):
     done = octet("run", "--robots", "35", "--worlds", "one", "--world", world, *SHORT, "--json", "--out", tmp_path)
 
     assert json.loads(done.stdout)["worlds"] == "one"
@@ -99,7 +99,7 @@ def test_a_fleet_in_one_world_is_drawn_there(tmp_path, world):
         assert picture.height > 1300
 
 
-def test_a_hall_is_drawn_whole(tmp_path):
+def test_fleet_in_a_hall_is_drawn_whole(tmp_path):
     done = octet("run", "--robots", "120", "--worlds", "hall", *SHORT, "--out", tmp_path)
 
     assert done.stdout.startswith("fleet     120 robots, all in one hall")
@@ -132,7 +132,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize(("words", "reason"), REFUSED.values(), ids=REFUSED)
-def test_what_a_fleet_does_not_have_is_refused(tmp_path, words, reason):
+def test_option_that_a_fleet_does_not_have_is_refused(tmp_path, words, reason):
     done = octet("run", "--robots", "1000", *SHORT, "--out", tmp_path / "out", *words)
 
     assert done.returncode == 2
@@ -142,13 +142,13 @@ def test_what_a_fleet_does_not_have_is_refused(tmp_path, words, reason):
     assert not (tmp_path / "out").exists()
 
 
-def test_each_option_that_the_table_keeps_from_fleets_is_among_them():
+def test_refused_options_include_all_that_the_table_keeps_from_fleets():
     kept = {flag_of(name, row) for name, (_, row) in options_of(RunOptions).items() if not row.fleet}
 
     assert kept <= {words[0] for words, _ in REFUSED.values()}
 
 
-def test_fleets_are_for_run_only():
+def test_watch_refuses_a_fleet():
     done = octet("watch", "--robots", "32")
 
     assert done.returncode == 2

@@ -64,19 +64,19 @@ def share(truths: list[bool]) -> float:
     return sum(truths) / len(truths)
 
 
-def test_nearly_every_environment_is_finished(environments):
+def test_robots_finish_nearly_every_environment(environments):
     assert share([episode.finished for episode in environments]) >= 0.86
 
 
 @pytest.mark.parametrize(("cell", "enough"), [(1, 0.9), (4, 0.9), (3, 0.7), (6, 0.75)])
-def test_two_environments_are_usually_enough_to_learn_the_proper_responses(runs, cell, enough):
+def test_proper_responses_are_usually_learned_within_two_environments(runs, cell, enough):
     after_two = [episodes[1].robots[0].memory for episodes in runs]
 
     assert share([memory[cell] == PROPER[cell] for memory in after_two]) >= enough
 
 
 @pytest.mark.parametrize(("cell", "enough"), [(1, 0.95), (4, 0.95), (3, 0.87), (6, 0.87)])
-def test_what_is_on_the_right_causes_left_turns_and_the_other_way_round(last, cell, enough):
+def test_pattern_on_one_side_causes_turns_to_the_other(last, cell, enough):
     learned = [memory[cell] for memory in last if memory[cell]]
 
     assert len(learned) > 0.9 * len(last)
@@ -84,22 +84,22 @@ def test_what_is_on_the_right_causes_left_turns_and_the_other_way_round(last, ce
 
 
 @pytest.mark.parametrize(("cell", "enough"), [(2, 0.9), (5, 0.55), (7, 0.55)])
-def test_for_symmetrical_patterns_some_side_is_learned_and_robots_differ(last, cell, enough):
+def test_robots_learn_different_sides_for_symmetrical_patterns(last, cell, enough):
     learned = [memory[cell] for memory in last if memory[cell]]
 
     assert len(learned) >= enough * len(last)
     assert 0.15 <= share([side == Side.LEFT for side in learned]) <= 0.85
 
 
-def test_hardly_a_robot_ever_touches_anything(environments):
+def test_robots_rarely_touch_anything(environments):
     assert share([episode.robots[0].collisions == 0 for episode in environments]) >= 0.95
 
 
-def test_an_environment_takes_a_few_minutes(environments):
+def test_environment_takes_a_few_minutes(environments):
     assert 100 < statistics.median(episode.robot_s for episode in environments) < 220
 
 
-def test_a_learner_is_not_far_from_one_that_is_programmed_and_far_from_one_that_never_remembers():
+def test_article_profile_is_blocked_far_less_than_never_and_more_than_fixed():
     learned, programmed, never = map(blocked_s, ("article", "fixed", "never"))
 
     assert programmed < learned < 0.6 * never
@@ -120,18 +120,18 @@ def shared(run):
     return run(*FOUR, "--bus", "none", "--profile", "adaptive", "--set", "share=1")
 
 
-def test_after_40_seconds_each_knows_what_only_some_know_who_do_not_share(run, shared):
+def test_sharing_robots_know_all_proper_turns_after_40_s_and_others_do_not(run, shared):
     alone = run(*FOUR, "--bus", "none", "--profile", "adaptive")
 
     assert [knows(robot) for robot in shared.summary["robots"]] == [{1, 3, 4, 6}] * 4
     assert min(len(knows(robot)) for robot in alone.summary["robots"]) < len(PROPER)
 
 
-def test_over_a_socket_pair_each_hears_the_same(run, shared):
+def test_sharing_robots_leave_the_same_log_over_a_socket_pair(run, shared):
     assert run(*FOUR, "--bus", "fd", "--profile", "adaptive", "--set", "share=1").log == shared.log
 
 
-def test_in_python_each_hears_the_same(run, shared, monkeypatch):
+def test_sharing_robots_leave_the_same_log_in_python(run, shared, monkeypatch):
     monkeypatch.setattr(Simulation, "native", False)
     monkeypatch.setattr(Simulation, "_enter_loop", lambda _: None)
 
@@ -139,24 +139,24 @@ def test_in_python_each_hears_the_same(run, shared, monkeypatch):
 
 
 @pytest.mark.vcan
-def test_on_a_bus_each_hears_the_same(run, shared):
+def test_sharing_robots_leave_the_same_log_over_vcan(run, shared):
     assert run(*FOUR, "--bus", "socketcan:vcan0", "--profile", "adaptive", "--set", "share=1").log == shared.log
 
 
 @pytest.mark.parametrize("node", ["1", "4"])
-def test_a_replay_hears_the_others_too(shared, node):
+def test_replay_of_each_sharing_robot_has_no_difference(shared, node):
     replayed = octet("replay", shared.out / "run.log", "--node", node)
 
     assert "no difference" in replayed.stdout
 
 
-def test_profiles_that_learn_otherwise_teach_each_other(run):
+def test_robots_with_the_article_profile_teach_each_other(run):
     article = run(*FOUR, "--bus", "none", "--profile", "article", "--set", "share=1")
 
     assert [knows(robot) for robot in article.summary["robots"]] == [{1, 3, 4, 6}] * 4
 
 
-def test_robots_with_all_five_sensors_do_not_take_part(run):
+def test_robots_with_profile_five_do_not_share(run):
     words = (*FOUR, "--bus", "none", "--profile", "five")
     share, alone = run(*words, "--set", "share=1"), run(*words)
 
@@ -172,7 +172,7 @@ WRITTEN = {
 
 
 @pytest.mark.parametrize("profile", PROFILES)
-def test_a_run_of_each_profile_is_replayed_without_a_difference(profile, tmp_path):
+def test_run_of_each_profile_is_replayed_without_a_difference(profile, tmp_path):
     path = tmp_path / "run.log"
     log = FrameLog(path)
     with make(RunConfig(seed=3, environments=1, limit_s=20, profile=profile), log) as simulation:
@@ -187,7 +187,7 @@ def test_a_run_of_each_profile_is_replayed_without_a_difference(profile, tmp_pat
 
 
 @pytest.mark.parametrize(("kind", "profile"), list(itertools.product(MemoryKind, PROFILES)))
-def test_a_memory_of_each_kind_is_understood_by_each_profile(kind, profile):
+def test_memory_of_each_kind_is_understood_by_each_profile(kind, profile):
     config = RunConfig(environments=1, limit_s=0.1, profile=profile, settings={"speed_mm_s": 20})
     with make(config, memories=[WRITTEN[kind]]) as simulation:
         memory = simulation.clients[0].memory
@@ -196,7 +196,7 @@ def test_a_memory_of_each_kind_is_understood_by_each_profile(kind, profile):
     assert sides_of(memory) == sides_of(WRITTEN[kind])
 
 
-def test_a_start_with_another_profile_translates_what_was_learned():
+def test_start_with_another_profile_translates_the_memory():
     with make(RunConfig(profile="adaptive"), memories=[SIDES]) as simulation:
         (client,) = simulation.clients
         learned = client.memory

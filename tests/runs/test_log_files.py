@@ -34,7 +34,7 @@ def plain(tmp_path_factory) -> Path:
     return out
 
 
-def test_it_has_the_same_lines_and_the_same_digest(plain, tmp_path):
+def test_compressed_log_has_the_same_lines_and_digest(plain, tmp_path):
     assert octet("run", *SHORT, "--compress-log", "--out", tmp_path).returncode == 0
 
     digests = {json.loads((out / "summary.json").read_text())["log_sha256"] for out in (plain, tmp_path)}
@@ -44,7 +44,7 @@ def test_it_has_the_same_lines_and_the_same_digest(plain, tmp_path):
     assert octet("replay", tmp_path / "run.log.gz").returncode == 0
 
 
-def test_it_replaces_a_plain_one_and_the_other_way_round(tmp_path):
+def test_compressed_log_replaces_a_plain_one_and_vice_versa(tmp_path):
     for words, name in (((), "run.log"), (("--compress-log",), "run.log.gz"), ((), "run.log")):
         done = octet("run", *SHORT[:-1], *words, "--out", tmp_path)
 
@@ -53,7 +53,7 @@ def test_it_replaces_a_plain_one_and_the_other_way_round(tmp_path):
     assert f"replaced  the run in {tmp_path} (seed 1), which" in done.stdout
 
 
-def test_wherever_it_is_cut_off_what_is_there_is_read(plain, tmp_path):
+def test_truncated_compressed_log_is_read_up_to_the_cut(plain, tmp_path):
     text, cut = (plain / "run.log").read_bytes(), tmp_path / "run.log.gz"
     log = FrameLog(cut)
     for line in text.splitlines(keepends=True):
@@ -69,7 +69,7 @@ def test_wherever_it_is_cut_off_what_is_there_is_read(plain, tmp_path):
         assert len(read) > 0
 
 
-def test_of_a_run_that_was_killed_all_but_the_last_64_kb_are_there(tmp_path):
+def test_killed_run_keeps_all_but_the_last_64_kb_of_its_log(tmp_path):
     part = tmp_path / "run.log.gz.part"
     long = ("--environments", "30", "--bus", "fd", "--quiet")
     process = start_octet("run", *long, "--compress-log", "--out", tmp_path)
@@ -85,7 +85,7 @@ def test_of_a_run_that_was_killed_all_but_the_last_64_kb_are_there(tmp_path):
 
 
 @pytest.mark.parametrize("size", [3000, 30_000])
-def test_on_a_full_disk_the_run_ends_in_order_and_what_fitted_can_be_read(tmp_path, size):
+def test_run_on_a_full_disk_ends_in_order_and_leaves_a_readable_log(tmp_path, size):
     witness = Witness()
 
     outcome = run_interrupted(tmp_path, with_full_disk(size), witness, "--compress-log")
@@ -106,7 +106,7 @@ NO_LOGS = {
 
 
 @pytest.mark.parametrize("content", NO_LOGS.values(), ids=NO_LOGS.keys())
-def test_a_replay_of_no_log_says_so_in_one_line(tmp_path, content):
+def test_replay_of_an_invalid_log_says_so_in_one_line(tmp_path, content):
     log = tmp_path / "run.log"
     if content is not None:
         log.write_bytes(content)
@@ -119,7 +119,7 @@ def test_a_replay_of_no_log_says_so_in_one_line(tmp_path, content):
     assert str(log) in done.stderr
 
 
-def test_the_replay_of_several_robots_names_each(run):
+def test_replay_of_several_robots_names_each(run):
     done = run("--environments", "1", "--bus", "none", "--limit-s", "2", "--robots", "2", "--node", "3")
 
     replayed = octet("replay", done.out / "run.log", "--node", "3")
@@ -129,7 +129,7 @@ def test_the_replay_of_several_robots_names_each(run):
 
 
 @pytest.mark.parametrize("cut_off", [1, 7, 30, 50, 70, 90, 110])
-def test_a_log_cut_anywhere_is_compared_as_far_as_it_goes(run, tmp_path, cut_off):
+def test_truncated_log_is_compared_up_to_the_cut(run, tmp_path, cut_off):
     done = run("--environments", "1", "--bus", "none", "--limit-s", "2")
     cut = tmp_path / "cut.log"
     cut.write_bytes(done.log[: len(done.log) // 2 - cut_off])
@@ -150,7 +150,7 @@ def with_another_layout(line: str) -> str:
     return f"{head}#{crc8(frame_id, content):02X}{content[1:].hex().upper()}\n"
 
 
-def test_a_log_of_another_protocol_is_refused(run, tmp_path):
+def test_log_of_another_protocol_is_refused(run, tmp_path):
     done = run("--environments", "1", "--bus", "none", "--limit-s", "2")
     other = tmp_path / "other.log"
     lines = done.log.decode().splitlines(keepends=True)
@@ -258,7 +258,7 @@ def lost(folder: Path, disk: Disk, log: bytes) -> list[str]:
 
 
 @pytest.mark.parametrize("number", [errno.ENOSPC, errno.EIO])
-def test_whichever_write_fails_the_run_says_so_and_loses_nothing(clean, tmp_path, number):
+def test_run_reports_any_failed_write_and_loses_nothing(clean, tmp_path, number):
     count, log = clean[0].done, clean[1]
     assert len(clean[0].memories) > 1
     assert count >= 20
@@ -274,7 +274,7 @@ def test_whichever_write_fails_the_run_says_so_and_loses_nothing(clean, tmp_path
         assert re.fullmatch(told, ended.stderr)
 
 
-def test_a_write_whose_failure_is_not_told_is_found(clean, tmp_path, monkeypatch):
+def test_silently_truncated_memory_is_found(clean, tmp_path, monkeypatch):
     monkeypatch.setattr(
         "host_sim.recording.memory_file.write_bytes", lambda path, content: path.write_bytes(content[:4])
     )

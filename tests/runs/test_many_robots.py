@@ -63,7 +63,7 @@ def external(plugged: Adapter, *words: str) -> tuple[str, ...]:
     return ("--bus", f"slcan:{plugged.host}", "--robot", "external", *words)
 
 
-def test_robots_behind_one_adapter_do_what_they_do_elsewhere(run, adapter):
+def test_robots_behind_one_adapter_leave_the_same_log_as_in_process(run, adapter):
     words = (*WORDS, "--limit-s", "5", "--robots", "3", "--node", "4")
 
     behind = run(*words, *external(adapter(4, 5, 6)), "--owner", "1")
@@ -74,7 +74,7 @@ def test_robots_behind_one_adapter_do_what_they_do_elsewhere(run, adapter):
     assert [robot["node"] for robot in behind.summary["robots"]] == [4, 5, 6]
 
 
-def test_a_robot_that_is_missing_behind_the_adapter_is_named(run, adapter, monkeypatch):
+def test_robot_missing_behind_the_adapter_is_named(run, adapter, monkeypatch):
     monkeypatch.setattr("host_sim.sim.connect._EXTERNAL_S", 0.5)
 
     done = run(*WORDS, "--robots", "3", *external(adapter(1, 2)))
@@ -92,7 +92,7 @@ def test_a_robot_that_is_missing_behind_the_adapter_is_named(run, adapter, monke
         (("--bitrate", "1000000"), b"S8"),
     ],
 )
-def test_the_adapter_is_told_the_bit_rate(run, adapter, words, order):
+def test_adapter_is_told_the_bit_rate(run, adapter, words, order):
     plugged = adapter(1)
 
     done = run(*WORDS, "--limit-s", "1", *external(plugged, *words))
@@ -102,7 +102,7 @@ def test_the_adapter_is_told_the_bit_rate(run, adapter, words, order):
 
 
 @pytest.mark.vcan
-def test_robots_that_are_on_a_bus_already_do_what_they_do_elsewhere(run):
+def test_robots_already_on_vcan_leave_the_same_log_as_in_process(run):
     words = (*WORDS, "--limit-s", "5", "--robots", "3", "--node", "4")
 
     with robots_at(dict.fromkeys((4, 5, 6), "socketcan:vcan0")):
@@ -153,7 +153,7 @@ def crowd(tmp_path_factory) -> Crowd:
 
 
 @pytest.mark.vcan
-def test_no_robot_of_a_full_bus_loses_a_frame(crowd):
+def test_robots_on_a_full_bus_lose_no_frame(crowd):
     summary = crowd.run.summary
 
     assert (crowd.run.code, crowd.run.errors) == (0, "")
@@ -164,7 +164,7 @@ def test_no_robot_of_a_full_bus_loses_a_frame(crowd):
 
 
 @pytest.mark.vcan
-def test_another_reader_of_a_full_bus_sees_the_frames_of_the_log(crowd):
+def test_other_reader_of_a_full_bus_sees_the_frames_of_the_log(crowd):
     logged = {it.frame for it in read_log(crowd.run.out / "run.log")}
     on_the_bus = {Frame(it.arbitration_id, bytes(it.data)) for it in crowd.heard}
 
@@ -174,7 +174,7 @@ def test_another_reader_of_a_full_bus_sees_the_frames_of_the_log(crowd):
 
 
 @pytest.mark.vcan
-def test_a_full_bus_takes_what_is_computed(crowd):
+def test_load_of_a_full_bus_is_as_computed(crowd):
     log = [it for it in read_log(crowd.run.out / "run.log") if it.time_us]  # the start takes no time in a log
     available = (log[-1].time_us - log[0].time_us) / 1e6 * BIT_RATE
 
@@ -184,7 +184,7 @@ def test_a_full_bus_takes_what_is_computed(crowd):
     assert 0.8 * at_worst < sum(len(bits_sent(it.frame)) for it in log) / available < at_worst
 
 
-def test_an_external_robot_gets_an_owner_that_depends_on_the_seed_alone(run, adapter):
+def test_owner_of_an_external_robot_depends_on_the_seed_alone(run, adapter):
     words = (*WORDS, "--limit-s", "1")
     runs = [run(*words, "--seed", seed, *external(adapter(1))) for seed in ("1", "1", "2")]
 

@@ -13,7 +13,7 @@ from tests.runs.log_hashes import Recorded, differences, digest_of_log, runs
 from tests.runs.support import BUSY_HOST, Run, assert_healthy, octet
 
 
-def test_a_run_finishes_its_environments_and_says_so(run):
+def test_run_finishes_its_environments_and_says_so(run):
     done = run("--environments", "2", "--bus", "fd")
 
     assert (done.code, done.errors) == (0, "")
@@ -23,7 +23,7 @@ def test_a_run_finishes_its_environments_and_says_so(run):
     assert done.output.splitlines()[-1] == "ALL DONE"
 
 
-def test_a_run_leaves_log_summary_and_picture(run):
+def test_run_leaves_log_summary_and_picture(run):
     done = run("--environments", "1", "--limit-s", "10", "--bus", "none", process=True)
 
     assert (done.out / "arena.png").read_bytes().startswith(b"\x89PNG")
@@ -31,7 +31,7 @@ def test_a_run_leaves_log_summary_and_picture(run):
     assert not list(done.out.glob("*.part"))
 
 
-def test_the_summary_has_all_that_is_promised(run):
+def test_summary_has_exactly_the_expected_fields(run):
     summary = run("--environments", "1", "--bus", "none").summary
 
     top = {
@@ -84,7 +84,7 @@ def test_python_can_reads_the_log(run):
 
 
 @pytest.mark.parametrize("seed", [0, 7, 2**32 - 1])
-def test_a_robot_behind_a_socket_pair_and_one_in_this_process_leave_the_same_bytes(run, seed):
+def test_run_over_a_socket_pair_leaves_the_same_bytes_as_in_process(run, seed):
     words = ("--environments", "1", "--seed", str(seed))
 
     behind, within = run(*words, "--bus", "fd"), run(*words, "--bus", "none")
@@ -92,7 +92,7 @@ def test_a_robot_behind_a_socket_pair_and_one_in_this_process_leave_the_same_byt
     assert behind.log == within.log
 
 
-def test_the_same_run_again_leaves_the_same_bytes(run):
+def test_repeated_run_leaves_the_same_bytes(run):
     words = ("--environments", "2", "--limit-s", "40", "--seed", "5", "--bus", "none")
 
     once, again = run(*words, process=True), run(*words, process=True)
@@ -101,7 +101,7 @@ def test_the_same_run_again_leaves_the_same_bytes(run):
     assert (once.out / "arena.png").read_bytes() == (again.out / "arena.png").read_bytes()
 
 
-def test_a_replay_names_the_first_drive_that_differs(run, tmp_path):
+def test_replay_names_the_first_drive_that_differs(run, tmp_path):
     done = run("--environments", "1", "--bus", "none")
     lines = done.log.decode().splitlines(keepends=True)
     at = next(i for i, line in enumerate(lines) if i > 500 and " 041#" in line)
@@ -125,7 +125,7 @@ def test_settings_change_the_run_and_its_replay_knows_them(run):
     assert octet("replay", changed.out / "run.log").returncode == 0
 
 
-def test_another_node_has_its_own_identifiers(run):
+def test_node_option_changes_the_identifiers(run):
     done = run("--environments", "1", "--bus", "fd", "--node", "31")
 
     identifiers = {line.split()[2][:3] for line in done.log.decode().splitlines()}
@@ -133,7 +133,7 @@ def test_another_node_has_its_own_identifiers(run):
     assert octet("replay", "--node", "31", done.out / "run.log").returncode == 0
 
 
-def test_a_short_time_limit_ends_an_environment_unfinished(run):
+def test_short_time_limit_ends_an_environment_unfinished(run):
     done = run("--environments", "2", "--bus", "none", "--limit-s", "2")
 
     assert [environment["ticks"] for environment in done.summary["environments"]] == [100, 100]
@@ -142,7 +142,7 @@ def test_a_short_time_limit_ends_an_environment_unfinished(run):
 
 
 @pytest.mark.faulty
-def test_real_time_takes_its_time(run):
+def test_real_time_run_takes_as_long_as_its_ticks(run):
     done = run("--environments", "1", "--bus", "fd", "--limit-s", "3", "--real-time", *BUSY_HOST)
 
     assert done.summary["environments"][0]["ticks"] == 150
@@ -151,7 +151,7 @@ def test_real_time_takes_its_time(run):
         assert (done.code, octet("replay", done.out / "run.log").returncode) == (0, 0)
 
 
-def test_a_memory_file_is_made_gone_on_with_and_kept_up(run, tmp_path):
+def test_run_writes_a_memory_file_and_the_next_run_continues_with_it(run, tmp_path):
     memory = tmp_path / "robot.mem"
 
     first = run("--environments", "1", "--bus", "fd", "--memory", memory)
@@ -182,13 +182,13 @@ def test_several_robots_leave_one_log_and_an_entry_each(run):
     assert (replayed.returncode, replayed.stdout.count("no difference")) == (0, 3)
 
 
-def test_several_robots_give_the_same_bytes_in_processes_and_in_this_one(run):
+def test_several_robots_leave_the_same_bytes_over_fd_as_in_process(run):
     words = ("--robots", "2", "--environments", "1", "--limit-s", "20", "--seed", "4")
 
     assert run(*words, "--bus", "fd").log == run(*words, "--bus", "none").log
 
 
-def test_the_first_of_several_robots_begins_as_it_would_alone(run):
+def test_first_of_several_robots_begins_as_it_would_alone(run):
     alone = run("--environments", "1", "--limit-s", "1", "--bus", "none")
     together = run("--robots", "2", "--environments", "1", "--limit-s", "1", "--bus", "none")
 
@@ -198,7 +198,7 @@ def test_the_first_of_several_robots_begins_as_it_would_alone(run):
     assert first_senses(alone.log) == first_senses(together.log)
 
 
-def test_each_of_several_robots_has_its_memory_file(run, tmp_path):
+def test_several_robots_have_a_memory_file_each(run, tmp_path):
     words = ("--robots", "2", "--environments", "1", "--bus", "none", "--memory", tmp_path / "robot.mem")
 
     done = run(*words)
@@ -207,20 +207,20 @@ def test_each_of_several_robots_has_its_memory_file(run, tmp_path):
     assert saved == [robot["memory"] for robot in done.summary["robots"]]
 
 
-def test_every_run_has_a_name_of_its_own():
+def test_runs_to_hash_have_unique_names():
     names = Counter(recorded.name for recorded in runs())
 
     assert len(names) > 190
     assert set(names.values()) == {1}
 
 
-def test_a_log_is_the_same_again_and_differs_with_the_options():
+def test_log_digest_is_reproducible_and_depends_on_the_options():
     one, other = islice(runs(), 2)
 
     assert digest_of_log(one) == digest_of_log(one) != digest_of_log(other)
 
 
-def test_edits_and_the_size_of_steps_are_heeded():
+def test_edits_change_the_log_and_the_step_size_does_not():
     config = RunConfig(environments=1, limit_s=12.0)
 
     plain, edited, by_tick = (digest_of_log(Recorded("", config, *rest)) for rest in ((), (True,), (True, 1)))
@@ -228,5 +228,5 @@ def test_edits_and_the_size_of_steps_are_heeded():
     assert plain != edited == by_tick
 
 
-def test_what_differs_is_named():
+def test_differences_names_changed_missing_and_new_runs():
     assert differences({"a": "1", "b": "2", "gone": "3"}, {"a": "1", "b": "4", "new": "5"}) == ["b", "gone", "new"]

@@ -16,13 +16,13 @@ def seed_of(log: Path, node: int) -> int | None:
     return read_recording(read_log(log), Protocol(node)).seed
 
 
-def test_the_second_robot_has_the_next_seed(run):
+def test_second_robot_has_the_next_seed(run):
     log = run(*TWO, "--environments", "1", "--seed", "4").out / "run.log"
 
     assert [seed_of(log, node) for node in (1, 2)] == [4, 5]
 
 
-def test_the_second_robot_has_its_own_memory_and_keeps_it(run, tmp_path):
+def test_second_robot_has_its_own_memory_and_keeps_it(run, tmp_path):
     (tmp_path / "robot-1.mem").write_bytes(ONE_MEMORY)
     (tmp_path / "robot-2.mem").write_bytes(OTHER_MEMORY)
 
@@ -34,21 +34,21 @@ def test_the_second_robot_has_its_own_memory_and_keeps_it(run, tmp_path):
 
 
 @pytest.mark.faulty
-def test_what_makes_the_second_robot_doubtful_is_told(run):
+def test_incidents_name_the_second_doubtful_robot_too(run):
     done = run(*TWO, "--environments", "1", "--fault", "forge:freeze@300/to")
 
     incidents = " ".join(done.summary["incidents"])
     assert [f"(node {node})" in incidents for node in (1, 2)] == [True, True]
 
 
-def test_the_summary_has_the_second_robot_and_it_is_stopped_as_the_first(run):
+def test_second_robot_is_in_the_summary_and_stopped_like_the_first(run):
     done = run(*TWO, "--environments", "1")
 
     assert [robot["node"] for robot in done.summary["robots"]] == [1, 2]
     assert done.log.count(b" 021#") == done.log.count(b" 022#")
 
 
-def test_the_summary_has_each_environment_to_the_last(run):
+def test_summary_has_each_environment_to_the_last(run):
     environments = run(*TWO, "--environments", "3").summary["environments"]
 
     assert len(environments) == 3
@@ -56,5 +56,5 @@ def test_the_summary_has_each_environment_to_the_last(run):
     assert [each["finished"] for each in environments] == [each["food_eaten"] == 3 for each in environments]
 
 
-def test_all_is_done_once_the_last_environment_is(run):
+def test_run_prints_all_done_once_the_last_environment_is_done(run):
     assert "ALL DONE" in run("--bus", "none", "--environments", "2").output

@@ -32,7 +32,7 @@ def second_robot() -> Iterator[Callable[[], None]]:
         robot.communicate()
 
 
-def test_a_bus_that_goes_down_and_comes_back_changes_nothing(run, tmp_path):
+def test_bus_that_goes_down_and_comes_back_changes_no_drive(run, tmp_path):
     subprocess.run(["ip", "link", "add", "dev", "vcan8", "type", "vcan"], check=True)
     subprocess.run(["ip", "link", "set", "vcan8", "up"], check=True)
     words = ("--environments", "1", "--seed", "3", "--limit-s", "60")
@@ -53,7 +53,7 @@ def test_a_bus_that_goes_down_and_comes_back_changes_nothing(run, tmp_path):
     assert "gone" in output
 
 
-def test_a_second_robot_with_the_same_number_ends_the_run(tmp_path, second_robot):
+def test_second_robot_with_the_same_number_ends_the_run(tmp_path, second_robot):
     process = start_octet("run", "--out", tmp_path, *LONG, *VCAN)
     wait_for_lines(process, tmp_path / "run.log", 1000)
 
@@ -65,7 +65,7 @@ def test_a_second_robot_with_the_same_number_ends_the_run(tmp_path, second_robot
     assert errors.count("\n") == 1
 
 
-def test_a_second_simulator_keeps_off_a_robot_that_is_driven(tmp_path):
+def test_second_simulator_leaves_a_driven_robot_alone(tmp_path):
     first = start_octet("run", "--out", tmp_path / "first", *LONG, *VCAN)
     wait_for_lines(first, tmp_path / "first/run.log", 1000)
 
@@ -78,7 +78,7 @@ def test_a_second_simulator_keeps_off_a_robot_that_is_driven(tmp_path):
     first.communicate()
 
 
-def test_a_forged_stop_ends_the_run(tmp_path):
+def test_forged_stop_ends_the_run(tmp_path):
     frame = Protocol().encode("COMMAND", {"counter": 9, "opcode": Opcode.STOP, "owner": 9})
     process = start_octet("run", "--out", tmp_path, *LONG, *VCAN)
     wait_for_lines(process, tmp_path / "run.log", 1000)

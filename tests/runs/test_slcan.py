@@ -51,7 +51,7 @@ def drives_in(log: bytes) -> list[bytes]:
     return [line for line in re.findall(rb" (041#\w+)", log) if line[8:9] != b"0"]
 
 
-def test_over_slcan_a_run_leaves_the_same_bytes(run, robot_on, cable):
+def test_run_over_slcan_leaves_the_same_bytes_as_in_process(run, robot_on, cable):
     words = ("--environments", "1", "--limit-s", "20")
     robot_on(cable)
 
@@ -63,7 +63,7 @@ def test_over_slcan_a_run_leaves_the_same_bytes(run, robot_on, cable):
     assert octet("replay", over_slcan.out / "run.log").returncode == 0
 
 
-def test_an_external_robot_can_be_run_again_and_keeps_its_memory(run, robot_on, cable):
+def test_external_robot_can_be_run_again_and_keeps_its_memory(run, robot_on, cable):
     words = ("--environments", "1", "--limit-s", "40", *external(cable))
     robot_on(cable)
 
@@ -77,7 +77,7 @@ def test_an_external_robot_can_be_run_again_and_keeps_its_memory(run, robot_on, 
 
 
 @pytest.mark.faulty
-def test_noise_on_the_line_slows_a_run_and_changes_nothing(run, robot_on, cable):
+def test_noise_on_the_serial_line_repeats_frames_and_changes_no_drive(run, robot_on, cable):
     words = ("--environments", "1", "--limit-s", "5")
     robot_on(cable)
     cable.noise = 0.01
@@ -94,7 +94,7 @@ def test_noise_on_the_line_slows_a_run_and_changes_nothing(run, robot_on, cable)
 
 
 @pytest.mark.faulty
-def test_an_adapter_that_is_unplugged_and_plugged_in_again_is_waited_for(robot_on, tmp_path):
+def test_run_waits_for_an_adapter_that_is_unplugged_and_plugged_in_again(robot_on, tmp_path):
     socket = Socket(tmp_path / "tty")
     first = Cable()
     robot = robot_on(first)
@@ -124,7 +124,7 @@ def test_an_adapter_that_is_unplugged_and_plugged_in_again_is_waited_for(robot_o
 
 
 @pytest.mark.faulty
-def test_a_line_that_stays_away_ends_the_run_with_one_line(robot_on, tmp_path):
+def test_run_ends_with_one_message_when_the_serial_line_stays_away(robot_on, tmp_path):
     socket, cable = Socket(tmp_path / "tty"), Cable()
     robot_on(cable)
     socket.plug(cable.ends[1])
@@ -142,7 +142,7 @@ def test_a_line_that_stays_away_ends_the_run_with_one_line(robot_on, tmp_path):
 
 @pytest.mark.faulty
 @pytest.mark.parametrize("length", [("30",), ("6", "--real-time", *BUSY_HOST)], ids=["in lockstep", "in real time"])
-def test_a_robot_that_restarts_goes_on_with_its_memory_and_the_result_is_doubted(robot_on, cable, tmp_path, length):
+def test_restarted_robot_keeps_its_memory_and_the_run_is_doubtful(robot_on, cable, tmp_path, length):
     words = ("--environments", "1", *external(cable), "--limit-s", *length)
     memory = tmp_path / "robot.mem"
     memory.write_bytes(LEARNED)
@@ -164,7 +164,7 @@ def test_a_robot_that_restarts_goes_on_with_its_memory_and_the_result_is_doubted
 
 
 @pytest.mark.faulty
-def test_watching_an_external_robot_is_in_real_time_on_its_own_clock(robot_on, cable, tmp_path):
+def test_watched_external_robot_runs_in_real_time_on_its_own_clock(robot_on, cable, tmp_path):
     robot_on(cable)
     words = ("--environments", "1", "--limit-s", "3", "--port", "0", "--json", *external(cable))
 
@@ -192,7 +192,7 @@ def adapter_that() -> Iterator[Callable[[str], str]]:
 
 
 @pytest.mark.parametrize("habit", ["crlf", "stamps", "echoes", "restarts"])
-def test_what_real_adapters_do_changes_nothing(run, adapter_that, habit):
+def test_quirks_of_real_adapters_change_no_drive(run, adapter_that, habit):
     words = ("--environments", "1", "--limit-s", "5", "--owner", "1")
 
     over_adapter = run(*words, "--bus", f"slcan:{adapter_that(habit)}", "--robot", "external")
@@ -201,7 +201,7 @@ def test_what_real_adapters_do_changes_nothing(run, adapter_that, habit):
     assert drives_in(over_adapter.log) == drives_in(run(*words, "--bus", "none").log)
 
 
-def test_an_adapter_that_refuses_to_open_its_bus_is_said_to(run, adapter_that, monkeypatch):
+def test_adapter_that_refuses_to_open_its_bus_is_reported(run, adapter_that, monkeypatch):
     monkeypatch.setattr("host_sim.sim.connect._EXTERNAL_S", 3.0)
     refused = run("--environments", "1", "--bus", f"slcan:{adapter_that('refuses')}", "--robot", "external")
 

@@ -43,7 +43,7 @@ def frames_in(text: str) -> list[str]:
     return [line.split()[2] for line in whole_lines.splitlines() if "7FF#" not in line]
 
 
-def test_candump_sees_the_frames_of_the_log_and_only_repeats_beside(run, candump):
+def test_candump_sees_the_frames_of_the_log_and_otherwise_only_repeats(run, candump):
     process, heard = candump
 
     done = run("--environments", "1", "--limit-s", "20", *VCAN)
@@ -66,7 +66,7 @@ def beside(sent: list[str], heard: list[str]) -> list[str]:
     return others
 
 
-def test_over_vcan_a_run_leaves_the_same_bytes(run):
+def test_run_over_vcan_leaves_the_same_bytes_as_in_process(run):
     words = ("--environments", "1", "--limit-s", "20", "--seed", "3")
 
     on_the_bus, within = run(*words, *VCAN), run(*words, "--bus", "none")
@@ -75,14 +75,14 @@ def test_over_vcan_a_run_leaves_the_same_bytes(run):
     assert octet("replay", on_the_bus.out / "run.log").returncode == 0
 
 
-def test_auto_takes_vcan_where_there_is_one_and_says_so(run):
+def test_auto_bus_chooses_vcan_where_there_is_one_and_says_so(run):
     done = run("--environments", "1", "--limit-s", "2", "--bus", "auto", process=True)
 
     assert done.code == 0
     assert "socketcan:vcan0" in done.output
 
 
-def test_a_robot_that_is_killed_ends_the_run_with_one_line(tmp_path):
+def test_killed_robot_ends_the_run_with_one_line(tmp_path):
     process = start_octet("run", "--out", tmp_path, "--environments", "20", "--quiet", *VCAN)
     robot = robot_of(process)
     wait_for_lines(process, tmp_path / "run.log", 1000)
@@ -96,7 +96,7 @@ def test_a_robot_that_is_killed_ends_the_run_with_one_line(tmp_path):
 
 
 @pytest.mark.faulty
-def test_garbage_on_the_bus_is_refused_and_the_robot_learns_as_ever(run):
+def test_garbage_on_the_bus_is_refused_and_changes_no_drive(run):
     words = ("--environments", "1", "--limit-s", "20", "--seed", "3")
     quiet = run(*words, "--bus", "none")
     # Random frames of every kind and identifier, and frames with that of SENSES that are a byte too short.
@@ -120,7 +120,7 @@ def drives_in(log: bytes) -> list[bytes]:
     return re.findall(rb" (041#\w+)", log)
 
 
-def test_an_interface_that_vanishes_ends_the_run_with_one_line(tmp_path):
+def test_vanished_interface_ends_the_run_with_one_line(tmp_path):
     subprocess.run(["ip", "link", "add", "dev", "vcan9", "type", "vcan"], check=True)
     subprocess.run(["ip", "link", "set", "vcan9", "up"], check=True)
     words = ("--environments", "20", "--quiet", "--bus", "socketcan:vcan9", "--reconnect-s", "0.5")
@@ -135,7 +135,7 @@ def test_an_interface_that_vanishes_ends_the_run_with_one_line(tmp_path):
     assert errors.count("\n") == 1
 
 
-def test_several_robots_share_a_bus(run):
+def test_several_robots_on_vcan_leave_the_same_log_as_in_process(run):
     words = ("--robots", "4", "--environments", "1", "--limit-s", "10", "--seed", "4")
 
     assert run(*words, *VCAN).log == run(*words, "--bus", "none").log
