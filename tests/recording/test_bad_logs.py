@@ -122,14 +122,14 @@ def test_log_without_a_run_is_refused_in_one_line(short, tmp_path, capsys, spoil
     assert not made.exists()
 
 
-def test_a_log_in_a_wrong_world_can_be_drawn_without_it(short, tmp_path):
+def test_log_in_a_wrong_world_can_be_drawn_without_the_world(short, tmp_path):
     take_the_world_of_another_seed(short.log)
 
     assert main(["replay", str(short.log), "--no-world", "--html", str(tmp_path / "page.html")]) == 0
 
 
 @pytest.mark.parametrize("pack", [bytes, gzip.compress, lzma.compress])
-def test_a_log_that_takes_long_shows_how_far_it_is(tmp_path, monkeypatch, pack):
+def test_reading_a_long_log_shows_progress(tmp_path, monkeypatch, pack):
     shown: list[tuple[str, int, int]] = []
 
     class Line(ProgressLine):
@@ -154,7 +154,7 @@ def test_a_log_that_takes_long_shows_how_far_it_is(tmp_path, monkeypatch, pack):
     assert len(shown) > 1
 
 
-def test_a_log_that_is_too_large_unpacked_is_refused(tmp_path, monkeypatch):
+def test_log_that_is_too_large_when_unpacked_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(log_files, "_SIZE_MAX", 1_000_000)
     path = tmp_path / "a.log.gz"
     path.write_bytes(gzip.compress(b"(1.000000) can0 123#00\n" * 60_000))
@@ -164,7 +164,7 @@ def test_a_log_that_is_too_large_unpacked_is_refused(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("name", ["big.log", "big.log.gz"])
-def test_a_log_is_read_a_line_at_a_time(tmp_path, name):
+def test_log_is_read_line_by_line(tmp_path, name):
     path = tmp_path / name
     text = b"(1795285590.648617) can0 682#C311000000000000\n" * 60_000
     path.write_bytes(gzip.compress(text, 1) if name.endswith(".gz") else text)

@@ -51,7 +51,7 @@ def with_other_orders(data: bytearray) -> bytearray:
     return with_crc("HEALTH", data)
 
 
-def test_a_run_keeps_to_the_protocol(short):
+def test_recorded_run_keeps_to_the_protocol(short):
     found = check_conversation(read_log(short.log), PROTOCOL)
 
     assert found.problems == []
@@ -100,7 +100,7 @@ def with_repeats(log) -> None:
     log.write_text("".join(lines))
 
 
-def test_a_log_with_repeated_frames_is_the_same_run(short):
+def test_log_with_repeated_frames_replays_as_the_same_run(short):
     clean = read_recording(read_log(short.log), Protocol())
     drives = replay(read_log(short.log), Protocol()).drives
     size = short.log.stat().st_size
@@ -113,7 +113,7 @@ def test_a_log_with_repeated_frames_is_the_same_run(short):
     assert (outcome.drives, outcome.difference) == (drives, None)
 
 
-def test_a_drive_that_is_missing_for_good_is_still_found(short):
+def test_missing_drive_is_found_as_a_difference(short):
     protocol = Protocol()
     lines = short.log.read_text().splitlines(keepends=True)
     drives = [i for i, line in enumerate(lines) if f" {protocol.id_of('DRIVE'):03X}#" in line]
@@ -123,7 +123,7 @@ def test_a_drive_that_is_missing_for_good_is_still_found(short):
     assert replay(read_log(short.log), protocol).difference is not None
 
 
-def test_a_report_that_is_asked_for_in_the_middle_of_a_tick_is_no_difference(short):
+def test_report_requested_within_a_tick_makes_no_difference(short):
     protocol = Protocol()
     lines = short.log.read_text().splitlines(keepends=True)
     senses = [i for i, line in enumerate(lines) if f" {protocol.id_of('SENSES'):03X}#" in line][100]
@@ -134,7 +134,7 @@ def test_a_report_that_is_asked_for_in_the_middle_of_a_tick_is_no_difference(sho
     assert replay(read_log(short.log), protocol).difference is None
 
 
-def test_a_report_that_is_asked_for_after_the_stop_is_part_of_the_end(short):
+def test_report_requested_after_the_stop_belongs_to_the_end(short):
     ask = Protocol().encode("COMMAND", {"counter": 9, "opcode": Opcode.REPORT, "owner": 1})
     with short.log.open("a") as log:
         log.write(f"(0000009999.000000) octet {ask.id:03X}#{ask.data.hex().upper()}\n")
@@ -143,7 +143,7 @@ def test_a_report_that_is_asked_for_after_the_stop_is_part_of_the_end(short):
     assert read_recording(read_log(short.log), Protocol()).stopped
 
 
-def test_a_robot_that_says_in_real_time_that_it_heard_nothing_makes_no_difference(tmp_path):
+def test_drive_for_silence_in_real_time_makes_no_difference(tmp_path):
     """It says so with the last tick, whose SENSES may have come by then, and are yet to be answered."""
     protocol, log = Protocol(), FrameLog(tmp_path / "run.log")
     with make(RunConfig(environments=1, limit_s=0.4, real_time=True, late_max=100.0), log) as simulation:
@@ -170,7 +170,7 @@ def recorded(name: str) -> Path:
 @pytest.mark.parametrize(
     ("name", "unanswered", "drives"), [("outages", 28, 37), ("a_gap", 6, 34), ("lost_answers", 6, 34)]
 )
-def test_senses_that_the_robot_has_not_heard_make_no_difference(name, unanswered, drives):
+def test_unanswered_senses_make_no_difference(name, unanswered, drives):
     """--fault drop@13-27/to with drop@43-55/to, drop@13-18/to, and drop@13-18/from."""
     outcome = replay(read_log(recorded(name)), PROTOCOL)
 
@@ -178,14 +178,14 @@ def test_senses_that_the_robot_has_not_heard_make_no_difference(name, unanswered
 
 
 @pytest.mark.parametrize(("name", "drives"), [("unsaid_outage", 25), ("late_answer", 25), ("gap_upon_gap", 38)])
-def test_what_a_busy_machine_recorded_makes_no_difference(name, drives):
+def test_losses_recorded_on_a_busy_host_make_no_difference(name, drives):
     """An outage without EMERGENCY; a DRIVE after the next SENSES, which are lost; a gap that later DRIVEs explain."""
     outcome = replay(read_log(recorded(name)), PROTOCOL)
 
     assert (outcome.drives, outcome.difference) == (drives, None)
 
 
-def test_a_run_of_now_makes_no_difference_or_lacks_what_would_tell(tmp_path):
+def test_new_run_with_losses_replays_alike_unless_its_log_lacks_too_much(tmp_path):
     """What a busy host adds to the loss may be more than its log can tell."""
     words = ("--bus", "fd", "--environments", "1", "--limit-s", "2", "--real-time", "--fault", "drop@23-28/from")
     assert octet("run", *words, *BUSY_HOST, "--out", tmp_path).returncode == 0
@@ -195,7 +195,7 @@ def test_a_run_of_now_makes_no_difference_or_lacks_what_would_tell(tmp_path):
     assert outcome.difference is None or outcome.unanswered > 6
 
 
-def test_a_difference_after_unanswered_senses_says_so(tmp_path):
+def test_difference_after_unanswered_senses_mentions_them(tmp_path):
     log = Path(shutil.copy(recorded("a_gap"), tmp_path))
     edited(log, "DRIVE", 25, faster)
 

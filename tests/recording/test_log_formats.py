@@ -54,11 +54,11 @@ LINES = {
 
 
 @pytest.mark.parametrize(("line", "time_us"), LINES.values(), ids=LINES)
-def test_a_line_of_each_kind_is_read(tmp_path, line, time_us):
+def test_line_of_each_format_is_read(tmp_path, line, time_us):
     assert read(tmp_path / "a.log", f"{line}\n{line}\n") == (frames(time_us, time_us), {})
 
 
-def test_time_stamps_that_are_differences_are_added_up(tmp_path):
+def test_relative_time_stamps_of_candump_are_added_up(tmp_path):
     lines = "".join(f" (000.{us:06d})  vcan0  {ID:03X}   [8]  {SPACED}\n" for us in (0, 20_000, 19_000, 21_000))
 
     assert read(tmp_path / "a.log", lines)[0] == frames(0, 20_000, 39_000, 60_000)
@@ -83,11 +83,11 @@ OTHERS = {
 
 
 @pytest.mark.parametrize(("line", "kind"), OTHERS.items())
-def test_a_frame_that_is_no_robot_s_is_skipped_and_counted(tmp_path, line, kind):
+def test_frame_that_is_no_robot_s_is_skipped_and_counted(tmp_path, line, kind):
     assert read(tmp_path / "a.log", f"{COMPACT}\n{line}\n{COMPACT}\n") == (frames(T, T), {kind: 1})
 
 
-def test_what_was_skipped_is_one_line(tmp_path):
+def test_skipped_frames_are_noted_in_one_line(tmp_path):
     path = tmp_path / "a.log"
     path.write_text("".join(f"{line}\n" for line in list(OTHERS)[:5]))
     log = read_log(path)
@@ -98,7 +98,7 @@ def test_what_was_skipped_is_one_line(tmp_path):
     assert log.note() == f"{path}: skipped 1 FD, 1 extended and 3 remote frames"
 
 
-def test_empty_lines_and_explanations_of_errors_say_nothing(tmp_path):
+def test_empty_lines_and_explanations_of_errors_are_ignored(tmp_path):
     assert read(tmp_path / "a.log", f"\n{COMPACT}\n\tbus-error\n\r\n") == (frames(T), {})
 
 
@@ -118,12 +118,12 @@ MALFORMED = {
 
 
 @pytest.mark.parametrize("line", MALFORMED.values(), ids=MALFORMED)
-def test_a_malformed_line_is_named_with_its_number(tmp_path, line):
+def test_malformed_line_is_reported_with_its_number(tmp_path, line):
     with pytest.raises(OctetError, match=r"a\.log, line 3: "):
         read(tmp_path / "a.log", f"{COMPACT}\n{COMPACT}\n{line}\n{COMPACT}\n")
 
 
-def test_a_last_line_without_an_end_is_left_out(tmp_path):
+def test_last_line_without_an_end_is_left_out(tmp_path):
     assert read(tmp_path / "a.log", f"{COMPACT}\n{COMPACT}") == (frames(T), {})
 
 
@@ -159,7 +159,7 @@ def test_logs_of_python_can_are_read(tmp_path, suffix):
 
 
 @pytest.mark.parametrize("suffix", ["asc", "blf", "csv", "db", "trc"])
-def test_what_can_logconvert_makes_of_a_log_is_read(tmp_path, suffix):
+def test_log_converted_by_can_logconvert_is_read(tmp_path, suffix):
     lines = [f"({1_700_000_000 + i / 50:.6f}) can0 {ID:03X}#{DATA.hex().upper()}\n" for i in range(5)]
     (tmp_path / "a.log").write_text("".join(lines))
     words = [sys.executable, "-m", "can.logconvert", tmp_path / "a.log", tmp_path / f"b.{suffix}"]
@@ -171,7 +171,7 @@ def test_what_can_logconvert_makes_of_a_log_is_read(tmp_path, suffix):
     assert [it.time_us - log[0].time_us for it in log] == [20_000 * i for i in range(5)]
 
 
-def test_what_asc2log_writes_is_read(tmp_path):
+def test_log_written_by_asc2log_is_read(tmp_path):
     with can.Logger(tmp_path / "a.asc") as logger:
         for it in MESSAGES:
             logger.on_message_received(it)
@@ -198,13 +198,13 @@ BAD_ASC = {
 
 
 @pytest.mark.parametrize("line", BAD_ASC.values(), ids=BAD_ASC)
-def test_a_malformed_line_of_an_asc_file_is_named_with_its_number(tmp_path, line):
+def test_malformed_line_of_an_asc_file_is_reported_with_its_number(tmp_path, line):
     with pytest.raises(OctetError, match=r"a\.asc, line 4: "):
         read(tmp_path / "a.asc", f"{ASC}{GOOD}{line}\n{GOOD}")
 
 
 @pytest.mark.parametrize("line", BAD_ASC.values(), ids=BAD_ASC)
-def test_a_last_line_of_an_asc_file_that_is_cut_is_left_out(tmp_path, line):
+def test_truncated_last_line_of_an_asc_file_is_left_out(tmp_path, line):
     assert read(tmp_path / "a.asc", f"{ASC}{GOOD}{line}")[0] == frames(20_000)
 
 
@@ -215,7 +215,7 @@ def test_relative_times_of_an_asc_file_are_added_up(tmp_path):
     assert read(tmp_path / "a.asc", text)[0] == frames(20_000, 45_000)
 
 
-def test_times_before_the_measurement_count_from_the_first_line(tmp_path):
+def test_negative_times_of_an_asc_file_count_from_its_first_line(tmp_path):
     before = GOOD.replace("   0.020000", "  -0.010000")
 
     assert read(tmp_path / "a.asc", ASC + before + GOOD)[0] == frames(0, 30_000)
@@ -241,14 +241,14 @@ def test_events_without_a_frame_are_counted(tmp_path):
     assert log.note() == f"{path}: skipped 2 lines without a frame"
 
 
-def test_a_decimal_asc_file_is_read(tmp_path):
+def test_decimal_asc_file_is_read(tmp_path):
     decimal = " ".join(str(byte) for byte in DATA)
 
     text = f"date Sat\nbase dec  timestamps absolute\n 0.02 1 {ID} Rx d 8 {decimal}\n"
     assert read(tmp_path / "a.asc", text)[0] == frames(20_000)
 
 
-def test_a_trc_file_of_python_can_is_read(tmp_path):
+def test_trc_file_of_python_can_is_read(tmp_path):
     path = tmp_path / "a.trc"
     with can.Logger(path) as logger:
         for it in MESSAGES:
@@ -266,12 +266,12 @@ TRC_LINE = f"     1)     20.0  Rx         {ID:04X}  8  {SPACED}\n"
 
 
 @pytest.mark.parametrize("line", [TRC_LINE[:-4] + "\n", TRC_LINE.replace("8  C3", "8  Q3"), "     2)\n", "words\n"])
-def test_a_malformed_line_of_a_trc_file_is_named_with_its_number(tmp_path, line):
+def test_malformed_line_of_a_trc_file_is_reported_with_its_number(tmp_path, line):
     with pytest.raises(OctetError, match=r"a\.trc, line 4: not a frame: .*\w.*$"):
         read(tmp_path / "a.trc", f"{TRC}{TRC_LINE}{line}{TRC_LINE}")
 
 
-def test_lines_of_a_trc_file_that_python_can_leaves_out_are_counted(tmp_path):
+def test_lines_of_a_trc_file_that_python_can_skips_are_left_out(tmp_path):
     text = f"{TRC}{TRC_LINE}     2)     21.0  Warng  FFFFFFFF  4  00 00 00 08  BUSHEAVY\n{TRC_LINE}{TRC_LINE[:-6]}"
 
     assert [len(it) for it in read(tmp_path / "a.trc", text)] == [2, 0]
@@ -290,12 +290,12 @@ def test_compressed_logs_are_read(tmp_path, pack):
         (b"Dear robot,\n", "not a frame, or cut short"),
     ],
 )
-def test_unreadable_format_is_answered_with_the_readable_ones(tmp_path, content, said):
+def test_unreadable_format_is_refused_with_the_readable_ones(tmp_path, content, said):
     with pytest.raises(UsageError, match=f"{said}.*\\.blf .*can_logconvert writes them"):
         read(tmp_path / "a.pcap", content)
 
 
-def test_a_blf_file_with_a_tail_of_zeros_is_named_with_a_reason(tmp_path):
+def test_blf_file_with_trailing_zeros_is_refused_as_cut_short(tmp_path):
     path = tmp_path / "a.blf"
     with can.BLFWriter(path) as writer:
         writer.on_message_received(MESSAGES[0])
@@ -308,12 +308,12 @@ def test_a_blf_file_with_a_tail_of_zeros_is_named_with_a_reason(tmp_path):
 ON_TWO = "".join(f"{COMPACT.replace('can0', bus)}\n" for bus in ("can0", "can1", "can0"))
 
 
-def test_one_node_on_two_interfaces_is_said(tmp_path):
+def test_node_on_two_interfaces_is_refused_unless_one_is_chosen(tmp_path):
     with pytest.raises(UsageError, match="node 1 is on can0 and on can1: choose one, such as --channel can0"):
         read(tmp_path / "a.log", ON_TWO)
 
 
-def test_one_channel_of_several_is_read_when_named(tmp_path):
+def test_channel_option_reads_one_channel_of_several(tmp_path):
     (tmp_path / "a.log").write_text(ON_TWO)
 
     assert [len(list(read_log(tmp_path / "a.log", name))) for name in ("can0", "can1")] == [2, 1]
@@ -324,7 +324,7 @@ def test_one_channel_of_several_is_read_when_named(tmp_path):
         list(read_log(tmp_path / "a.log", "can2"))
 
 
-def test_channels_of_vector_s_files_count_from_one_as_the_file_does(tmp_path):
+def test_channels_of_asc_and_blf_files_count_from_one(tmp_path):
     for suffix in (".asc", ".blf"):
         path = tmp_path / f"a{suffix}"
         with can.Logger(path) as logger:
@@ -339,12 +339,12 @@ def test_channels_of_vector_s_files_count_from_one_as_the_file_does(tmp_path):
     [b"LOGG" + bytes(200), gzip.compress(b"x" * 4000)[:-20], b"\x1f\x8b\x08\x00" + bytes(40)],
     ids=["BLF", "cut gzip", "garbage as gzip"],
 )
-def test_a_damaged_file_is_one_line(tmp_path, content):
+def test_damaged_file_is_refused_in_one_line(tmp_path, content):
     with pytest.raises(OctetError, match=r"^\S+a\.log[^\n]+$"):
         read(tmp_path / "a.log", content)
 
 
-def test_damage_within_a_blf_file_is_one_line(tmp_path, caplog):
+def test_damage_within_a_blf_file_is_reported_in_one_line(tmp_path, caplog):
     path = tmp_path / "a.blf"
     with can.BLFWriter(path, compression_level=0) as writer:
         writer.on_message_received(MESSAGES[0])

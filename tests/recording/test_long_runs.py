@@ -53,7 +53,7 @@ def retained(recorder: RunRecorder) -> dict[str, int]:
     }
 
 
-def test_a_run_of_sixty_environments_retains_no_more_than_one_of_twenty():
+def test_run_of_60_environments_retains_no_more_than_one_of_20():
     short, long = retained(recorded(20)), retained(recorded(60))
 
     room = TICKS_MAX * 9 // 8 + 2 * EPISODE_TICKS
@@ -64,7 +64,7 @@ def test_a_run_of_sixty_environments_retains_no_more_than_one_of_twenty():
     assert long["cells"] <= 8 + room // 10
 
 
-def test_environments_with_faults_leave_their_results_behind_and_nothing_else():
+def test_environments_with_faults_retain_only_their_results():
     config = RunConfig(seed=5, environments=30, limit_s=LIMIT_S, faults=("drop:5%", "duplicate:5%", "flood:1%:20"))
     pieces, results = [], []
     with make(config) as simulation:
@@ -79,7 +79,7 @@ def test_environments_with_faults_leave_their_results_behind_and_nothing_else():
     assert pieces[1] - pieces[0] < 20 * PIECES_OF_A_RESULT
 
 
-def test_arenas_of_environments_that_are_over_do_not_pile_up():
+def test_arena_of_a_finished_environment_is_freed():
     arenas = weakref.WeakSet()
     gc.disable()
     try:
@@ -91,7 +91,7 @@ def test_arenas_of_environments_that_are_over_do_not_pile_up():
         gc.enable()
 
 
-def test_it_is_cut_rarely(monkeypatch):
+def test_long_trajectory_is_cut_rarely(monkeypatch):
     cuts = []
     forget = RunRecorder._forget
     monkeypatch.setattr(RunRecorder, "_forget", lambda self, first: (cuts.append(first), forget(self, first)))
@@ -102,7 +102,7 @@ def test_it_is_cut_rarely(monkeypatch):
     assert 1 <= len(cuts) <= 3
 
 
-def test_turns_that_are_no_longer_retained_still_count():
+def test_turns_that_are_no_longer_retained_are_still_counted():
     trajectory, whole = recorded(30).trajectory, None
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(run_recorder_module, "TICKS_MAX", 10**9)
@@ -114,7 +114,7 @@ def test_turns_that_are_no_longer_retained_still_count():
     assert [trajectory.at(tick) for tick in ticks] == [whole.at(tick) for tick in ticks]
 
 
-def test_page_and_picture_say_what_they_leave_out(tmp_path, monkeypatch):
+def test_page_and_picture_of_a_long_run_say_what_they_leave_out(tmp_path, monkeypatch):
     trajectory = recorded(30).trajectory
     kept = len(trajectory.begun())
     said = []
@@ -127,11 +127,11 @@ def test_page_and_picture_say_what_they_leave_out(tmp_path, monkeypatch):
     assert said == [(30, 1)]
 
 
-def test_a_short_run_leaves_nothing_out():
+def test_short_run_leaves_nothing_out():
     assert omissions(recorded(3).trajectory) == []
 
 
-def test_the_ticks_of_a_log_stay_in_the_log(kept):
+def test_ticks_of_a_log_are_read_only_as_needed(kept):
     class CountedLog(LogReader):
         lines = 0
 
@@ -150,7 +150,7 @@ def test_the_ticks_of_a_log_stay_in_the_log(kept):
     assert sum(1 for _ in ticks) == kept.trajectory.ticks
 
 
-def test_of_lessons_that_are_no_longer_retained_the_last_one_of_each_cell_stays():
+def test_history_keeps_the_last_forgotten_lesson_of_each_cell():
     history = LearningHistory()
     cells = [(1, 0), (1, 2), (2, 2), (0, 2), (0, 1)]
     for tick, (first, third) in enumerate(cells):

@@ -30,14 +30,14 @@ def reported():
     return []
 
 
-def test_what_is_saved_is_loaded(path, reported):
+def test_saved_memory_is_loaded(path, reported):
     MemorySaver(path, None, reported.append).save(SOME)
 
     assert load_memory(path) == SOME
     assert reported == []
 
 
-def test_the_file_that_a_link_named_goes_when_a_run_turns_doubtful_and_the_link_stays(path, reported):
+def test_doubtful_run_removes_the_linked_memory_and_keeps_the_link(path, reported):
     path.symlink_to("own.mem")
     saver = MemorySaver(path, None, reported.append)
     saver.save(SOME)
@@ -48,7 +48,7 @@ def test_the_file_that_a_link_named_goes_when_a_run_turns_doubtful_and_the_link_
     assert load_memory(path) is None
 
 
-def test_a_run_that_is_killed_as_it_turns_doubtful_leaves_the_file_as_it_was_before(path, reported, monkeypatch):
+def test_run_killed_as_it_turns_doubtful_leaves_the_earlier_memory(path, reported, monkeypatch):
     path.write_bytes(bytes(SOME))
     saver = MemorySaver(path, SOME, reported.append)
     saver.save(MORE)
@@ -67,19 +67,19 @@ def test_a_run_that_is_killed_as_it_turns_doubtful_leaves_the_file_as_it_was_bef
     assert load_memory(path) == SOME
 
 
-def test_no_file_is_no_memory(path):
+def test_missing_file_loads_no_memory(path):
     assert load_memory(path) is None
 
 
 @pytest.mark.parametrize("size", [0, 7, 9, 8652, 1 << 20])
-def test_a_file_of_another_size_is_no_memory_file(path, size):
+def test_memory_file_of_another_size_is_refused(path, size):
     path.write_bytes(bytes(size))
 
     with pytest.raises(UsageError, match=f"is not a memory file: {size} bytes, expected 8"):
         load_memory(path)
 
 
-def test_a_memory_that_knows_more_replaces_the_old_one_without_a_word(path, reported):
+def test_memory_that_knows_more_replaces_the_old_one_silently(path, reported):
     path.write_bytes(bytes(SOME))
 
     MemorySaver(path, SOME, reported.append).save(MORE)
@@ -89,7 +89,7 @@ def test_a_memory_that_knows_more_replaces_the_old_one_without_a_word(path, repo
     assert reported == []
 
 
-def test_a_memory_that_knows_less_leaves_the_old_one_beside_it_and_says_so(path, reported):
+def test_memory_that_knows_less_keeps_the_old_one_beside_it_and_says_so(path, reported):
     path.write_bytes(bytes(MORE))
 
     MemorySaver(path, MORE, reported.append).save(NOTHING)
@@ -100,7 +100,7 @@ def test_a_memory_that_knows_less_leaves_the_old_one_beside_it_and_says_so(path,
     assert "robot.mem.1" in reported[0]
 
 
-def test_of_one_run_the_first_memory_that_knew_more_is_kept(path, reported):
+def test_run_keeps_the_first_memory_that_knew_more(path, reported):
     path.write_bytes(bytes(MORE))
     saver = MemorySaver(path, MORE, reported.append)
 
@@ -118,20 +118,20 @@ def test_forgetting_what_this_run_learned_is_not_reported(path, reported):
     assert reported == []
 
 
-def test_a_memory_of_another_kind_that_knows_as_much_leaves_nothing_beside_it(path, reported):
+def test_memory_of_another_kind_that_knows_as_much_reports_nothing(path, reported):
     path.write_bytes(bytes(SOME))
     MemorySaver(path, SOME, reported.append).save(translated(SOME, MemoryKind.ALL_SENSORS))
     assert reported == []
 
 
 @pytest.mark.parametrize("content", [b"\0\3\0\0\0\0\0\0", b"\0\1\5\0\0\0\0\0", b"\x1e" + b"\0" * 7])
-def test_bytes_that_no_behaviour_writes_are_refused(path, content):
+def test_memory_bytes_that_no_behaviour_writes_are_refused(path, content):
     path.write_bytes(content)
     with pytest.raises(UsageError, match=f"no behaviour writes {content.hex(' ')}"):
         load_memory(path)
 
 
-def test_an_unchanged_memory_is_not_written(path, reported):
+def test_unchanged_memory_is_not_written(path, reported):
     saver = MemorySaver(path, None, reported.append)
     saver.save(SOME)
     path.unlink()
@@ -141,7 +141,7 @@ def test_an_unchanged_memory_is_not_written(path, reported):
     assert not path.exists()
 
 
-def test_a_pipe_is_refused_at_once(path):
+def test_memory_file_that_is_a_pipe_is_refused_at_once(path):
     os.mkfifo(path)
 
     with pytest.raises(UsageError, match="not a regular file"):
@@ -153,7 +153,7 @@ def assert_is_free(path):
         pass
 
 
-def test_a_second_run_is_told_who_is_using_it_and_what_to_do(path):
+def test_memory_in_use_is_refused_with_its_process_and_what_to_do(path):
     said = f"{path} is in use by another run (process {os.getpid()}); choose another file with --memory"
 
     with memory_lock(path), pytest.raises(UsageError) as refused:
@@ -162,7 +162,7 @@ def test_a_second_run_is_told_who_is_using_it_and_what_to_do(path):
     assert str(refused.value) == said
 
 
-def test_a_link_to_it_is_the_same_file(path):
+def test_link_to_a_memory_locks_the_same_file(path):
     link = path.with_name("link")
     link.symlink_to(path)
 
@@ -170,7 +170,7 @@ def test_a_link_to_it_is_the_same_file(path):
         assert_is_free(path)
 
 
-def test_it_stays_locked_when_it_is_replaced(path):
+def test_memory_stays_locked_when_it_is_replaced(path):
     path.write_bytes(bytes(8))
 
     with memory_lock(path):
@@ -179,14 +179,14 @@ def test_it_stays_locked_when_it_is_replaced(path):
             assert_is_free(path)
 
 
-def test_it_is_free_again_after_a_run_and_nothing_is_left(path):
+def test_memory_is_free_after_a_run_and_no_lock_file_is_left(path):
     assert_is_free(path)
     assert_is_free(path)
 
     assert list(path.parent.iterdir()) == []
 
 
-def test_it_is_free_again_when_the_process_is_killed(path):
+def test_memory_is_free_again_when_the_process_is_killed(path):
     hold = "import sys, pathlib; from host_sim.recording.memory_file import memory_lock\n"
     hold += "with memory_lock(pathlib.Path(sys.argv[1])): print('held', flush=True); sys.stdin.read()"
     command = [sys.executable, "-c", hold, path]
@@ -205,7 +205,7 @@ def test_stale_lock_file_of_a_killed_run_locks_nothing(path):
     assert_is_free(path)
 
 
-def test_a_lock_that_is_removed_before_it_is_had_is_taken_anew(path, monkeypatch):
+def test_lock_file_removed_before_it_is_locked_is_made_again(path, monkeypatch):
     beside, lock, taken = path.with_name(".robot.mem.lock"), module.lock, []
 
     def lock_late(*words):
@@ -220,7 +220,7 @@ def test_a_lock_that_is_removed_before_it_is_had_is_taken_anew(path, monkeypatch
     assert len(taken) == 2
 
 
-def test_a_lock_that_cannot_be_made_is_named(path):
+def test_lock_file_that_cannot_be_made_is_named(path):
     path.with_name(".robot.mem.lock").mkdir()
 
     with pytest.raises(UsageError, match=r"^cannot lock .*robot.mem by .*lock: Is a directory; choose another file"):
@@ -232,19 +232,19 @@ def open_files() -> set[str]:
     return {path.readlink().as_posix() for path in Path("/proc/self/fd").iterdir() if path.is_symlink()}
 
 
-def test_a_second_run_is_told_who_is_using_it(tmp_path):
+def test_folder_in_use_is_refused_with_its_process(tmp_path):
     with run_folder(tmp_path), pytest.raises(UsageError, match=f"in use by another run .process {os.getpid()}."):
         run_folder(tmp_path).__enter__()
 
 
-def test_it_is_free_again_after_a_run(tmp_path):
+def test_folder_is_free_again_after_a_run(tmp_path):
     with run_folder(tmp_path):
         pass
     with run_folder(tmp_path):
         pass
 
 
-def test_a_folder_that_cannot_be_locked_is_named_and_closed(tmp_path, monkeypatch):
+def test_folder_that_cannot_be_locked_is_named_and_closed(tmp_path, monkeypatch):
     def fail(*_: object) -> None:
         raise OSError(errno.ENOLCK, os.strerror(errno.ENOLCK))  # as some network file systems do
 

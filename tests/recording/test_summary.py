@@ -33,7 +33,7 @@ def summary_of(client: RobotClient) -> Summary:
     return summarize(RunConfig(), SimpleNamespace(clients=[client], record=WorldRecord(1, 1, 1)), [], "", 1.0)
 
 
-def test_a_loss_is_counted_once(client):
+def test_loss_is_counted_once(client):
     client.frames.lost = 3
     client.reports.faults = {"missed": 2}
 
@@ -41,13 +41,13 @@ def test_a_loss_is_counted_once(client):
 
 
 @pytest.mark.parametrize(("factor", "said"), [(0.46, "0.5 x"), (9.96, "10.0 x"), (161.4, "161 x")])
-def test_a_watched_run_that_is_slower_than_real_time_says_how_slow(client, factor, said):
+def test_summary_text_gives_the_speed_relative_to_real_time(client, factor, said):
     content = {**summary_of(client).content, "real_time_factor": factor}
 
     assert f"speed     {said} real time" in text_of(content)
 
 
-def test_a_counter_at_its_limit_says_so(client):
+def test_saturated_counter_says_so(client):
     client.reports.faults = {"missed": 255, "stale": 254}
 
     summary = summary_of(client)
@@ -58,7 +58,7 @@ def test_a_counter_at_its_limit_says_so(client):
     assert "254 or more" not in summary.text
 
 
-def test_a_sound_run_says_nothing_about_its_link(client):
+def test_summary_of_a_sound_run_does_not_mention_its_link(client):
     assert "link" not in summary_of(client).text
 
 
@@ -69,17 +69,17 @@ def test_summary_reports_line_events(client):
     assert "link      7 frames repeated, gone 2 times; an answer takes 300 ms" in summary_of(client).text
 
 
-def test_one_of_a_kind_is_in_the_singular(client):
+def test_summary_uses_the_singular_for_a_count_of_one(client):
     client.connection.line.outages, client.frames.repeated = 1, 1
 
     assert "link      1 frame repeated, gone 1 time" in summary_of(client).text
 
 
-def test_a_run_that_was_cut_short_counts_the_environments_asked_for(client):
+def test_interrupted_run_counts_the_environments_asked_for(client):
     assert summary_of(client).ending == "done      0 of 5 environments finished"
 
 
-def test_a_change_that_happened_was_not_missed_however_its_time_was_written(client):
+def test_change_that_happened_is_not_missed_whatever_its_time_format(client):
     record = WorldRecord(1, 1, 1, happened=["mirror@1s"])
     run = SimpleNamespace(clients=[client], record=record)
 
@@ -94,7 +94,7 @@ def test_incidents_are_listed(client):
     assert summary_of(client).content["incidents"] == ["at tick 0 (node 1) the robot restarted"]
 
 
-def test_of_very_many_incidents_the_first_are_listed_and_the_others_counted(client):
+def test_summary_lists_the_first_incidents_and_counts_the_others(client):
     for _ in range(INCIDENTS_MAX + 3):
         client.distrust("the robot restarted")
 
@@ -111,7 +111,7 @@ def record(*edits: Edited, robots: int = 1) -> WorldRecord:
     return WorldRecord(1, 5, 30000, robots, edits=list(edits))
 
 
-def test_news_are_what_changed_by_itself_and_not_what_a_hand_moved():
+def test_news_report_scheduled_changes_and_not_edits_by_hand():
     edits = [
         Edited(5, Edit("add_bar", a=(1.0, 1.0), b=(90.0, 90.0))),
         Edited(6, Edit("plant", at=PLANT.at, radius=PLANT.radius_mm)),
@@ -121,13 +121,13 @@ def test_news_are_what_changed_by_itself_and_not_what_a_hand_moved():
     assert news_of(record(*edits)) == [(6, "A plant was put down.")]
 
 
-def test_plants_that_grow_at_once_are_one_piece_of_news():
+def test_plants_that_grow_in_one_tick_are_one_piece_of_news():
     assert news_of(
         record(Edited(6, Edit("grow_plant", 0, radius=90.0)), Edited(6, Edit("grow_plant", 1, radius=90.0)))
     ) == [(6, "A plant has grown.")]
 
 
-def test_what_happens_to_all_robots_is_one_piece_of_news_and_else_the_robot_is_named():
+def test_news_name_the_robot_unless_all_are_affected():
     both = [Edited(6, Edit("body", what="mirror", robot=robot)) for robot in (0, 1)]
     one = Edited(9, Edit("body", what="swap-motors", robot=1))
 
@@ -158,11 +158,11 @@ def test_refused_change_is_reported_in_its_place():
         ("repair", "The body was repaired."),
     ],
 )
-def test_a_fault_of_the_body_is_told_in_a_sentence(what, sentence):
+def test_fault_of_the_body_is_described_in_a_sentence(what, sentence):
     assert body_sentence(what) == sentence
 
 
-def test_every_fault_has_a_sentence():
+def test_all_body_faults_have_a_sentence():
     details = {"stuck-on": ":front", "stuck-off": ":front", "noise": ":1/2", "false-beacon": ":9", "latency": ":1"}
     details |= dict.fromkeys(("weak-motor", "odometer"), ":left:50%")
     details |= {"lag": ":60ms", "slack": ":3deg", "slip": ":5%"}

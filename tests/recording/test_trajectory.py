@@ -46,7 +46,7 @@ def assert_equal(one: Trajectory, other: Trajectory) -> None:
 
 
 @pytest.mark.parametrize("seed", [1, 7, 4242])
-def test_the_state_at_a_tick_is_that_of_the_log(tmp_path, seed):
+def test_trajectory_has_the_senses_and_drives_of_the_log(tmp_path, seed):
     log = record_run(tmp_path, seed, environments=2, limit_s=60.0).log
     protocol = Protocol()
     messages = [protocol.decode(line.frame) for line in read_log(log)]
@@ -65,11 +65,11 @@ def test_the_state_at_a_tick_is_that_of_the_log(tmp_path, seed):
         assert trajectory.tracks[0].column(f"{name}_mm_s").tolist() == [frame[name] for frame in drives]
 
 
-def test_the_log_gives_what_was_seen_as_it_went(kept):
+def test_resimulated_trajectory_equals_that_of_the_run(kept):
     assert_equal(resimulate(kept.log).trajectory, kept.trajectory)
 
 
-def test_without_a_world_file_the_environments_are_those_of_the_seed(tmp_path):
+def test_log_without_a_world_file_has_the_environments_of_its_seed(tmp_path):
     run = record_run(tmp_path, seed=2, environments=2)
     world_path(run.log).unlink()
 
@@ -93,7 +93,7 @@ def meddle(simulation: Simulation, run_recorder: RunRecorder) -> None:
     run_recorder.histories[0].frozen = simulation.tick >= 300
 
 
-def test_pushed_crates_have_their_place_in_each_tick(tmp_path, monkeypatch):
+def test_pushed_crates_have_a_scene_in_each_tick(tmp_path, monkeypatch):
     """In the last tick of an environment, too: nobody sees what that pushes."""
 
     def push(crates: Crates, _drives: object) -> Iterator[Edit]:
@@ -161,7 +161,7 @@ def test_live_edits_are_replayed(tmp_path):
 
 
 @pytest.mark.parametrize("ticks", [0, 3])
-def test_a_cell_that_is_written_and_erased_between_two_ticks_is_no_change(ticks):
+def test_cell_written_and_erased_between_two_ticks_is_no_change(ticks):
     empty, written = (0,) * 8, (0, 0, 1, 0, 0, 0, 0, 0)
     recorder = RunRecorder(SimParams(), 10, {1: empty})
     recorder.trajectory.tracks[0].poses_flat.extend([0.0] * 3 * ticks)
@@ -172,7 +172,7 @@ def test_a_cell_that_is_written_and_erased_between_two_ticks_is_no_change(ticks)
     assert recorder.trajectory.tracks[0].memories == [(0, list(empty))]
 
 
-def test_senses_that_contradict_the_world_are_named(short):
+def test_senses_that_contradict_the_world_are_reported_with_their_time(short):
     lines = short.log.read_text().splitlines(keepends=True)
     protocol = Protocol()
     index = next(i for i, line in enumerate(lines) if i > 100 and f" {protocol.id_of('SENSES'):03X}#" in line)
@@ -188,7 +188,7 @@ def test_senses_that_contradict_the_world_are_named(short):
         resimulate(short.log)
 
 
-def test_a_run_with_another_limit_needs_its_world_file(tmp_path):
+def test_run_with_another_time_limit_needs_its_world_file(tmp_path):
     run = record_run(tmp_path, seed=2, environments=2, limit_s=3.0)
     world_path(run.log).unlink()
 
@@ -196,7 +196,7 @@ def test_a_run_with_another_limit_needs_its_world_file(tmp_path):
         resimulate(run.log)
 
 
-def test_without_a_seed_the_way_is_reckoned_from_the_odometers(short):
+def test_log_without_a_seed_reckons_the_path_from_the_odometers(short):
     world_path(short.log).unlink()
     without(short.log, "COMMAND", opcode=2)
 
@@ -212,7 +212,7 @@ def test_without_a_seed_the_way_is_reckoned_from_the_odometers(short):
     assert np.ptp(turned) < math.radians(2)
 
 
-def test_in_the_open_all_of_the_way_lies_in_the_arena(kept):
+def test_path_without_a_world_lies_inside_the_arena(kept):
     trajectory = resimulate(kept.log, ignore_world=True).trajectory
 
     x, y, _ = trajectory.tracks[0].poses().T
@@ -222,7 +222,7 @@ def test_in_the_open_all_of_the_way_lies_in_the_arena(kept):
     assert y.max() < trajectory.params.height_mm
 
 
-def test_a_log_without_its_end_gives_what_it_has_and_says_so(short, tmp_path, capsys):
+def test_truncated_log_gives_what_it_has_and_says_so(short, tmp_path, capsys):
     lines = short.log.read_text().splitlines(keepends=True)
     short.log.write_text("".join(lines[:401]))
 
@@ -240,7 +240,7 @@ def heartbeat_of(log: Path) -> Frame:
     return next(line.frame for line in read_log(log) if line.frame.id == protocol.id_of("HEARTBEAT"))
 
 
-def test_on_its_own_clock_a_body_holds_a_drive_for_a_while_and_then_rests(short, tmp_path):
+def test_body_on_its_own_clock_holds_a_drive_for_a_while_and_then_rests(short, tmp_path):
     protocol = Protocol()
     start = {"counter": 1, "opcode": 2, "owner": 1, "lockstep": 0, "profile": 0, "seed": 5}
     drive = REST._replace(left_mm_s=200, right_mm_s=190, reason=1, action=3)
@@ -261,7 +261,7 @@ def test_on_its_own_clock_a_body_holds_a_drive_for_a_while_and_then_rests(short,
     assert [tick.drive for tick in recording.ticks] == [drive] * 6 + rest
 
 
-def test_of_a_very_long_run_the_last_environments_are_kept(kept, monkeypatch):
+def test_trajectory_of_a_long_run_keeps_the_last_environments(kept, monkeypatch):
     monkeypatch.setattr(run_recorder_module, "TICKS_MAX", 1000)
 
     trajectory = resimulate(kept.log).trajectory
@@ -276,7 +276,7 @@ def test_of_a_very_long_run_the_last_environments_are_kept(kept, monkeypatch):
         trajectory.at(first - 1)
 
 
-def test_several_robots_are_found_again(tmp_path):
+def test_several_robots_are_resimulated(tmp_path):
     config = RunConfig(seed=5, environments=2, limit_s=8.0, robots=3)
     with ExitStack() as stack:
         simulation = open_simulation(stack, tmp_path / "run.log", config)

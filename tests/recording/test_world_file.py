@@ -44,14 +44,14 @@ def record() -> WorldRecord:
     )
 
 
-def test_what_was_written_is_read(tmp_path):
+def test_written_world_is_read_back(tmp_path):
     path = world_path(tmp_path / "run.log")
     write_world(record(), path)
     assert path.name == "run.world.json"
     assert read_world(path) == record()
 
 
-def test_a_program_without_a_name_is_read_as_it_was_written_before(tmp_path):
+def test_program_in_the_earlier_format_is_read_as_program_bas(tmp_path):
     path = tmp_path / "run.world.json"
     path.write_text(json.dumps({**GOOD, "program": "x = 1\n"}))
 
@@ -59,14 +59,14 @@ def test_a_program_without_a_name_is_read_as_it_was_written_before(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["corridors", "small"])
-def test_a_world_with_a_name_is_read_by_its_name(tmp_path, name):
+def test_built_in_world_is_written_by_its_name(tmp_path, name):
     path = tmp_path / "run.world.json"
     write_world(WorldRecord(1, 5, 30000, world=world_of(name)), path)
     assert json.loads(path.read_text())["world"] == name
     assert read_world(path).world == world_of(name)
 
 
-def test_a_world_of_a_persons_own_is_in_the_file(tmp_path):
+def test_custom_world_is_written_in_full(tmp_path):
     path, own = tmp_path / "run.world.json", tmp_path / "my.toml"
     own.write_text("start = [400, 400.5, 30]\nfood = [[500, 500]]\nbars = [[9, 9, 99, 99]]")
     world = world_of(str(own))
@@ -75,19 +75,19 @@ def test_a_world_of_a_persons_own_is_in_the_file(tmp_path):
     assert read_world(path).world == world
 
 
-def test_the_random_world_is_not_named(tmp_path):
+def test_random_world_is_not_named(tmp_path):
     path = tmp_path / "run.world.json"
     write_world(WorldRecord(1, 5, 30000), path)
     assert "world" not in json.loads(path.read_text())
 
 
-def test_a_file_that_does_not_say_is_of_a_world_with_five_equal_cones(tmp_path):
+def test_file_without_front_extra_mm_has_five_equal_cones(tmp_path):
     path = tmp_path / "run.world.json"
     path.write_text(json.dumps(GOOD))
     assert read_world(path).world.params.front_extra_mm == 0.0
 
 
-def test_dragging_between_two_ticks_leaves_the_last_place_only():
+def test_dragging_between_two_ticks_records_only_the_last_place():
     dragged = WorldRecord(1, 5, 30000)
     for x in (1.0, 2.0, 3.0):
         dragged.add(Edited(5, Edit("move_food", 0, at=(x, 0.0))))
@@ -97,7 +97,7 @@ def test_dragging_between_two_ticks_leaves_the_last_place_only():
     assert places == [(5, 0, 3.0), (5, 1, 9.0), (6, 1, 10.0)]
 
 
-def test_edits_after_an_environments_last_tick_are_dropped_but_not_what_is_wrong_with_a_body():
+def test_edits_after_the_last_tick_are_dropped_except_body_faults():
     kept = WorldRecord(1, 5, 30000)
     for edit in (
         Edit("add_bar", **BAR._asdict()),
@@ -109,14 +109,14 @@ def test_edits_after_an_environments_last_tick_are_dropped_but_not_what_is_wrong
     assert kept.edits == [Edited(5, Edit("body", what="mirror"))]
 
 
-def test_a_run_that_begins_anew_begins_with_sound_bodies():
+def test_run_that_begins_anew_drops_body_faults():
     kept = WorldRecord(1, 5, 30000)
     kept.add(Edited(5, Edit("body", what="mirror")))
     kept.begin(Begun(2, 1, 5))
     assert kept.edits == []
 
 
-def test_equal_edits_in_a_row_that_move_nothing_are_all_kept():
+def test_equal_edits_that_add_bars_are_all_kept():
     kept = WorldRecord(1, 5, 30000)
     kept.add(Edited(5, Edit("add_bar", **BAR._asdict())))
     kept.add(Edited(5, Edit("add_bar", **BAR._asdict())))
@@ -166,7 +166,7 @@ GOOD = {"format": 1, "seed": 1, "of": 5, "limit_ticks": 9, "environments": [], "
         {"edits": [{"tick": 1, "do": "move_bar", "id": 1, "a": [0, 0], "b": [1e3, 0]}]},
     ],
 )
-def test_a_damaged_file_is_refused(tmp_path, change):
+def test_damaged_file_is_refused(tmp_path, change):
     path = tmp_path / "run.world.json"
     path.write_text(json.dumps({**GOOD, **change}))
     with pytest.raises(OctetError, match="not a world file"):
@@ -174,13 +174,13 @@ def test_a_damaged_file_is_refused(tmp_path, change):
 
 
 @pytest.mark.parametrize("content", [b"", b"{", b"[]", b"\xff\xfe", b"[" * 100_000])
-def test_what_is_no_object_is_refused(tmp_path, content):
+def test_file_without_a_json_object_is_refused(tmp_path, content):
     path = tmp_path / "run.world.json"
     path.write_bytes(content)
     with pytest.raises(OctetError, match="not a world file"):
         read_world(path)
 
 
-def test_a_missing_file_is_said(tmp_path):
+def test_missing_file_is_reported(tmp_path):
     with pytest.raises(UsageError, match="cannot read"):
         read_world(tmp_path / "none.json")

@@ -33,7 +33,7 @@ def last_of(client: RobotClient, name: str) -> Frame:
     return [frame for frame in client.log.frames if frame.id == PROTOCOL.id_of(name)][-1]
 
 
-def test_ticks_count_as_sent_and_the_next_one_goes_on_from_there():
+def test_ticks_taken_over_count_as_sent_and_the_client_continues_from_them():
     link = MeddledLink()
     client = learned(link)
     sent, counter = client.frames.sent, (LEARNED + 1) % COUNTERS
@@ -51,7 +51,7 @@ def test_ticks_count_as_sent_and_the_next_one_goes_on_from_there():
     assert client.incidents == []
 
 
-def test_a_tick_that_was_only_begun_elsewhere_is_finished_here():
+def test_tick_begun_elsewhere_is_finished_by_lockstep():
     link = MeddledLink()
     client = learned(link)
     sent, sensed = client.frames.sent, senses(LEARNED, ODOMETERS[id(client)])
@@ -62,7 +62,7 @@ def test_a_tick_that_was_only_begun_elsewhere_is_finished_here():
     assert (drive.tick, client.frames.sent, client.frames.repeated) == (LEARNED % 256, sent + 1, 0)
 
 
-def test_the_last_reports_are_taken_over_and_known_from_then_on():
+def test_last_reports_are_taken_over_and_then_known_as_duplicates():
     client = learned(MeddledLink())
     client.unsettled = LEARNED
     heartbeat = next_one(last_of(client, "HEARTBEAT"))
@@ -82,7 +82,7 @@ def test_block_without_reports_settles_no_check():
     assert client.unsettled == LEARNED
 
 
-def test_reports_that_say_the_same_with_the_next_counters_are_known_from_then_on():
+def test_routine_reports_taken_over_are_then_known_as_duplicates():
     client = learned(MeddledLink())
     memory = client.memory
     reports = [(kind, next_one(frame)) for kind, frame in routine_reports(client)]
@@ -97,7 +97,7 @@ def test_reports_that_say_the_same_with_the_next_counters_are_known_from_then_on
     assert client.memory == memory != (0,) * 8
 
 
-def test_the_second_half_of_a_memory_may_come_in_a_later_tick():
+def test_second_half_of_a_memory_may_come_in_a_later_tick():
     client = learned(MeddledLink())
     first, second = ((kind, next_one(frame)) for kind, frame in routine_reports(client) if "MEMORY" in kind)
 
@@ -124,14 +124,14 @@ def due(coming: ChangeSchedule, tick: int) -> list[str]:
     return [str(change) for change in coming.due(tick)]
 
 
-def test_a_change_is_due_once_from_its_tick_on():
+def test_change_is_due_once_from_its_tick_on():
     coming = schedule("plant@2s")
     coming.enter(1, 0)
 
     assert [due(coming, tick) for tick in (99, 100, 101)] == [[], ["plant@2s"], []]
 
 
-def test_seconds_count_from_the_start_of_the_run_also_in_a_later_environment():
+def test_seconds_count_from_the_start_of_the_run_in_later_environments_too():
     coming = schedule("plant@2s")
     coming.enter(1, 0)
     coming.enter(2, 60)
@@ -139,7 +139,7 @@ def test_seconds_count_from_the_start_of_the_run_also_in_a_later_environment():
     assert coming.next_tick == 100
 
 
-def test_an_environment_counts_from_its_own_start():
+def test_change_of_an_environment_counts_from_the_start_of_that_environment():
     coming = schedule("grow@env2+2s", "plant@env2")
     coming.enter(1, 0)
     assert coming.next_tick > 1_000_000
@@ -164,7 +164,7 @@ def test_changes_of_one_tick_keep_their_order():
     assert due(coming, 500) == ["mirror@1s", "grow@2s", "plant@2s"]
 
 
-def test_a_run_that_begins_anew_meets_everything_again():
+def test_changes_are_due_again_when_the_run_begins_anew():
     coming = schedule("plant@2s", "mirror@env1")
     coming.enter(1, 0)
     assert len(due(coming, 200)) == 2

@@ -53,7 +53,7 @@ def in_order(results: list[FleetResult]) -> list[FleetResult]:
 
 
 @pytest.mark.parametrize("profile", [profile for profile in PROFILES if profile != "distance"])
-def test_each_robot_in_its_own_world_does_what_it_does_alone(profile):
+def test_fleet_robots_in_their_own_worlds_equal_single_runs(profile):
     config = replace(OWN, profile=profile, settings={"boredom_limit": 6})
     alone = [
         result
@@ -65,13 +65,13 @@ def test_each_robot_in_its_own_world_does_what_it_does_alone(profile):
 
 
 @pytest.mark.parametrize("robots", [1, 5, 31])
-def test_robots_in_one_world_do_what_they_do_on_a_bus(robots):
+def test_fleet_robots_in_one_world_equal_robots_on_a_bus(robots):
     config = RunConfig(seed=1, robots=robots, environments=2, limit_s=20.0)
 
     assert in_order(list(run_fleet(config))) == in_order(results_with_frames(config))
 
 
-def test_bodies_that_are_faulty_from_the_start_are_so_in_a_fleet():
+def test_fleet_has_the_body_faults_that_exist_from_the_start():
     config = replace(OWN, robots=1, changes=("mirror@0s", "weak-motor:left:80%@env1"))
 
     found = in_order(list(run_fleet(config)))
@@ -80,12 +80,12 @@ def test_bodies_that_are_faulty_from_the_start_are_so_in_a_fleet():
 
 
 @pytest.mark.parametrize("change", ["mirror@env2", "mirror@5s", "mirror@0s/1", "plant@0s"])
-def test_nothing_changes_in_a_fleet_later_on(change):
+def test_fleet_refuses_changes_other_than_body_faults_from_the_start(change):
     with pytest.raises(UsageError, match="nothing changes in a fleet"):
         run_fleet(replace(OWN, changes=(change,)))
 
 
-def test_robots_that_learn_no_more_have_their_memories_and_seeds():
+def test_frozen_robots_keep_their_memories_and_have_their_seeds():
     frozen = [fleet.Frozen(seed, (0, 1, 0, 0, 2, 0, 0, 0)) for seed in (11, 11, 12)]
     config = replace(OWN, environments=1, limit_s=20.0)
 
@@ -112,7 +112,7 @@ def test_fleet_robots_share_memories_as_on_a_bus(profile, seed):
     assert results != in_order(list(run_fleet(replace(config, settings={}))))
 
 
-def test_robots_in_worlds_of_their_own_hear_their_company_only():
+def test_robots_in_their_own_worlds_hear_only_their_company():
     config = replace(OWN, robots=6, profile="adaptive", settings={"share": 1})
 
     in_company = in_order(list(run_fleet(config, company=3)))
@@ -121,7 +121,7 @@ def test_robots_in_worlds_of_their_own_hear_their_company_only():
     assert in_company != in_order(list(run_fleet(replace(config, settings={}), company=3)))
 
 
-def test_the_library_that_threads_draw_worlds_with_is_loaded_before_they_begin():
+def test_fleet_loads_the_world_library_before_its_threads_begin():
     code = (
         "from host_sim.sim.fleet import run_fleet\n"
         "from host_sim.sim.run_config import RunConfig\n"
@@ -135,7 +135,7 @@ def test_the_library_that_threads_draw_worlds_with_is_loaded_before_they_begin()
     assert (done.stdout, done.stderr) == ("1\n", "")
 
 
-def test_an_environment_that_is_finished_is_the_same():
+def test_finished_environment_of_a_fleet_equals_that_of_a_single_run():
     config = RunConfig(seed=5, environments=1)
 
     (result,) = run_fleet(replace(config, worlds="own"))
@@ -144,7 +144,7 @@ def test_an_environment_that_is_finished_is_the_same():
     assert in_order([result]) == results_with_frames(config)
 
 
-def test_more_robots_than_a_bus_has_numbers_meet_in_one_world():
+def test_more_robots_than_node_numbers_meet_in_one_world():
     config = RunConfig(seed=1, robots=50, environments=1, limit_s=20.0)
 
     results = list(run_fleet(config))
@@ -154,14 +154,14 @@ def test_more_robots_than_a_bus_has_numbers_meet_in_one_world():
     assert any(result.begun.get(Reason.TRIAL) for result in results)
 
 
-def test_more_robots_than_fit_say_how_many_fit():
+def test_too_many_robots_are_refused_with_how_many_fit():
     with pytest.raises(
         UsageError, match=r"there is room for \d+ robots in environment 1; take fewer, or --worlds own"
     ):
         run_fleet(RunConfig(robots=1000))
 
 
-def test_a_hall_has_room_for_more():
+def test_hall_has_room_for_more_robots():
     config = RunConfig(seed=1, robots=140, worlds="hall", environments=2, limit_s=10.0)
 
     results = list(run_fleet(config))
@@ -173,7 +173,7 @@ def test_a_hall_has_room_for_more():
 
 
 @pytest.mark.parametrize("worlds", ["one", "hall"])
-def test_with_a_grid_robots_do_what_they_do_without(monkeypatch, worlds):
+def test_robots_do_the_same_with_and_without_a_grid(monkeypatch, worlds):
     config = RunConfig(seed=2, robots=60, worlds=worlds, environments=1, limit_s=40.0)
     with_a_grid = list(run_fleet(config))
 
@@ -183,7 +183,7 @@ def test_with_a_grid_robots_do_what_they_do_without(monkeypatch, worlds):
     assert sum(result.begun.get(Reason.REMEMBERED, 0) for result in with_a_grid) > 100
 
 
-def test_food_is_not_seen_from_farther_than_a_robot_can_be_told(monkeypatch):
+def test_food_beyond_the_largest_beacon_distance_is_not_seen(monkeypatch):
     hall = Layout((), ((11_000.0, 1000.0),), Pose(2000.0, 1000.0, 0.0))
     monkeypatch.setattr(
         fleet,
@@ -197,19 +197,19 @@ def test_food_is_not_seen_from_farther_than_a_robot_can_be_told(monkeypatch):
     assert Reason.TOWARD_FOOD not in result.begun
 
 
-def test_a_behaviour_that_measures_distances_is_refused():
+def test_fleet_refuses_a_behaviour_that_measures_distances():
     with pytest.raises(UsageError, match="profile distance needs distances"):
         run_fleet(replace(OWN, profile="distance"))
 
 
-def test_the_last_seed_is_followed_by_the_first():
+def test_last_seed_is_followed_by_the_first():
     seeds = [result.seed for result in run_fleet(replace(OWN, seed=2**32 - 1, environments=1, limit_s=1.0))]
 
     assert seeds == [2**32 - 1, 0, 1]
 
 
 @pytest.mark.parametrize("worlds", ["own", "one"])
-def test_progress_counts_every_robots_ticks(worlds):
+def test_progress_counts_the_ticks_of_all_robots(worlds):
     counts: list[int] = []
 
     results = list(run_fleet(replace(OWN, worlds=worlds), counts.append))

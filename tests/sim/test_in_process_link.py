@@ -32,7 +32,7 @@ def stop(link: InProcessLink, protocol: Protocol) -> None:
     link.send(protocol.encode("COMMAND", {"counter": 1, "opcode": 1, "owner": 1}))
 
 
-def test_a_drive_answers_the_senses_and_nothing_else_is_to_come():
+def test_drive_answers_the_senses_and_no_other_frame_follows():
     link, protocol = InProcessLink(), Protocol()
 
     link.send(protocol.encode_senses(Senses(0, 0, False, False, 0, 0, 0), 0))
@@ -43,7 +43,7 @@ def test_a_drive_answers_the_senses_and_nothing_else_is_to_come():
     assert link.receive(0.0) is None
 
 
-def test_frames_put_back_come_before_those_that_wait_in_c():
+def test_frames_put_back_come_before_those_waiting_in_c():
     link, protocol = InProcessLink(memory=KNOWS), Protocol()
     stop(link, protocol)
     said = link.taken()
@@ -56,7 +56,7 @@ def test_frames_put_back_come_before_those_that_wait_in_c():
 
 
 @pytest.mark.parametrize("wake", [InProcessLink, Program("a.bas", b"while true\nrTurn 5\nrForward 1\nwend\n").robot])
-def test_a_robot_that_goes_back_to_a_state_does_the_same_again(wake):
+def test_robot_that_goes_back_to_a_state_does_the_same_again(wake):
     link, protocol = wake(), Protocol()
     start = {"counter": 1, "opcode": Opcode.START, "owner": 1, "profile": 0, "seed": 7, "lockstep": 1}
     link.send(protocol.encode("COMMAND", start))
@@ -72,7 +72,7 @@ def test_a_robot_that_goes_back_to_a_state_does_the_same_again(wake):
     assert len(set(done[0])) > 10
 
 
-def test_a_robot_that_was_closed_says_nothing_more():
+def test_closed_robot_sends_nothing_more():
     link, protocol = InProcessLink(), Protocol()
     stop(link, protocol)
 
@@ -81,7 +81,7 @@ def test_a_robot_that_was_closed_says_nothing_more():
     assert link.receive(0.0) is None
 
 
-def test_robots_hear_the_memories_of_each_other():
+def test_robots_without_a_bus_hear_the_memories_of_each_other():
     relay = Relay([1, 2])
     links = {node: InProcessLink(node, KNOWS, relay=relay) for node in (1, 2)}
     stop(links[1], Protocol(1))
@@ -103,7 +103,7 @@ def test_c_code_reaches_each_robot_by_pointers_of_its_own():
     assert first[1:] == second[1:]
 
 
-def test_a_robot_that_is_alone_hears_nobody():
+def test_robot_that_is_alone_hears_nobody():
     link = InProcessLink()
 
     link.hear_others()
@@ -111,7 +111,7 @@ def test_a_robot_that_is_alone_hears_nobody():
     assert link.taken() == []
 
 
-def test_a_library_that_is_not_there_is_named_with_what_builds_it():
+def test_missing_library_is_named_with_what_builds_it():
     with pytest.raises(OctetError, match=r"cannot load the firmware: .*/nowhere\.so.*tools/setup"):
         InProcessLink(library=Path("/nowhere.so"))
 
@@ -140,7 +140,7 @@ class Robot:
         self.closed = True
 
 
-def test_each_robot_hears_the_others_in_order_before_the_next_frame_for_itself():
+def test_robot_hears_the_others_in_order_before_its_own_next_frame():
     said = [memory_of(1, 3), memory_of(1, 4)]
     robots, relay = {1: Robot(*said), 2: Robot(memory_of(2))}, Relay([1, 2])
     links = {node: RelayedLink(robot, relay, node) for node, robot in robots.items()}
@@ -167,7 +167,7 @@ def test_relay_passes_only_memories_to_other_robots():
     assert relay.take(2) == []
 
 
-def test_closing_closes_the_line():
+def test_closing_a_relayed_link_closes_the_robot_s_link():
     robot = Robot()
 
     RelayedLink(robot, Relay([1]), 1).close()
@@ -182,7 +182,7 @@ class RobotBehindSocket(Robot):
         return self
 
 
-def test_a_robot_has_heard_all_before_its_socket_is_lent():
+def test_relayed_memories_are_sent_before_the_socket_is_lent():
     relay, robot = Relay([1, 2]), RobotBehindSocket()
     link = RelayedLink(robot, relay, 1)
     relay.hear(2, memory_of(2))
@@ -223,7 +223,7 @@ def calls_of_a_step(simulation: Simulation) -> list[str]:
     return files
 
 
-def test_a_tick_takes_few_calls_and_files(simulation):
+def test_tick_in_python_takes_few_calls_and_files(simulation):
     before = simulation.drives[0].action
 
     files = calls_of_a_step(simulation)
@@ -233,7 +233,7 @@ def test_a_tick_takes_few_calls_and_files(simulation):
     assert len(set(files)) <= FILES_MAX
 
 
-def test_the_robot_is_told_the_tick_as_it_fits_the_wire(simulation):
+def test_tick_number_in_senses_wraps_at_the_span_of_the_wire(simulation):
     told = []
     for _ in range(TICK_SPAN):
         simulation.step()

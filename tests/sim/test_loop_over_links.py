@@ -80,7 +80,7 @@ def drives_in(log: bytes) -> list[bytes]:
     return [line for line in log.splitlines() if b" %03X#" % DRIVE in line]
 
 
-def test_a_run_is_the_same(tmp_path):
+def test_run_over_sockets_is_the_same_in_python_and_in_c(tmp_path):
     assert_alike(tmp_path, {})
 
 
@@ -94,11 +94,11 @@ def test_disturbed_link_leaves_the_drives_unchanged(tmp_path, meddle):
     assert not result.error
 
 
-def test_what_is_lost_is_repeated(tmp_path):
+def test_lost_answers_are_repeated_alike(tmp_path):
     assert assert_alike(tmp_path, {40: lost, 300: lost}).repeated >= 2
 
 
-def test_what_is_garbled_is_counted(tmp_path):
+def test_garbled_datagrams_are_counted(tmp_path):
     assert assert_alike(tmp_path, {40: garbled, 300: garbled}).garbled == 8
 
 
@@ -115,11 +115,11 @@ FORGED: dict[str, Frame] = {
 
 
 @pytest.mark.parametrize("frame", FORGED.values(), ids=FORGED)
-def test_what_contradicts_the_session_is_found_by_the_same_rules(tmp_path, frame):
+def test_frames_that_contradict_the_session_are_found_alike(tmp_path, frame):
     assert_alike(tmp_path, {40: foreign(frame), 200: foreign(frame)})
 
 
-def test_a_robot_whose_wheels_may_not_do_what_it_tells_them_is_doubted_once(tmp_path):
+def test_robot_that_commands_an_impossible_speed_is_an_incident_once(tmp_path):
     def rush(answers: list[bytes]) -> list[bytes]:
         frame = Frame(DRIVE, answers[-1][8:])
         signals = PROTOCOL.decode(frame).signals
@@ -139,7 +139,7 @@ COMMANDS = {
 }
 
 
-def test_commands_between_blocks_are_the_same(tmp_path):
+def test_commands_between_blocks_have_the_same_effect(tmp_path):
     assert_alike(tmp_path, {140: lost, 260: lost}, COMMANDS)
 
 
@@ -155,7 +155,7 @@ def slow(answers: list[bytes]) -> Iterable[bytes]:
     return answers
 
 
-def test_over_a_slow_line_people_need_not_wait_for_long_blocks(tmp_path):
+def test_blocks_are_short_on_a_slow_link(tmp_path):
     blocks = outcome(tmp_path, dict.fromkeys(range(200), slow), native=True).blocks
 
     first_tick, short = 0, []
@@ -166,7 +166,7 @@ def test_over_a_slow_line_people_need_not_wait_for_long_blocks(tmp_path):
     assert max(short) <= 17
 
 
-def test_a_robot_that_ends_is_named():
+def test_robot_killed_within_a_block_is_named():
     """Its socket is closed in the middle of a block."""
     with make(RunConfig(environments=1, bus="fd")) as simulation:
         simulation.enter(1)
@@ -184,7 +184,7 @@ def descriptors() -> int:
     return sum(1 for _ in Path("/proc/self/fd").iterdir())
 
 
-def test_what_c_code_opened_is_closed_with_the_link():
+def test_descriptors_opened_by_c_code_are_closed_with_the_link():
     before = descriptors()
 
     with make(RunConfig(environments=1, bus="fd")) as simulation:
@@ -196,7 +196,7 @@ def test_what_c_code_opened_is_closed_with_the_link():
     assert descriptors() == before
 
 
-def test_without_a_descriptor_to_spare_python_runs_the_ticks(tmp_path, monkeypatch):
+def test_python_runs_the_ticks_when_no_descriptor_is_free(tmp_path, monkeypatch):
     def refuse(_: int) -> int:
         raise OSError(errno.EMFILE, "Too many open files")
 
@@ -205,7 +205,7 @@ def test_without_a_descriptor_to_spare_python_runs_the_ticks(tmp_path, monkeypat
     assert set(outcome(tmp_path, {}, native=True).blocks) == {1}
 
 
-def test_a_socket_that_c_code_cannot_use_is_left_to_python(tmp_path, monkeypatch):
+def test_socket_that_c_code_cannot_use_is_left_to_python(tmp_path, monkeypatch):
     monkeypatch.setattr(block_catch_up.os, "dup", lambda _: os.open("/dev/null", os.O_RDONLY))
     before = descriptors()
 
@@ -214,7 +214,7 @@ def test_a_socket_that_c_code_cannot_use_is_left_to_python(tmp_path, monkeypatch
 
 
 @pytest.mark.parametrize("robots", [1, 3])
-def test_robots_in_processes_do_as_those_in_this_one(tmp_path, robots):
+def test_robots_in_processes_do_the_same_as_in_process(tmp_path, robots):
     logs = []
     for bus, native in (("none", False), ("fd", True), ("fd", False)):
         log = FrameLog(tmp_path / "run.log")

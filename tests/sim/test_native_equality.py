@@ -16,14 +16,14 @@ def _short(monkeypatch):
     monkeypatch.setattr(native_equality, "_LIMIT_S", 20.0)
 
 
-def test_both_loops_do_the_same():
+def test_loops_in_c_and_in_python_do_the_same():
     verdicts = list(compare_loops(15_000))
 
     assert [verdict.difference for verdict in verdicts] == [None] * len(verdicts)
     assert sum(verdict.ticks for verdict in verdicts) >= 15_000
 
 
-def test_a_wheel_track_that_differs_in_the_last_places_is_found(monkeypatch):
+def test_difference_in_the_last_digits_of_the_wheel_track_is_found(monkeypatch):
     entered = NativeLoop.enter
 
     def enter(self, arena) -> None:
@@ -36,7 +36,7 @@ def test_a_wheel_track_that_differs_in_the_last_places_is_found(monkeypatch):
     assert "trajectory" in difference
 
 
-def test_a_cone_that_reaches_a_little_farther_is_found(monkeypatch):
+def test_cone_that_reaches_a_little_farther_is_found(monkeypatch):
     entered = NativeLoop.enter
 
     def enter(self, arena) -> None:

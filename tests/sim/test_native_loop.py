@@ -97,20 +97,20 @@ def assert_alike(folder: Path, config: RunConfig, changes: dict[int, Change] | N
 
 
 @pytest.mark.parametrize(("seed", "robots"), [(1, 1), (2, 3)])
-def test_a_run_is_the_same(tmp_path, seed, robots):
+def test_run_is_the_same_in_python_and_in_c(tmp_path, seed, robots):
     readable = assert_alike(tmp_path, RunConfig(seed=seed, robots=robots, environments=2, limit_s=25.0))
 
     assert any(history.lessons for history in readable.recorder.histories)
 
 
-def test_an_environment_that_is_finished_is_the_same(tmp_path):
+def test_finished_environment_is_the_same(tmp_path):
     readable = assert_alike(tmp_path, RunConfig(seed=5, environments=1))
 
     assert readable.episodes[0].finished
 
 
 @pytest.mark.parametrize("profile", [profile for profile in PROFILES if profile != "distance"])
-def test_every_behaviour_is_the_same(tmp_path, profile):
+def test_behaviours_of_all_profiles_are_the_same(tmp_path, profile):
     config = RunConfig(seed=4, environments=1, limit_s=20.0, profile=profile)
 
     assert_equal(outcome(tmp_path, config, READABLE), outcome(tmp_path, config, IN_C))
@@ -141,14 +141,14 @@ SURPRISES = (
 )
 
 
-def test_a_run_full_of_surprises_is_the_same(tmp_path):
+def test_run_with_many_changes_is_the_same(tmp_path):
     readable = assert_alike(tmp_path, RunConfig(seed=6, robots=2, environments=2, limit_s=15.0, changes=SURPRISES))
 
     assert not readable.refused
     assert readable.edits == 20
 
 
-def test_a_run_in_which_robots_stop_because_of_their_wheels_is_the_same(tmp_path):
+def test_run_whose_robots_stop_for_their_wheels_is_the_same(tmp_path):
     broken = ("odometer:left:-100%@2s/2", "swap-odometers@4s/1", "odometer:right:0%@6s/3")
 
     readable = assert_alike(tmp_path, RunConfig(seed=6, robots=3, environments=2, limit_s=12.0, changes=broken))
@@ -156,11 +156,11 @@ def test_a_run_in_which_robots_stop_because_of_their_wheels_is_the_same(tmp_path
     assert readable.drives[1].reason == Reason.STOP
 
 
-def test_a_run_in_which_people_meddle_is_the_same(tmp_path):
+def test_run_with_edits_and_commands_by_hand_is_the_same(tmp_path):
     assert_alike(tmp_path, RunConfig(seed=6, environments=1, limit_s=40.0), CHANGES)
 
 
-def test_what_is_learned_again_after_a_command_is_told_again(tmp_path):
+def test_memory_learned_again_after_a_command_is_reported_again(tmp_path):
     """The same memory was reported long before: as a report of that kind it is no news, but for the command."""
 
     def learn(simulation: Simulation, _: RunRecorder) -> None:
@@ -174,7 +174,7 @@ def test_what_is_learned_again_after_a_command_is_told_again(tmp_path):
     assert_alike(tmp_path, config, {10: learn, 20: erase, 1000: erase, 1500: erase})
 
 
-def test_reports_that_wait_from_before_are_logged_in_the_first_tick(tmp_path):
+def test_reports_waiting_from_before_are_logged_in_the_first_tick(tmp_path):
     """A robot that starts with a memory of its own reports it, and the report is not waited for."""
 
     def start_again(simulation: Simulation, _: RunRecorder) -> None:
@@ -186,7 +186,7 @@ def test_reports_that_wait_from_before_are_logged_in_the_first_tick(tmp_path):
     assert_alike(tmp_path, config, {100: start_again})
 
 
-def test_a_run_that_ends_while_a_report_is_under_way_is_the_same(tmp_path):
+def test_run_that_ends_while_a_report_is_under_way_is_the_same(tmp_path):
     """Once a second a robot reports, some of it a tick later: what it tells again after a stop between is known."""
     for ticks in range(95, 105):
         config = RunConfig(seed=1, environments=1, limit_s=ticks / 50)
@@ -195,7 +195,7 @@ def test_a_run_that_ends_while_a_report_is_under_way_is_the_same(tmp_path):
 
 
 @pytest.mark.parametrize("native", [True, False])
-def test_a_run_without_a_log_is_the_same(tmp_path, native):
+def test_run_without_a_log_is_the_same(tmp_path, native):
     config = RunConfig(seed=3, environments=2, limit_s=20.0)
 
     with make(config) as simulation:
@@ -207,7 +207,7 @@ def test_a_run_without_a_log_is_the_same(tmp_path, native):
     assert digest == FrameLog().close()
 
 
-def test_a_robot_that_stays_silent_is_named():
+def test_robot_that_stays_silent_is_named():
     with make(RunConfig(environments=1)) as simulation:
         simulation.enter(1)
         simulation.step(30)
@@ -222,7 +222,7 @@ def test_a_robot_that_stays_silent_is_named():
 
 
 @pytest.mark.parametrize("config", [RunConfig(bus="fd", real_time=True), RunConfig(bus="fd", faults=("drop:1%",))])
-def test_runs_in_real_time_and_with_faults_are_not_run_by_it(config):
+def test_loop_in_c_is_not_used_in_real_time_or_with_faults(config):
     with make(config) as simulation:
         simulation.enter(1)
         assert simulation.loop is None

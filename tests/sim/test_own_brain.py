@@ -70,7 +70,7 @@ def frames(path: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_the_template_s_log_is_that_of_the_article_but_for_its_profile(seed, tmp_path, capsys):
+def test_log_of_the_template_equals_that_of_article_except_for_the_profile(seed, tmp_path, capsys):
     mine = tmp_path / "mine.c"
     assert main(["new", str(mine)]) == 0
     words = ["--seed", str(seed), "--environments", "3", "--limit-s", "300", "--bus", "none", "--quiet"]
@@ -85,7 +85,7 @@ def test_the_template_s_log_is_that_of_the_article_but_for_its_profile(seed, tmp
     assert different["021"] == different["141"] == 1
 
 
-def test_with_the_wheels_of_the_kit_the_template_goes_the_article_s_way():
+def test_template_behaves_like_article_with_the_kit_body():
     config = {"seed": 2, "environments": 2, "body": "kit", "limit_s": 120.0}
 
     own, article = run(RunConfig(profile=str(TEMPLATE), **config)), run(RunConfig(**config))
@@ -94,18 +94,18 @@ def test_with_the_wheels_of_the_kit_the_template_goes_the_article_s_way():
     assert [it.ticks for it in own.episodes] == [it.ticks for it in article.episodes]
 
 
-def test_the_template_is_short():
+def test_template_has_at_most_60_lines():
     assert len(TEMPLATE.read_text().splitlines()) <= 60
 
 
-def test_several_robots_of_one_s_own_go_the_same_way_in_this_process_and_in_others():
+def test_own_behaviours_do_the_same_in_process_and_in_processes():
     config = {"seed": 3, "environments": 1, "robots": 3, "profile": str(TEMPLATE)}
 
     assert run(RunConfig(**config)).log_sha256 == run(RunConfig(fast=True, **config)).log_sha256
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_a_wrong_behaviour_is_named_with_its_line(name, tmp_path, capfd):
+def test_wrong_behaviour_is_reported_with_its_line(name, tmp_path, capfd):
     wrong = WRONG[name]
     text = source(wrong["code"], wrong.get("top", ""))
     file = written(tmp_path, text)
@@ -127,11 +127,11 @@ def test_a_wrong_behaviour_is_named_with_its_line(name, tmp_path, capfd):
     assert code == 2 or "at tick 0, 0.00 s, with nothing in the way, no food seen" in said
 
 
-def test_there_are_forty_wrong_behaviours():
+def test_wrong_behaviours_number_at_least_forty():
     assert len(WRONG) >= 40
 
 
-def test_the_tick_and_the_senses_of_a_mistake_are_named(tmp_path, how):
+def test_mistake_is_reported_with_its_tick_and_senses(tmp_path, how):
     code = "if (pattern_of(senses->feel) == 2) { volatile int z = 0; z = 1 / z; }"
     file = written(tmp_path, source(code), "at tick 7, mine.c")
 
@@ -154,7 +154,7 @@ FILES = {
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_a_file_that_is_no_behaviour_is_refused(name, tmp_path, capfd):
+def test_file_that_is_no_behaviour_is_refused(name, tmp_path, capfd):
     text, says = FILES[name]
     file = written(tmp_path, text)
 
@@ -164,13 +164,13 @@ def test_a_file_that_is_no_behaviour_is_refused(name, tmp_path, capfd):
     assert not (tmp_path / "out/run.log").exists()
 
 
-def test_a_file_that_is_not_there_is_refused(tmp_path, capsys):
+def test_missing_file_is_refused(tmp_path, capsys):
     assert main(["run", "--profile", str(tmp_path / "no.c"), *SHORT]) == 2
     assert "no.c: tools/octet new" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name", ["a name with spaces.c", '"quoted".c', "-o.c", "ein Gehirn \u00e4.c"])
-def test_a_file_may_have_any_name(name, tmp_path, capfd, monkeypatch):
+def test_behaviour_file_may_have_any_name(name, tmp_path, capfd, monkeypatch):
     monkeypatch.chdir(tmp_path)
     written(tmp_path, source("brain->frozen = true;"), name)
 
@@ -181,7 +181,7 @@ def test_a_file_may_have_any_name(name, tmp_path, capfd, monkeypatch):
     )
 
 
-def test_warnings_are_shown_as_the_compiler_says_them_once(tmp_path, capfd):
+def test_compiler_warnings_are_shown_once_as_they_are(tmp_path, capfd):
     text = source("int unused;")
     file = written(tmp_path, text)
 
@@ -195,7 +195,7 @@ def test_warnings_are_shown_as_the_compiler_says_them_once(tmp_path, capfd):
 
 
 @pytest.mark.parametrize("code", ["volatile int *volatile p = 0;\n*p = 1;", "while (senses)\n    brain->own[0]++;"])
-def test_a_mistake_in_this_process_ends_the_run_and_not_the_process(code, tmp_path, capsys):
+def test_mistake_in_process_ends_the_run_and_not_the_process(code, tmp_path, capsys):
     file = written(tmp_path, source(code))
 
     assert main(["run", "--profile", file, "--fast", *SHORT, "--quiet", "--out", str(tmp_path / "out")]) == 1
@@ -214,7 +214,7 @@ def test_notes_are_printed_at_the_end_of_the_run(tmp_path, capsys):
     assert 0 < out.count("printed") < 500
 
 
-def test_the_cache_is_bounded_and_is_used(tmp_path, monkeypatch):
+def test_cache_of_compiled_behaviours_is_bounded_and_used(tmp_path, monkeypatch):
     monkeypatch.setattr(own_brain, "_CACHE", tmp_path / "cache")
     monkeypatch.setattr(own_brain, "_CACHED_MAX", 2)
     monkeypatch.setattr(own_brain, "_BUSY_S", 0.0)
@@ -227,7 +227,7 @@ def test_the_cache_is_bounded_and_is_used(tmp_path, monkeypatch):
     assert own_brain.compiled(texts[3], "mine.c").library.exists()
 
 
-def test_a_robot_without_the_file_refuses_the_profile():
+def test_robot_without_the_file_refuses_the_own_profile():
     link = InProcessLink(1)
     with closing(NoLog()) as log:
         client = RobotClient(Connection(link, "none", link.status, answers_at_once=True), Protocol(1), log)
@@ -250,12 +250,12 @@ def test_option_that_excludes_an_own_behaviour_is_refused(words, capsys):
     assert capsys.readouterr().err.count("\n") == 1
 
 
-def test_fast_is_for_a_behaviour_of_one_s_own():
+def test_fast_option_is_refused_without_an_own_behaviour():
     with pytest.raises(UsageError, match="--fast is for a behaviour of your own"):
         RunConfig(fast=True)
 
 
-def test_new_names_a_command_that_can_be_copied(tmp_path, capsys, monkeypatch):
+def test_new_command_prints_a_command_that_can_be_copied(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
     assert main(["new", "mein Roboter.c"]) == 0
@@ -264,7 +264,7 @@ def test_new_names_a_command_that_can_be_copied(tmp_path, capsys, monkeypatch):
     assert main(["run", *command, *SHORT, "--quiet"]) == 0
 
 
-def test_a_compiler_that_is_gone_is_named_in_one_line(tmp_path, capsys, monkeypatch):
+def test_missing_compiler_is_named_in_one_line(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(own_brain, "_CACHE", tmp_path / "cache")
     monkeypatch.setattr(own_brain, "_tools", lambda: {**TOOLS, "compiler": "/nowhere/cc"})
 
@@ -275,7 +275,7 @@ def test_a_compiler_that_is_gone_is_named_in_one_line(tmp_path, capsys, monkeypa
     )
 
 
-def test_new_writes_no_file_over_another(tmp_path, capsys):
+def test_new_command_overwrites_no_file(tmp_path, capsys):
     file = written(tmp_path, "int x;\n")
 
     assert main(["new", file]) == 2
@@ -294,7 +294,7 @@ def run_of_one_s_own(folder: Path) -> tuple[str, str]:
     return str(folder / "out/run.log"), file
 
 
-def test_a_log_is_replayed_with_its_file_and_asks_for_it(tmp_path, capsys):
+def test_log_of_an_own_behaviour_asks_for_its_file_and_is_replayed_with_it(tmp_path, capsys):
     log, file = run_of_one_s_own(tmp_path)
 
     assert main(["replay", log]) == 2
@@ -305,7 +305,7 @@ def test_a_log_is_replayed_with_its_file_and_asks_for_it(tmp_path, capsys):
     assert not capsys.readouterr().err
 
 
-def test_a_replay_says_that_a_file_has_changed_and_names_the_debugger(tmp_path, capsys):
+def test_replay_says_that_the_file_has_changed_and_names_the_debugger(tmp_path, capsys):
     log, file = run_of_one_s_own(tmp_path)
     Path(file).write_text(TEMPLATE.read_text().replace("set[STEP_MM]", "set[STEP_MM] / 2"))
 
@@ -316,7 +316,7 @@ def test_a_replay_says_that_a_file_has_changed_and_names_the_debugger(tmp_path, 
     assert f" debug {log} --profile {file} --node 1 --at " in told.out
 
 
-def test_opening_a_log_compiles_what_came_with_it_on_request_only(tmp_path, monkeypatch):
+def test_recorded_behaviour_is_compiled_only_on_request(tmp_path, monkeypatch):
     log, file = run_of_one_s_own(tmp_path)
     Path(file).unlink()
     monkeypatch.setattr(own_brain, "_CACHE", tmp_path / "cache")
@@ -333,7 +333,7 @@ def sha256(path: Path) -> str:
     return subprocess.run(["sha256sum", path], capture_output=True, text=True, check=True).stdout.split()[0]
 
 
-def test_the_file_s_name_and_sha256_are_in_what_a_run_leaves(tmp_path):
+def test_outputs_of_a_run_have_the_name_and_sha256_of_the_file(tmp_path):
     log, _ = run_of_one_s_own(tmp_path)
     out = Path(log).parent
 
@@ -344,7 +344,7 @@ def test_the_file_s_name_and_sha256_are_in_what_a_run_leaves(tmp_path):
     assert f"seed 1, mine.c (SHA-256 {own['sha256'][:12]})" in page
 
 
-def test_the_page_of_such_a_run_says_why_it_does_not_go_on_from_a_tick():
+def test_page_says_why_what_if_cannot_run_an_own_behaviour():
     record = WorldRecord(1, 1, 50, own=Source("mine.c", b"int x;"))
     track = SimpleNamespace(node=1)
 

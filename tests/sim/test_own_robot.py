@@ -25,7 +25,7 @@ def pids(tmp_path):
     return f"sh -c 'echo $$ >> {noted}; exec {EXAMPLE}'", lambda: list(map(int, noted.read_text().split()))
 
 
-def test_a_run_takes_it_and_the_same_seed_gives_the_same_log(tmp_path):
+def test_own_robot_gives_the_same_log_for_the_same_seed(tmp_path):
     for name in ("one", "two"):
         words = ["--environments", "1", "--limit-s", "5", "--quiet", "--out", str(tmp_path / name)]
         assert main(["run", "--robot-command", EXAMPLE, *words]) == 0
@@ -33,7 +33,7 @@ def test_a_run_takes_it_and_the_same_seed_gives_the_same_log(tmp_path):
     assert (tmp_path / "one/run.log").read_bytes() == (tmp_path / "two/run.log").read_bytes()
 
 
-def test_several_robots_of_ones_own_have_numbers_of_their_own(pids):
+def test_own_robots_get_different_node_numbers(pids):
     command, known = pids
     with make(RunConfig(bus="fd", robot_command=command, robots=2, limit_s=1.0)) as simulation:
         simulation.enter(1)
@@ -131,20 +131,20 @@ def test_killed_robot_on_vcan_is_restarted(pids):
 
 
 @pytest.mark.parametrize(("event", "seen"), [("kill@50", "1 outages"), ("hang:300@50", "repeated")])
-def test_the_campaign_makes_the_faults_of_a_process_happen_to_it(capsys, event, seen):
+def test_campaign_injects_process_faults_into_an_own_robot(capsys, event, seen):
     cell = f"article external lockstep seed=12 limit=4 event={event}"
 
     assert main(["campaign", "--robot-command", EXAMPLE, "--repeat", cell]) == 0
     assert seen in capsys.readouterr().out
 
 
-def test_the_campaign_needs_the_robot_that_is_external(capsys):
+def test_campaign_requires_external_links_and_own_robot_together(capsys):
     assert main(["campaign", "--html", "x.html", "--links", "external"]) == 2
     assert main(["campaign", "--html", "x.html", "--robot-command", EXAMPLE]) == 2
     assert capsys.readouterr().err.count("go together") == 2
 
 
-def test_a_campaign_writes_its_outcomes_for_build_servers(monkeypatch, tmp_path):
+def test_campaign_writes_its_outcomes_as_json_and_junit(monkeypatch, tmp_path):
     from host_sim.lab.campaign import matrix  # noqa: PLC0415 - the campaign is above
 
     few = [each for each in matrix.CLASSES if each.name in ("frames come twice", "the robot restarts")]

@@ -74,7 +74,7 @@ def test_opposite_wheels_turn_in_place() -> None:
 
 
 @pytest.mark.parametrize(("left", "right"), [(200.0, 100.0), (-50.0, 300.0), (500.0, -499.0), (-100.0, -120.0)])
-def test_one_tick_moves_along_the_arc_of_the_wheels(left: float, right: float) -> None:
+def test_tick_moves_the_body_along_the_arc_of_its_wheels(left: float, right: float) -> None:
     arena = arena_with()
 
     arena.body.move(left, right)
@@ -82,7 +82,7 @@ def test_one_tick_moves_along_the_arc_of_the_wheels(left: float, right: float) -
     assert_near(arena.body.pose, ideal(MIDDLE, left * PARAMS.tick_s, right * PARAMS.tick_s))
 
 
-def test_a_thousand_ticks_end_where_one_long_arc_ends() -> None:
+def test_path_of_1000_ticks_ends_where_one_long_arc_ends() -> None:
     arena = arena_with()
 
     drive(arena, 500.0, 400.0, 1000)
@@ -90,7 +90,7 @@ def test_a_thousand_ticks_end_where_one_long_arc_ends() -> None:
     assert_near(arena.body.pose, ideal(MIDDLE, 10_000.0, 8000.0))
 
 
-def test_odometers_go_on_from_the_arena_before() -> None:
+def test_odometers_continue_from_the_previous_arena() -> None:
     layout = Layout((), (), MIDDLE)
     before = Arena(layout, PARAMS)
     before.inside.bodies[0].left_mm, before.inside.bodies[0].right_mm = 12.5, -0.3
@@ -106,7 +106,7 @@ def test_odometers_go_on_from_the_arena_before() -> None:
     ("heading_deg", "axis", "stop_mm"),
     [(0, 0, PARAMS.width_mm - RADIUS), (90, 1, PARAMS.height_mm - RADIUS), (180, 0, RADIUS), (-90, 1, RADIUS)],
 )
-def test_each_wall_stops_the_robot(heading_deg: float, axis: int, stop_mm: float) -> None:
+def test_walls_stop_the_robot(heading_deg: float, axis: int, stop_mm: float) -> None:
     arena = arena_with(Pose(2000.0, 1500.0, math.radians(heading_deg)))
 
     drive(arena, 500.0, 500.0, 1000)
@@ -115,7 +115,7 @@ def test_each_wall_stops_the_robot(heading_deg: float, axis: int, stop_mm: float
     assert arena.body.sense(0).bump
 
 
-def test_one_wall_hit_and_leant_on_is_one_collision() -> None:
+def test_wall_that_is_hit_and_leant_on_is_one_collision() -> None:
     arena = arena_with(Pose(3800.0, 1500.0, 0.0))
 
     drive(arena, 200.0, 200.0, 100)
@@ -132,7 +132,7 @@ def test_odometers_count_the_slip_of_wheels_that_push_a_wall() -> None:
     assert arena.body.pose.x_mm == pytest.approx(3900.0, abs=0.02)
 
 
-def test_a_robot_that_meets_a_wall_aslant_slides_along_it() -> None:
+def test_robot_that_meets_a_wall_at_an_angle_slides_along_it() -> None:
     arena = arena_with(Pose(3850.0, 1500.0, math.radians(60)))
 
     drive(arena, 200.0, 200.0, 100)
@@ -141,7 +141,7 @@ def test_a_robot_that_meets_a_wall_aslant_slides_along_it() -> None:
     assert arena.body.pose.y_mm == pytest.approx(1500.0 + 400.0 * math.sin(math.radians(60)), abs=0.5)
 
 
-def test_a_robot_against_a_wall_can_still_turn() -> None:
+def test_robot_against_a_wall_can_still_turn() -> None:
     arena = arena_with(Pose(3900.0, 1500.0, 0.0))
 
     drive(arena, 100.0, -100.0, 10)
@@ -149,7 +149,7 @@ def test_a_robot_against_a_wall_can_still_turn() -> None:
     assert_near(arena.body.pose, Pose(3900.0, 1500.0, 0.25))
 
 
-def test_the_arena_corner_stops_the_robot_at_both_walls() -> None:
+def test_arena_corner_stops_the_robot_at_both_walls() -> None:
     arena = arena_with(Pose(3503.0, 2500.0, math.radians(45)))
 
     drive(arena, 500.0, 500.0, 200)
@@ -158,7 +158,7 @@ def test_the_arena_corner_stops_the_robot_at_both_walls() -> None:
 
 
 @pytest.mark.parametrize("opening_deg", [30, 90, 150])
-def test_a_corner_holds_the_robot(opening_deg: float) -> None:
+def test_corner_of_two_bars_stops_the_robot(opening_deg: float) -> None:
     # Two bars that meet ahead of the robot like the sides of a funnel.
     start, tip = Pose(1500.0, 1500.0, 0.0), (2200.0, 1500.0)
     sides = [Pose(*tip, math.pi + side * math.radians(opening_deg) / 2) for side in (-1, 1)]
@@ -173,7 +173,7 @@ def test_a_corner_holds_the_robot(opening_deg: float) -> None:
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_the_body_never_gets_into_an_obstacle(seed: int) -> None:
+def test_body_never_enters_an_obstacle(seed: int) -> None:
     layout, draws = generate(seed, 1, PARAMS), random.Random(seed)
     arena, touched = Arena(layout, PARAMS), False
     for _ in range(40):
@@ -185,7 +185,7 @@ def test_the_body_never_gets_into_an_obstacle(seed: int) -> None:
     assert touched == (arena.body.collisions > 0)
 
 
-def test_senses_are_right_before_the_first_move() -> None:
+def test_senses_are_correct_before_the_first_move() -> None:
     x, y = ahead_of(MIDDLE, 160.0)
     arena = arena_with(bars=(Bar((x, y), (x + 0.01, y)),), foods=(ahead_of(MIDDLE, -300.0),))
 
@@ -203,7 +203,7 @@ def test_food_is_eaten_once_and_only_the_piece_that_is_seen() -> None:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_the_same_drives_give_the_same_senses_bit_for_bit(seed: int) -> None:
+def test_equal_drives_give_equal_senses_bit_for_bit(seed: int) -> None:
     first = roam(seed, 5000)
 
     assert roam(seed, 5000) == first
@@ -247,7 +247,7 @@ BROKEN = {
 
 
 @pytest.mark.parametrize(("damage", "reason"), BROKEN.items(), ids=lambda part: getattr(part, "__name__", ""))
-def test_a_run_ends_with_one_line_that_says_why(module, tmp_path, monkeypatch, damage, reason):
+def test_unusable_library_ends_the_run_with_one_line_that_says_why(module, tmp_path, monkeypatch, damage, reason):
     damage(module, monkeypatch, tmp_path)
 
     with pytest.raises(OctetError) as raised, make(RunConfig(environments=1, limit_s=1.0)) as simulation:

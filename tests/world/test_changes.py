@@ -31,7 +31,7 @@ from host_sim.world.reach import Reach
         ("weak-motor:left:60%@1s", Change("weak-motor:left:60%", None, 1.0)),
     ],
 )
-def test_a_change_is_read_and_written(text, change):
+def test_change_is_read_and_written(text, change):
     assert Change.parse(text) == change
     assert str(change) == text
 
@@ -56,7 +56,7 @@ def test_a_change_is_read_and_written(text, change):
         ("mirror@5s/0", "environments and robots are counted from 1"),
     ],
 )
-def test_a_mistake_is_named_with_what_was_meant(text, meant):
+def test_invalid_change_is_refused_with_what_was_meant(text, meant):
     with pytest.raises(UsageError) as raised:
         Change.parse(text)
 
@@ -72,18 +72,18 @@ plant@120s
 
 
 @pytest.mark.parametrize("form", ["{}", "@{}"])
-def test_a_file_has_a_change_in_each_line(tmp_path, form):
+def test_changes_file_has_a_change_in_each_line(tmp_path, form):
     path = tmp_path / "changes.txt"
     path.write_text(SCHEDULE)
 
     assert read_changes(form.format(path)) == ["plant@120s", "swap-motors@env6"]
 
 
-def test_a_word_with_an_at_is_a_change():
+def test_word_with_an_at_sign_is_a_change():
     assert read_changes("plant@120.0s") == ["plant@120s"]
 
 
-def test_a_mistake_in_a_file_is_named_with_its_line(tmp_path):
+def test_mistake_in_a_changes_file_is_reported_with_its_line(tmp_path):
     path = tmp_path / "changes.txt"
     path.write_text(SCHEDULE + "grwo@5s\n")
 
@@ -93,12 +93,12 @@ def test_a_mistake_in_a_file_is_named_with_its_line(tmp_path):
     assert str(raised.value) == f"{path}:5: 'grwo@5s' is not a change: did you mean grow?"
 
 
-def test_what_is_neither_a_change_nor_a_file_is_refused():
+def test_word_that_is_neither_change_nor_file_is_refused():
     with pytest.raises(UsageError, match=r"'plant' is neither a change nor a file .*: write NAME@120s"):
         read_changes("plant")
 
 
-def test_a_file_that_is_not_text_is_refused(tmp_path):
+def test_changes_file_that_is_not_text_is_refused(tmp_path):
     (tmp_path / "changes").write_bytes(b"\xff\xfe")
 
     with pytest.raises(UsageError, match="is not text"):
@@ -116,7 +116,7 @@ def happen(arena: Arena, text: str, seed: int = 1) -> list:
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_a_plant_is_put_where_it_leaves_a_way_to_all_food(seed):
+def test_plant_is_put_where_it_leaves_a_way_to_all_food(seed):
     layout = generate(seed, 1, PARAMS, robots=2)
     arena = Arena(layout, PARAMS)
 
@@ -132,19 +132,19 @@ def test_a_plant_is_put_where_it_leaves_a_way_to_all_food(seed):
         assert min(math.dist(plant.at, place) for place in near) >= plant.radius_mm + 160
 
 
-def test_the_place_of_a_plant_follows_from_the_seed():
+def test_place_of_a_plant_depends_only_on_the_seed():
     places = {happen(Arena(generate(1, 1, PARAMS), PARAMS), "plant@1s", seed)[0].at for seed in (1, 1, 2)}
 
     assert len(places) == 2
 
 
-def test_a_plant_can_be_put_at_a_place():
+def test_plant_can_be_put_at_a_given_place():
     edits = happen(Arena(generate(1, 1, PARAMS), PARAMS), "plant:2000,1500@1s")
 
     assert edits == [Edit("plant", at=(2000.0, 1500.0), radius=80.0)]
 
 
-def test_plant_is_refused_where_each_place_blocks_the_way():
+def test_plant_is_refused_when_every_place_blocks_the_way():
     narrow = SimParams(width_mm=600.0, height_mm=600.0)
     arena = Arena(Layout((), ((400.0, 300.0),), Pose(200.0, 300.0, 0.0)), narrow)
 
@@ -152,7 +152,7 @@ def test_plant_is_refused_where_each_place_blocks_the_way():
         edits_of(Change.parse("plant@1s"), arena, narrow, 1)
 
 
-def test_a_plant_beside_a_robot_that_touches_a_wall_leaves_it_a_way():
+def test_plant_can_be_put_while_the_robot_touches_a_wall():
     arena = Arena(Layout((), ((3000.0, 1500.0),), Pose(100.0, 1500.0, 0.0)), PARAMS)
 
     assert happen(arena, "plant@1s")
@@ -170,7 +170,7 @@ def test_all_plants_grow():
     assert [edit.radius for edit in (*grown, *more)] == [120.0] * 2 + [127.0] * 2
 
 
-def test_where_there_is_no_plant_none_grows():
+def test_growing_without_a_plant_is_refused():
     with pytest.raises(EditError, match="no plant"):
         happen(Arena(generate(1, 1, PARAMS), PARAMS), "grow@2s")
 
@@ -185,7 +185,7 @@ def test_body_change_affects_all_robots_or_the_one_named():
     assert [body.faults.mirrored for body in arena.bodies] == [True, False, True]
 
 
-def test_a_plant_is_an_obstacle_like_any_other():
+def test_plant_is_sensed_and_stops_the_robot_like_any_obstacle():
     arena = Arena(Layout((Bar((9.0, 9.0), (99.0, 99.0)),), ((2500.0, 1500.0),), Pose(2000.0, 1500.0, 0.0)), PARAMS)
     assert arena.body.sense(0).look
 
@@ -206,7 +206,7 @@ def arena() -> Arena:
     return Arena(generate(1, 1, SimParams()), SimParams())
 
 
-def test_faults_go_on_in_the_next_arena_until_they_are_repaired(arena):
+def test_faults_continue_in_the_next_arena_until_bodies_begin_anew(arena):
     arena.body.add_fault("stuck-on:front")
     following = Arena(generate(1, 2, SimParams()), SimParams(), arena.bodies)
     assert following.body.sense(0).feel == 4
@@ -221,7 +221,7 @@ def wrong_bits(arena: Arena, ticks: range) -> list[int]:
     return [arena.body.sense(tick).feel for tick in ticks]
 
 
-def test_noise_makes_each_sensor_wrong_as_often_as_it_says(arena):
+def test_noise_makes_each_sensor_wrong_at_its_rate(arena):
     arena.body.add_fault("noise:10/1000", seed=1)
 
     bits = wrong_bits(arena, range(40_000))
@@ -230,7 +230,7 @@ def test_noise_makes_each_sensor_wrong_as_often_as_it_says(arena):
         assert sum(wrong >> sensor & 1 for wrong in bits) == pytest.approx(400, abs=80)
 
 
-def test_noise_of_a_tick_is_the_same_whenever_it_is_asked_for(arena):
+def test_noise_of_a_tick_does_not_depend_on_when_it_is_read(arena):
     arena.body.add_fault("noise:1/3", seed=1)
 
     assert wrong_bits(arena, range(50))[40:] == wrong_bits(arena, range(40, 50))

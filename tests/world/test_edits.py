@@ -42,7 +42,7 @@ def edit(arena: Arena, *edits: Edit) -> None:
         arena.edit(one)
 
 
-def test_a_bar_put_before_the_robot_is_felt_at_once_and_no_more_when_it_is_taken_away(arena):
+def test_bar_moved_ahead_of_the_robot_is_felt_until_it_is_removed(arena):
     assert feel(arena) == 0
     edit(arena, Edit("move_bar", 0, **AHEAD._asdict()))
     assert feel(arena) & FRONT
@@ -52,13 +52,13 @@ def test_a_bar_put_before_the_robot_is_felt_at_once_and_no_more_when_it_is_taken
     assert arena.obstacles.bars == {1: FAR}
 
 
-def test_a_bar_hides_the_food_behind_it(arena):
+def test_bar_hides_the_food_behind_it(arena):
     assert arena.body.sense(0).look
     edit(arena, Edit("add_bar", **AHEAD._asdict()))
     assert not arena.body.sense(0).look
 
 
-def test_moved_food_is_seen_where_it_lies_and_an_eaten_piece_no_more(arena):
+def test_moved_food_is_seen_where_it_lies_unless_it_is_eaten(arena):
     edit(arena, Edit("move_food", 0, at=(2120.0, 1500.0)))
     assert arena.body.sense(0).beacon_mm == 120
     assert arena.body.eat()
@@ -67,7 +67,7 @@ def test_moved_food_is_seen_where_it_lies_and_an_eaten_piece_no_more(arena):
     assert arena.food.eaten == [True, False]
 
 
-def test_two_pieces_of_food_at_one_place_are_eaten_one_by_one(arena):
+def test_food_pieces_at_one_place_are_eaten_one_by_one(arena):
     edit(arena, Edit("move_food", 0, at=(2120.0, 1500.0)), Edit("move_food", 1, at=(2120.0, 1500.0)))
     for left in (1, 0):
         arena.body.sense(0)
@@ -75,7 +75,7 @@ def test_two_pieces_of_food_at_one_place_are_eaten_one_by_one(arena):
         assert len(arena.food.uneaten) == left
 
 
-def test_a_lifted_robot_senses_nothing_and_goes_nowhere_but_its_wheels_turn(arena):
+def test_lifted_robot_senses_nothing_and_its_wheels_turn_without_moving_it(arena):
     edit(arena, Edit("move_bar", 0, **AHEAD._asdict()), Edit("lift"))
     pose, odometer = arena.body.pose, arena.body.odometer
     arena.body.move(200, 200)
@@ -85,19 +85,19 @@ def test_a_lifted_robot_senses_nothing_and_goes_nowhere_but_its_wheels_turn(aren
     assert arena.body.odometer > odometer
 
 
-def test_a_robot_put_down_is_where_it_was_put(arena):
+def test_robot_put_down_is_where_it_was_put(arena):
     edit(arena, Edit("lift"), Edit("put", at=(600.0, 1500.0), heading=1000))
     assert arena.body.pose == (600.0, 1500.0, 1.0)
     arena.body.move(200, 200)
     assert arena.body.pose.x_mm == pytest.approx(600 + 4 * math.cos(1.0))
 
 
-def test_a_robot_put_down_before_a_wall_feels_it(arena):
+def test_robot_put_down_before_a_wall_feels_it(arena):
     edit(arena, Edit("lift"), Edit("put", at=(3880.0, 1500.0), heading=0))
     assert feel(arena) & FRONT
 
 
-def test_a_plant_can_be_moved_grow_and_be_taken_away(arena):
+def test_plant_can_be_moved_grown_and_removed(arena):
     edit(arena, Edit("plant", at=(2250.0, 2000.0), radius=80.0), Edit("move_plant", 0, at=(2250.0, 1500.0)))
     assert feel(arena) == 0
     edit(arena, Edit("grow_plant", 0, radius=100.0))
@@ -140,12 +140,12 @@ SIDES = (0, 1, 2, 0, 0, 0, 2, 1)
         ((0,) * 7, []),
     ],
 )
-def test_a_memory_is_of_the_kinds_that_its_bytes_allow(memory, kinds):
+def test_memory_is_of_the_kinds_that_its_bytes_allow(memory, kinds):
     assert kinds_of(memory) == kinds
 
 
 @pytest.mark.parametrize("kind", MemoryKind)
-def test_a_memory_that_becomes_another_kind_keeps_its_turns(kind):
+def test_memory_translated_to_another_kind_keeps_its_turns(kind):
     memory = translated(SIDES, kind)
 
     assert kind in kinds_of(memory)
@@ -154,13 +154,13 @@ def test_a_memory_that_becomes_another_kind_keeps_its_turns(kind):
 
 
 @pytest.mark.parametrize("kind", MemoryKind)
-def test_a_turn_that_is_taken_away_leaves_an_empty_cell(kind):
+def test_erased_turn_leaves_an_empty_cell(kind):
     memory = with_sides(translated(SIDES, kind), kind, [(1, 0)])
 
     assert sides_of(memory) == (0, 0, *SIDES[2:])
 
 
-def test_readings_of_a_pattern_that_disagree_evenly_are_no_turn():
+def test_evenly_disagreeing_readings_of_a_pattern_are_no_turn():
     memories = (with_sides(EMPTY, MemoryKind.ALL_SENSORS, [(1, side)]) for side in (1, 2))
     left, right = (int.from_bytes(bytes(memory), "little") for memory in memories)
     half = (1 << 12) - 1  # pattern 1 is at readings 2, 3, 18 and 19, two bits each
@@ -172,7 +172,7 @@ def test_readings_of_a_pattern_that_disagree_evenly_are_no_turn():
 
 
 @pytest.mark.parametrize("kind", MemoryKind)
-def test_a_turn_that_is_written_is_the_one_that_is_shown(kind):
+def test_written_turn_is_the_one_that_is_shown(kind):
     for pattern in range(1, 8):
         for side in Side:
             written = with_sides(EMPTY, kind, [(pattern, side)])
@@ -217,7 +217,7 @@ def way_mm(kind: CrateKind, bar: Bar = CRATE_AHEAD) -> float:
     return arena.obstacles.bars[0].a[0] - bar.a[0]
 
 
-def test_a_robot_pushes_a_crate_before_it():
+def test_robot_pushes_a_crate_ahead_of_it():
     arena = arena_with(CRATE_AHEAD)
     pushes = run(arena, Crates(arena, KIND))
 
@@ -242,7 +242,7 @@ def test_heavy_and_rough_crates_are_slow():
     assert way_mm(CrateKind(200.0, 2.0)) < 20.0
 
 
-def test_friction_stops_a_crate_and_smooth_ones_glide_on():
+def test_friction_stops_a_crate_and_smooth_crates_glide_farther():
     def glide_mm(friction: float) -> float:
         arena = arena_with(CRATE_AHEAD)
         crates = Crates(arena, CrateKind(15.0, friction))
@@ -255,7 +255,7 @@ def test_friction_stops_a_crate_and_smooth_ones_glide_on():
     assert 100.0 > glide_mm(0.1) > glide_mm(0.5) > 0.0
 
 
-def test_a_push_off_the_middle_turns_a_crate():
+def test_off_centre_push_turns_a_crate():
     arena = arena_with(Bar((1000.0, 950.0), (1000.0, 1250.0)))
     run(arena, Crates(arena, KIND), ticks=100)
 
@@ -264,7 +264,7 @@ def test_a_push_off_the_middle_turns_a_crate():
     assert math.hypot(bx - ax, by - ay) == pytest.approx(300.0, abs=2.0)
 
 
-def test_a_wall_and_a_plant_hold_a_crate():
+def test_walls_and_plants_stop_a_crate():
     wall = arena_with(Bar((3900.0, 900.0), (3900.0, 1100.0)), start=Pose(3600.0, 1000.0, 0.0))
     run(wall, Crates(wall, KIND), ticks=300)
     plant = arena_with(CRATE_AHEAD)
@@ -275,7 +275,7 @@ def test_a_wall_and_a_plant_hold_a_crate():
     assert plant.obstacles.bars[0].a[0] <= 1185.0
 
 
-def test_a_crate_pushes_another():
+def test_pushed_crate_pushes_another_crate():
     behind = Bar((1200.0, 900.0), (1200.0, 1100.0))
     arena = arena_with(CRATE_AHEAD, behind)
     run(arena, Crates(arena, KIND))
@@ -285,7 +285,7 @@ def test_a_crate_pushes_another():
     assert second - first > 75.0
 
 
-def test_a_robot_in_the_air_pushes_nothing():
+def test_lifted_robot_pushes_no_crate():
     arena = arena_with(CRATE_AHEAD, start=Pose(860.0, 1000.0, 0.0))
     arena.edit(Edit("lift"))
 
@@ -305,7 +305,7 @@ def test_edits_by_hand_reach_the_crates():
     assert arena.obstacles.bars == {1: Bar((2500.0, 500.0), (2500.0, 700.0))}
 
 
-def test_equal_runs_push_equally():
+def test_equal_runs_make_equal_pushes():
     def pushes() -> list[Edit]:
         arena = arena_with(*(Bar((x, 900.0), (x, 1100.0)) for x in (1000.0, 1150.0, 1300.0, 1450.0)))
         return run(arena, Crates(arena, KIND), drive(200, 190), ticks=300)

@@ -28,23 +28,23 @@ def room_mm(layout: Layout, *points: tuple[float, float]) -> list[float]:
     return [float(room) for room in clearances_mm(np.array(points), layout.bars, PARAMS)]
 
 
-def test_a_faster_left_wheel_turns_right_and_right_turns_are_positive() -> None:
+def test_faster_left_wheel_turns_right_and_right_turns_are_positive() -> None:
     assert rolled(Pose(0.0, 0.0, 0.0), left_mm=2.0, right_mm=1.0, track_mm=100.0).heading_rad == pytest.approx(0.01)
 
 
-def test_heading_0_looks_along_x_and_90_degrees_to_the_right_of_it_is_down_the_screen() -> None:
+def test_heading_0_is_along_x_and_right_of_it_is_down_the_screen() -> None:
     pose = Pose(10.0, 20.0, 0.0)
 
     assert ahead_of(pose, 5.0) == pytest.approx((15.0, 20.0))
     assert ahead_of(pose, 5.0, math.pi / 2) == pytest.approx((10.0, 25.0))
 
 
-def test_a_bearing_counts_from_the_heading() -> None:
+def test_bearing_counts_from_the_heading() -> None:
     assert ahead_of(Pose(0.0, 0.0, math.pi / 2), 5.0, math.pi / 2) == pytest.approx((-5.0, 0.0))
 
 
 @pytest.mark.parametrize(("seed", "number"), [(2, 1), (1, 2), (-1, 1), (11, 1), (1, 11)])
-def test_another_seed_or_number_gives_another_environment(seed: int, number: int) -> None:
+def test_environments_differ_with_the_seed_and_the_number(seed: int, number: int) -> None:
     assert generate(seed, number, PARAMS) != generate(1, 1, PARAMS)
 
 
@@ -57,25 +57,25 @@ def test_food_behind_obstacles_is_drawn_again() -> None:
         assert all(can_reach(layout, food, params) for food in layout.food)
 
 
-def test_starts_look_every_way() -> None:
+def test_starts_face_all_four_quarters() -> None:
     headings = [generate(seed, 1, PARAMS).start.heading_rad for seed in range(100)]
 
     quarters = {math.floor(heading / (math.pi / 2)) for heading in headings}
     assert quarters == {-2, -1, 0, 1}
 
 
-def test_a_world_without_room_is_refused_with_its_seed_and_number() -> None:
+def test_world_without_room_is_refused_with_its_seed_and_number() -> None:
     with pytest.raises(ValueError, match="seed 5, number 3"):
         generate(5, 3, SimParams(width_mm=300.0, height_mm=300.0, bar_count=0))
 
 
 @pytest.mark.parametrize("params", [SimParams(bar_count=65), SimParams(food_bands_mm=((0.0, 4000.0),) * 21)])
-def test_more_than_can_be_drawn_is_refused(params: SimParams) -> None:
+def test_too_many_obstacles_or_pieces_of_food_are_refused(params: SimParams) -> None:
     with pytest.raises(ValueError, match="at most 64 obstacles and 20 pieces of food"):
         generate(1, 1, params)
 
 
-def test_no_robot_starts_within_reach_of_another_or_of_an_obstacle() -> None:
+def test_robots_start_out_of_reach_of_each_other_and_of_obstacles() -> None:
     layout = generate(3, 1, PARAMS, robots=20)
     reach_mm = PARAMS.body_radius_mm + PARAMS.sensor_reach_mm
 
@@ -84,7 +84,7 @@ def test_no_robot_starts_within_reach_of_another_or_of_an_obstacle() -> None:
     assert min(room_mm(layout, *(start[:2] for start in layout.starts))) >= reach_mm
 
 
-def test_more_robots_than_there_is_room_for_say_how_many_fit() -> None:
+def test_too_many_robots_are_refused_with_how_many_fit() -> None:
     small = SimParams(width_mm=1500.0, height_mm=1500.0, bar_count=0, food_bands_mm=((0.0, 1500.0),))
 
     with pytest.raises(NoRoomError, match=r"there is room for \d+ robots in environment 1") as raised:
@@ -105,14 +105,14 @@ def drawn_by_python(text: str, count: int) -> list[float]:
     return [draws.random() for _ in range(count)]
 
 
-def test_the_first_numbers_of_many_seeds_are_those_of_python():
+def test_first_numbers_of_many_seeds_equal_those_of_python():
     for seed in (*range(2000), -1, 2**32 - 1, 2**63 - 1, -(2**63)):
         text = f"octet {seed} {seed % 7}"
 
         assert drawn(text, 3) == drawn_by_python(text, 3), text
 
 
-def test_the_numbers_of_a_text_of_any_length_are_those_of_python():
+def test_numbers_of_a_text_of_any_length_equal_those_of_python():
     for length in range(101):
         text = "".join(chr(33 + (7 * i) % 90) for i in range(length))
 
@@ -120,12 +120,12 @@ def test_the_numbers_of_a_text_of_any_length_are_those_of_python():
 
 
 @pytest.mark.parametrize("text", ["octet 1 1", "octet 7 3 starts", ""])
-def test_a_long_sequence_is_that_of_python(text):
+def test_long_sequence_equals_that_of_python(text):
     assert drawn(text, 10_000) == drawn_by_python(text, 10_000)
 
 
 @pytest.mark.parametrize("name", DIGESTS)
-def test_the_layouts_of_a_world_stay_the_same_for_ever(name):
+def test_layouts_of_a_world_equal_the_golden_ones(name):
     assert digest(numbers(world(name).generate(*which)) for which in WANTED) == DIGESTS[name]
 
 
@@ -133,14 +133,14 @@ SEEDS = range(15)
 
 
 @pytest.mark.parametrize("name", WORLD_NAMES)
-def test_every_environment_of_every_world_is_fair(name):
+def test_environments_of_all_worlds_are_fair(name):
     world = world_of(name)
 
     assert all(is_fair(world.generate(seed, 1), world.params) for seed in SEEDS)
 
 
 @pytest.mark.parametrize("name", WORLD_NAMES)
-def test_a_seed_and_a_number_name_one_environment(name):
+def test_seed_and_number_determine_the_environment(name):
     world = world_of(name)
 
     assert world.generate(3, 2) == world.generate(3, 2)
@@ -148,11 +148,11 @@ def test_a_seed_and_a_number_name_one_environment(name):
 
 
 @pytest.mark.parametrize("name", WORLD_NAMES)
-def test_several_robots_find_room_in_every_world(name):
+def test_worlds_have_room_for_several_robots(name):
     assert len(world_of(name).generate(5, 1, robots=3).starts) == 3
 
 
-def test_the_random_world_is_that_of_generate():
+def test_random_world_equals_that_of_generate():
     assert world_of("random").generate(7, 2, 3) == generate(7, 2, SimParams(), 3)
 
 
@@ -168,7 +168,7 @@ def test_all_bars_are_inside_the_arena():
     ("text", "meant"),
     [("corridor", "did you mean corridors?"), ("moon", "choose from random, corridors"), ("", "choose from")],
 )
-def test_a_world_that_there_is_not_is_refused_with_what_was_meant(text, meant):
+def test_unknown_world_is_refused_with_what_was_meant(text, meant):
     with pytest.raises(UsageError, match=meant.replace("?", r"\?")):
         world_of(text)
 
@@ -193,7 +193,7 @@ def read(folder: Path, text: str) -> World:
     return world_of(str(path))
 
 
-def test_a_file_is_read_as_it_is_meant(tmp_path):
+def test_world_file_sets_size_bars_food_and_start(tmp_path):
     world = read(tmp_path, FULL)
 
     layout = world.generate(1, 1)
@@ -203,13 +203,13 @@ def test_a_file_is_read_as_it_is_meant(tmp_path):
     assert layout.start == pytest.approx(Pose(300.0, 300.0, 1.5707963))
 
 
-def test_all_environments_have_the_same_layout(tmp_path):
+def test_environments_of_a_world_file_have_the_same_layout(tmp_path):
     world = read(tmp_path, FULL)
 
     assert world.generate(1, 1) == world.generate(2, 7)
 
 
-def test_a_start_that_is_left_out_is_drawn_for_each_environment_and_fair(tmp_path):
+def test_missing_start_is_drawn_for_each_environment_and_fair(tmp_path):
     world = read(tmp_path, re.sub("start.*", "", FULL))
 
     layouts = [world.generate(1, number) for number in range(1, 30)]
@@ -217,14 +217,14 @@ def test_a_start_that_is_left_out_is_drawn_for_each_environment_and_fair(tmp_pat
     assert all(is_fair(layout, world.params) for layout in layouts)
 
 
-def test_a_world_can_be_written_out_and_made_again(tmp_path):
+def test_world_file_content_can_be_written_and_read_back(tmp_path):
     world = read(tmp_path, FULL)
     assert isinstance(world.draw, WrittenLayout)
 
     assert world_from(content_of(world.draw, world.params), "my.toml") == world
 
 
-def test_the_example_in_the_documents_is_the_file_beside_them():
+def test_example_in_the_documentation_equals_its_file():
     text = (DOCS / "worlds/two_walls.toml").read_text()
 
     assert f"```toml\n{text}```" in (DOCS / "worlds.md").read_text()
@@ -253,7 +253,7 @@ def test_the_example_in_the_documents_is_the_file_beside_them():
         ),
     ],
 )
-def test_a_mistake_is_named_with_its_line_and_what_was_meant(tmp_path, text, line, meant):
+def test_mistake_in_a_world_file_is_reported_with_line_and_what_was_meant(tmp_path, text, line, meant):
     with pytest.raises(UsageError) as raised:
         read(tmp_path, text)
 
@@ -261,13 +261,13 @@ def test_a_mistake_is_named_with_its_line_and_what_was_meant(tmp_path, text, lin
 
 
 @pytest.mark.parametrize("content", [b"\xff\xfe", b"x = " + b"[" * 100_000, b"\0"])
-def test_world_file_with_unprintable_text_is_refused(tmp_path, content):
+def test_world_file_that_cannot_be_parsed_is_refused(tmp_path, content):
     (tmp_path / "my.toml").write_bytes(content)
 
     with pytest.raises(UsageError, match=r"my\.toml"):
         world_of(str(tmp_path / "my.toml"))
 
 
-def test_a_missing_file_is_said():
+def test_missing_world_file_is_reported():
     with pytest.raises(UsageError, match=r"there is no file nowhere\.toml"):
         world_of("nowhere.toml")

@@ -39,7 +39,7 @@ def compared() -> Iterator[Recorded]:
 
 
 @pytest.mark.parametrize("recorded", [*compared()], ids=lambda recorded: recorded.name)
-def test_both_give_the_same_bytes(recorded):
+def test_fast_physics_and_pymunk_give_the_same_bytes(recorded):
     configs = [replace(recorded.config, physics=physics) for physics in (FAST, PYMUNK)]
     fast, reference = (digest_of_log(recorded._replace(config=config)) for config in configs)
 
@@ -95,7 +95,7 @@ def state(arena: Arena) -> list[tuple[object, ...]]:
 @pytest.mark.parametrize(
     ("seed", "robots", "edited"), [(1, 1, 0), (2, 1, 0), (3, 2, 0), (4, 5, 0), (5, 1, 1), (6, 3, 1)]
 )
-def test_bodies_that_bump_into_things_do_so_alike(seed, robots, edited):
+def test_bodies_bump_into_things_alike_in_both_physics(seed, robots, edited):
     layout, draws = generate(seed, 1, PARAMS, robots), random.Random(seed)
     arenas = [Arena(layout, PARAMS, physics=physics) for physics in PHYSICS]
 
@@ -115,7 +115,7 @@ def test_bodies_that_bump_into_things_do_so_alike(seed, robots, edited):
 
 
 @pytest.mark.parametrize("native", [True, False])
-def test_ctrl_c_while_pymunk_works_ends_the_run(native, monkeypatch):
+def test_ctrl_c_within_a_step_of_pymunk_ends_the_run(native, monkeypatch):
     config = RunConfig(environments=1, limit_s=5.0, physics=PYMUNK)
     with make(config) as simulation:
         simulation.native = native
@@ -133,7 +133,7 @@ def test_ctrl_c_while_pymunk_works_ends_the_run(native, monkeypatch):
             simulation.step(10)
 
 
-def test_arenas_with_pymunk_that_are_over_do_not_pile_up():
+def test_pymunk_spaces_of_finished_environments_are_freed():
     spaces = weakref.WeakSet()
     gc.disable()
     try:
@@ -148,7 +148,7 @@ def test_arenas_with_pymunk_that_are_over_do_not_pile_up():
 @pytest.mark.parametrize(
     ("bus", "physics"), [("none", FAST), ("fd", FAST), ("socketcan:vcan0", PYMUNK), ("slcan:/dev/ttyUSB0", PYMUNK)]
 )
-def test_on_a_can_bus_the_reference_is_the_default(bus, physics):
+def test_default_physics_on_a_can_bus_is_pymunk(bus, physics):
     assert RunConfig(bus=bus).chosen_physics == physics
     assert RunConfig(bus=bus, physics=FAST).chosen_physics == FAST
 
@@ -174,13 +174,13 @@ def apart_mm(arena: Arena) -> float:
 
 
 @pytest.mark.parametrize(("heading_deg", "bit"), [(0, FRONT), (90, LEFT), (-90, RIGHT), (180, 0)])
-def test_a_robot_is_felt_where_it_is(heading_deg: float, bit: int) -> None:
+def test_robot_is_felt_by_another_in_its_direction(heading_deg: float, bit: int) -> None:
     arena = arena_with(at(0.0, heading_deg), at(250.0))
 
     assert feel(arena.bodies[0]) & (FRONT | LEFT | RIGHT) == bit
 
 
-def test_neither_steals_the_others_senses() -> None:
+def test_robots_do_not_share_their_senses() -> None:
     peg = Bar((MIDDLE[0] + 130.0, MIDDLE[1]), (MIDDLE[0] + 130.01, MIDDLE[1]))
     far = Pose(500.0, 500.0, 0.0)
 
@@ -203,7 +203,7 @@ def test_robots_stop_at_each_other_and_both_feel_the_bump() -> None:
     assert [body.collisions for body in arena.bodies] == [1, 1]
 
 
-def test_a_robot_that_stands_is_not_pushed() -> None:
+def test_standing_robot_is_not_pushed() -> None:
     arena = arena_with(at(0.0), at(400.0))
 
     for _ in range(200):
@@ -219,7 +219,7 @@ def test_robots_see_food_separately_and_hide_it_from_each_other() -> None:
     assert [body.sense(0).beacon_mm for body in arena.bodies] == [0, 500]
 
 
-def test_food_is_eaten_by_one_of_them_only() -> None:
+def test_food_is_eaten_by_one_robot_only() -> None:
     food = MIDDLE
     arena = arena_with(at(-120.0), at(120.0, 180.0), foods=(food,))
     for body in arena.bodies:
@@ -228,7 +228,7 @@ def test_food_is_eaten_by_one_of_them_only() -> None:
     assert [body.eat() for body in arena.bodies] == [True, False]
 
 
-def test_a_robot_far_from_all_others_senses_what_it_would_alone() -> None:
+def test_robot_far_from_all_others_moves_and_feels_as_if_alone() -> None:
     layout = generate(5, 1, PARAMS)
     corner = Pose(PARAMS.width_mm - 150.0, PARAMS.height_mm - 150.0, 0.0)
     alone = Arena(layout, PARAMS)

@@ -36,7 +36,7 @@ def measured(*things: Capsule, pose: Pose = START) -> Ranges:
 
 @pytest.mark.parametrize(("place", "bearing_deg"), list(enumerate(CONE_BEARINGS_DEG.values())))
 @pytest.mark.parametrize(("gap_mm", "range_mm"), [(0.0, 0), (0.4, 0), (0.6, 1), (30.4, 30), (59.9, 60)])
-def test_a_thing_in_one_cone_is_measured_there_alone(place, bearing_deg, gap_mm, range_mm):
+def test_thing_in_one_cone_is_measured_in_that_cone_only(place, bearing_deg, gap_mm, range_mm):
     expected = [None] * 5
     expected[place] = range_mm
 
@@ -46,7 +46,7 @@ def test_a_thing_in_one_cone_is_measured_there_alone(place, bearing_deg, gap_mm,
 @pytest.mark.parametrize(
     ("bearing_deg", "gap_mm", "seen"), [(45, 59.99, True), (45, 60.01, False), (0, 60.49, True), (0, 60.51, False)]
 )
-def test_the_front_cone_reaches_half_a_millimetre_farther(bearing_deg, gap_mm, seen):
+def test_front_cone_reaches_half_a_millimetre_farther(bearing_deg, gap_mm, seen):
     assert (measured(peg(bearing_deg, gap_mm)) != NOTHING_NEAR) == seen
 
 
@@ -78,7 +78,7 @@ def point_by_point(bar: Capsule, points: int) -> list[float]:
     return found
 
 
-def test_any_bar_is_measured_as_it_is_point_by_point():
+def test_range_of_a_bar_equals_the_least_distance_of_its_points():
     dice, compared = random.Random(1), 0
     for _ in range(150):
         gap_mm, bearing = dice.uniform(1.0, 55.0), dice.uniform(-math.pi, math.pi)
@@ -128,17 +128,17 @@ def told_of_a_wall(
     return ranges
 
 
-def test_a_real_sensor_tells_a_distance_as_far_as_it_reaches_itself():
+def test_real_sensor_measures_as_far_as_its_own_reach():
     assert told_of_a_wall(30, front_mm=40).front == 30
     assert told_of_a_wall(50, front_mm=40).front is None
     assert told_of_a_wall(75, front_mm=80).front == 75
 
 
-def test_a_thing_nearer_than_a_sensor_s_curve_folds_back_seems_farther_away():
+def test_thing_nearer_than_the_fold_distance_seems_farther_away():
     assert told_of_a_wall(20, front_mm=80, fold_mm=30).front == 50
 
 
-def test_a_real_sensor_s_distances_are_as_noisy_as_what_it_feels():
+def test_real_sensor_measures_distances_with_its_noise():
     told = {told_of_a_wall(30, tick=tick, noise_mm=5).front for tick in range(40)}
 
     assert len(told) > 5
@@ -146,14 +146,14 @@ def test_a_real_sensor_s_distances_are_as_noisy_as_what_it_feels():
 
 
 @pytest.mark.parametrize("traits", [{}, {"hysteresis_mm": 1}], ids=["ideal", "real"])
-def test_a_ring_that_is_mirrored_feels_and_measures_on_the_other_side(traits):
+def test_mirrored_sensor_ring_feels_and_measures_on_the_other_side(traits):
     sound, mirrored = (told_of_a_wall(30, fault, bearing_deg=45, **traits) for fault in ("", "mirror"))
 
     assert sound.front_left is not None or sound.front_right is not None
     assert tuple(mirrored) == sound[::-1] != sound
 
 
-def test_distances_come_as_late_as_the_other_senses():
+def test_distances_are_delayed_like_the_other_senses():
     near = Pose(PARAMS.width_mm - RADIUS_MM - 30.0, 1500.0, 0.0)
     arena = Arena(Layout((), (), Pose(2000.0, 1500.0, 0.0)), PARAMS, kind=kind_from({"senses_ticks": 1}))
     arena.begin(1)
@@ -206,7 +206,7 @@ def bar_across(ahead_mm: float, from_mm: float, to_mm: float) -> Bar:
 
 
 @pytest.mark.parametrize(("bits", "bearing_deg"), [(1 | 2, 67.5), (2 | 4, 22.5), (4 | 8, -22.5), (8 | 16, -67.5)])
-def test_an_obstacle_between_two_cones_sets_both_bits(bits: int, bearing_deg: float) -> None:
+def test_obstacle_between_two_cones_sets_both_bits(bits: int, bearing_deg: float) -> None:
     assert feel(sensed_peg(bearing_deg, 30.0)) == bits
 
 
@@ -219,24 +219,24 @@ def test_cones_leave_no_gap_for_a_needle_from_minus_112_to_plus_112_degrees() ->
 
 
 @pytest.mark.parametrize("bearing_deg", [-112.6, 112.6])
-def test_a_needle_just_outside_the_cones_is_not_felt(bearing_deg: float) -> None:
+def test_needle_just_outside_the_cones_is_not_felt(bearing_deg: float) -> None:
     assert not needle_feel(bearing_deg)
 
 
 @pytest.mark.parametrize("bearing_deg", [*range(-110, 111, 7), -112.4, 22.5, 112.4])
-def test_cones_reach_60_mm_give_or_take_one(bearing_deg: float) -> None:
+def test_cones_reach_60_mm_within_1_mm(bearing_deg: float) -> None:
     assert feel(sensed_peg(bearing_deg, 59.0))
     assert not feel(sensed_peg(bearing_deg, 61.0))
 
 
-def test_a_cone_is_cut_to_its_reach() -> None:
+def test_outline_of_a_cone_ends_at_its_reach() -> None:
     outline = cone_outline(CONE_BEARINGS_DEG[1], REACH_MM)
 
     assert outline[0] == (0.0, 0.0)
     assert [math.hypot(x, y) for x, y in outline[1:]] == pytest.approx([REACH_MM] * 5, abs=0.4)
 
 
-def test_one_of_two_obstacles_in_a_cone_may_leave_without_clearing_the_bit() -> None:
+def test_bit_stays_set_until_both_obstacles_have_left_the_cone() -> None:
     near, far = sensed_peg(0, 20.0), sensed_peg(0, 50.0)
     arena = Arena(Layout((near, far), (), START), PARAMS)
 
@@ -260,7 +260,7 @@ def test_food_beyond_hidden_food_is_seen_past_the_bar() -> None:
     assert beacon_mm(food_at(500.0, 45.0), food_at(900.0, -45.0), bars=bars) == round(math.hypot(900.0, 45.0))
 
 
-def test_the_cones_are_those_that_are_drawn():
+def test_cones_in_c_equal_those_that_are_drawn():
     cones = cones_in_c(*world_library(), PARAMS)
 
     for n, (bit, bearing_deg) in enumerate(CONE_BEARINGS_DEG.items()):

@@ -32,7 +32,7 @@ def crowd(draws: random.Random) -> tuple[tuple[Bar, ...], tuple[Plant, ...]]:
     return bars, tuple(Plant((draws.uniform(0.0, 4000.0), 1000.0), 80.0) for _ in range(draws.randint(0, 3)))
 
 
-def test_the_same_cells_are_reached_in_20_crowded_layouts():
+def test_reached_cells_equal_those_of_numpy_in_20_crowded_layouts():
     unlike = 0
     for seed in range(20):
         draws = random.Random(seed)
@@ -50,13 +50,13 @@ def test_the_same_cells_are_reached_in_20_crowded_layouts():
     assert unlike > 2, "hardly a layout had a free cell that cannot be reached"
 
 
-def test_a_start_in_a_blocked_cell_reaches_nothing():
+def test_start_in_a_blocked_cell_reaches_nothing():
     reach = Reach((Bar((900.0, 1000.0), (1100.0, 1000.0)),), (1000.0, 1000.0), PARAMS)
 
     assert reach.distance_mm((1000.0, 1000.0)) == math.inf
 
 
-def test_the_room_around_a_place_is_the_same_to_the_last_bit():
+def test_clearance_equals_that_of_numpy_to_the_last_bit():
     for seed in range(300):
         draws = random.Random(seed)
         bars, plants = crowd(draws)
@@ -117,7 +117,7 @@ def shortest(ways: Floats, start: int) -> list[float]:
     return best
 
 
-def test_the_shortest_tour_is_that_around_polygons_but_for_their_corners():
+def test_shortest_tour_equals_that_around_polygons_within_1_percent():
     world = world_of("small")
     room_mm = world.params.body_radius_mm + world.params.bar_thickness_mm / 2
     around = 0
@@ -137,7 +137,7 @@ def test_the_shortest_tour_is_that_around_polygons_but_for_their_corners():
     assert around > 2, "hardly anything was in the way"
 
 
-def test_no_tour_is_found_for_more_places_than_can_be_tried():
+def test_tour_of_too_many_places_is_infinite():
     layout = world_of("small").generate(1, 1)
 
     assert math.isfinite(tour_mm(replace(layout, food=layout.food[:1]), PARAMS))
