@@ -1,4 +1,4 @@
-"""What is asked of a robot: the handshake, and commands."""
+"""The handshake with a robot, and the commands to it."""
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
@@ -70,7 +70,7 @@ _KINDS = dict(enumerate(MEMORY_KINDS.values()))
 
 
 def start(client: RobotClient, session: Session, memory: Sequence[int] | None = None) -> None:
-    """Starts the robot, which learns: it moves with the next senses.
+    """Starts the robot, which then learns; it moves with the next senses.
 
     Args:
         client: The robot's client.

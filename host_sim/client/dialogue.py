@@ -85,7 +85,7 @@ class Dialogue:
         raise RobotError(f"after {opcode}, the robot did not send {missing}; {self.account()}")
 
     def _once_more(self, opcode: str, attempt: int) -> str:
-        """What to ask next: a second stop, only for a DRIVE at rest, since it sets the robot's check to 0."""
+        """The next request: a second stop only for a missing DRIVE at rest, since it sets the robot's check to 0."""
         told, reports = self.inbox.held_check, self.inbox.reports
         if opcode != "stop" or not told.commands:
             return opcode

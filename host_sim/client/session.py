@@ -106,7 +106,7 @@ class AskedCommands:
 
 
 def heard_more(heard: int, senses: bytes, drive: bytes) -> int:
-    """Continues the check over senses; the drive is the answer to those before, or zeros."""
+    """Continues the check over senses; the drive is the answer to the previous ones, or zeros."""
     both = int.from_bytes(senses[1:], "big") ^ int.from_bytes(drive[1:], "big")
     return crc32(both.to_bytes(len(senses) - 1, "big"), heard)
 
@@ -220,7 +220,7 @@ class Rivals:
     """
 
     def __init__(self, owner: int, asked: AskedCommands) -> None:
-        """Starts without any rival heard.
+        """Starts without any known rival.
 
         Args:
             owner: Owner ID of this simulator.

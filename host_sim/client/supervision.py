@@ -62,7 +62,7 @@ def recover(client: RobotClient, lost: SessionLostError) -> None:
         client.distrust(f"{lost.doubt}: {lost}")
     try:
         _find_out(client, lost)
-    except OctetError as why:  # whatever it is, the robot is not known to be as it was
+    except OctetError as why:  # whatever the reason, the robot's state is unknown
         client.distrust(str(why))
         raise
 

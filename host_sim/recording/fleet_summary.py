@@ -65,7 +65,7 @@ def environment_line(environment: dict[str, Any], robots: int) -> str:
 
 
 def table(results: Sequence[FleetResult]) -> str:
-    """The table of all results, as CSV with a line of names."""
+    """The table of all results, as CSV with a header line."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(COLUMNS)

@@ -133,7 +133,7 @@ class LearningHistory:
         """Starts over, as the robot was started again; earlier lessons stay in the list.
 
         Args:
-            tick: Number of the next tick. Lessons of this tick are dropped: no tick of either run was after them.
+            tick: Number of the next tick. Lessons of this tick are dropped: no tick of either run came after them.
             memory: The eight cells now.
         """
         while self.lessons and self.lessons[-1]["tick"] >= tick:

@@ -98,7 +98,7 @@ def _open(path: Path) -> Iterator[BinaryIO]:
             raise UsageError(f"there is no file {path}: tools/run writes out/run.log") from None
         start = file.read(8)
         file.seek(0)
-        if _DATABASE.startswith(start):  # which opens its file by itself
+        if _DATABASE.startswith(start):  # sqlite3 opens the file itself
             yield file
             return
         line = stack.enter_context(ProgressLine(os.fstat(file.fileno()).st_size, after_s=SOON_S))
@@ -124,7 +124,7 @@ class _Watched(io.RawIOBase):
         return True
 
     def readinto(self, buffer: Any) -> int:
-        data = self._file.read1(len(buffer))  # readinto loses what comes before the end of a file that is cut off
+        data = self._file.read1(len(buffer))  # readinto loses the last data of a truncated file
         buffer[: len(data)] = data
         self._at += len(data)
         self._watch(self._at)
@@ -266,7 +266,7 @@ def _csv(path: Path, file: BinaryIO) -> Iterator[Read]:
 
 
 def _of_lines(path: Path, lines: _Lines, messages: "Iterable[Message]") -> Iterator[Read]:
-    """Yields the frames of a text format, then what python-can left out without a word."""
+    """Yields the frames of a text format, then those that python-can skipped silently."""
     count = 0
     try:
         with _warnings_refused("can.io.trc"):
@@ -297,7 +297,7 @@ def _mf4(path: Path, file: BinaryIO) -> Iterator[Read]:
     try:
         for message in reader:
             yield _channel(message), _from(message)
-    except Exception as error:  # asammdf raises whatever it comes upon
+    except Exception as error:  # asammdf may raise anything
         raise UsageError(f"{path} is a damaged MF4 file, or one cut short: {_reason(error)}") from None
     finally:
         reader.stop()
@@ -305,7 +305,7 @@ def _mf4(path: Path, file: BinaryIO) -> Iterator[Read]:
 
 def _mf4_reader(path: Path, file: BinaryIO) -> Any:
     module, before = mf4_module(), sys.unraisablehook
-    sys.unraisablehook = lambda _: None  # what asammdf could not open complains once more when it is dropped
+    sys.unraisablehook = lambda _: None  # a file that asammdf could not open warns again when freed
     try:
         return module.MF4Reader(io.BytesIO(file.read()))
     except Exception as error:
@@ -331,7 +331,7 @@ def _db(path: Path, file: BinaryIO) -> Iterator[Read]:
 
 @contextmanager
 def _warnings_refused(name: str) -> Iterator[None]:
-    """Turns what a logger of python-can says of a damaged file into an error."""
+    """Raises ValueError when a logger of python-can warns of a damaged file."""
 
     def refuse(record: logging.LogRecord) -> bool:
         if record.levelno < logging.WARNING:
@@ -351,7 +351,7 @@ def _reason(error: Exception) -> str:
 
 
 def _channel(message: "Message", first: int = 0) -> str:
-    """The channel as the file has it."""
+    """The channel as the file names it."""
     return str(message.channel + first) if isinstance(message.channel, int) else str(message.channel or "")
 
 

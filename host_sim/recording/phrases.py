@@ -19,7 +19,7 @@ class Words:
         patterns: The patterns of the front sensors.
         sides: The sides of a turn.
         point: The decimal point.
-        many: A number of turns that is not known.
+        many: The word for an unknown number of turns.
     """
 
     sentences: Mapping[str, str]
@@ -46,7 +46,7 @@ def sentence(state: State, words: Words = ENGLISH) -> str:
 
 
 def decimal(value: float, digits: int, words: Words = ENGLISH) -> str:
-    """A number that is not negative, rounded half up, for pages round so.
+    """Formats a number that is not negative, rounded half up, as the pages do.
 
     >>> decimal(0.125, 2), decimal(1.015, 2)
     ('0.13', '1.02')

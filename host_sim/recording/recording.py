@@ -32,7 +32,7 @@ class Recording:
         seed: Seed that the robot was started with; None if the log does not have its start.
         boredom_limit: Number of remembered turns in a row at which the robot is bored.
         first_memory: The eight cells before the first tick.
-        ticks: The ticks, in order, without a last one whose answer is cut off. Each iteration reads the log again.
+        ticks: The ticks, in order, except for a last one whose answer was cut off; each iteration reads the log.
         stopped: Whether the log ends with a stop command; if not, the log or the run was cut short.
     """
 

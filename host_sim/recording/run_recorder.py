@@ -36,8 +36,8 @@ class Tick(NamedTuple):
         drive: The drive that the body applied: the robot's answer, or an earlier one that was still held.
         memory: The robot's eight cells when it answered.
         frozen: Whether learning was frozen.
-        started: The robot's eight cells when it was started again since the tick before; None if it was not.
-        written: Its eight cells after each report between the two ticks, since it was started if it was.
+        started: The robot's eight cells when it was started again since the previous tick; None if it was not.
+        written: Its eight cells after each report between the two ticks, from its new start on if there was one.
     """
 
     senses: Senses

@@ -64,9 +64,9 @@ def summarize(
       end) and memory (the eight cells at the end of the environment).
     - robots: One entry per robot: node, memory (the eight cells at the end), frames (sent, received, repeated,
       duplicate, lost, refused), faults (the robot's own fault counters), saturated (those at their limit of 255,
-      whose true counts may be higher), round_trip_ms (mean time of an answer), real_time (ticks, how
-      fast the clock was, share of ticks without an answer, longest gap, share that began late by more than a tick,
-      the most that one was late; null in lockstep), line (outages and unsent frames).
+      whose true counts may be higher), round_trip_ms (mean time of an answer), real_time (ticks,
+      speed of the clock, share of ticks without an answer, longest gap, share that began late by more than a tick,
+      maximum delay of a tick; null in lockstep), line (outages and unsent frames).
     - changes: The scheduled changes: those made, those refused as impossible, and those missed because the
       run or their environment was too short.
     - incidents: Events that make the result doubtful, each with tick and node; empty for a sound run. If there are

@@ -162,7 +162,7 @@ class Trajectory:
         return self.tracks[0].ticks
 
     def at(self, tick: int, robot: int = 0) -> State:
-        """The state of a robot, by its index in `tracks`, after a tick; equal to that of `view.state.state` then.
+        """The state of a robot, by its index in `tracks`, after a tick; equal to `state.state` then.
 
         Raises:
             IndexError: The tick does not exist, or is no longer retained.

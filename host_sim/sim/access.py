@@ -24,7 +24,7 @@ ROBOTS = ("spawn", "external", "qemu", "emulated", "observe")
 """The ways to get a robot."""
 
 BOARDS = ("feather_stm32f405", "blue_pill", "nucleo_g431rb")
-"""Boards that our own emulator has."""
+"""Boards that our own emulator emulates."""
 
 PICO = "pico"
 """A board that another program emulates."""
@@ -48,11 +48,11 @@ class Access:
         board: One of `BOARDS` or `PICO`, for an emulated robot; empty for the first.
         pins: Whether an emulated robot senses and drives by itself, through its pins.
         command: Program to start as each robot; empty for the firmware.
-        bitrate: Bits a second, for a bus that is set up when opened.
+        bitrate: Bus bit rate, bit/s, for a bus that is set up when opened.
         reconnect_s: Time to wait for a bus that is gone, s of wall-clock time.
         owner: Owner ID of this simulator.
         lockstep: Whether the world waits for the robots; otherwise it keeps to the wall clock.
-        limits: From when on a result in real time is doubtful.
+        limits: Limits beyond which a result in real time is doubtful.
         faults: Faults to inject into the frames of each robot.
         fault_seed: Seed for the faults.
         gdb: Whether the robot is started in gdb.

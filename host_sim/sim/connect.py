@@ -30,7 +30,7 @@ _EMULATED_S = 30.0
 
 _EXTERNAL_S = 15.0
 _IN_DEBUGGER_S = 1e9
-"""Who stands at a breakpoint takes his time, s."""
+"""Timeout for a robot in a debugger, which may stand at a breakpoint, s."""
 
 # Modules are loaded on demand: a run in this process starts faster without python-can and processes.
 
@@ -62,7 +62,7 @@ class Connector:
         Args:
             node: Its number.
             log: Records the frames.
-            senses_itself: Whether an external robot has a body of its own; then senses on the bus are no rival's.
+            senses_itself: Whether an external robot has a body of its own; then senses on the bus are its own.
 
         Raises:
             UsageError: The bus cannot be opened, or the robot cannot be started.
@@ -81,7 +81,7 @@ class Connector:
         return client
 
     def connection(self, node: int) -> Connection:
-        """Connects to one of the robots, without a word to it; raises as `client` does."""
+        """Connects to one of the robots, without sending anything to it; raises as `client` does."""
         way = self._ways.get(self._access.robot) or self._ways.get(self._access.bus, self._over_bus)
         return way(node)
 

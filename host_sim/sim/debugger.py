@@ -39,15 +39,15 @@ def gdb_command(arguments: Sequence[str], program: str = "gdb") -> list[str]:
 
 
 class Gdb:
-    """A gdb that has this terminal, and Ctrl-C, until it ends. It ends with `close`."""
+    """A gdb that owns this terminal, with its Ctrl-C, until it ends. It ends with `close`."""
 
     def __init__(self, arguments: Sequence[str], program: str = "gdb", pass_fds: Sequence[int] = ()) -> None:
         """Starts it.
 
         Args:
             arguments: Its arguments.
-            program: `gdb`, or another one of its name.
-            pass_fds: File descriptors that it inherits, and what it debugs.
+            program: `gdb` or `gdb-multiarch`.
+            pass_fds: File descriptors that it and the debugged program inherit.
 
         Raises:
             OctetError: It is not installed.
@@ -63,7 +63,7 @@ class Gdb:
         self._take_terminal(self._process.pid)
 
     def status(self) -> str:
-        """That it runs.
+        """Says that it runs.
 
         Raises:
             RobotError: It has ended.
@@ -83,7 +83,7 @@ class Gdb:
         return self._process.wait()
 
     def close(self) -> None:
-        """Ends it. What it debugs ends with it."""
+        """Ends it, and with it the debugged program."""
         self._process.kill()
         self._process.wait()
         self._take_terminal(os.getpgrp())

@@ -20,7 +20,7 @@ _SHARING_MAX = 10_000  # memory for contacts between robots grows with the squar
 
 
 class Frozen(NamedTuple):
-    """A robot that learns no more.
+    """A robot that no longer learns.
 
     Attributes:
         seed: Its seed.
@@ -96,7 +96,7 @@ def run_fleet(
         The result of each robot in each environment, once it has ended.
 
     Raises:
-        UsageError: The robots do not fit into their world or refuse their configuration, or something would change.
+        UsageError: The robots do not fit into their world or refuse their configuration, or one is changed later.
         BrainError: The user's behaviour has made a mistake.
         OctetError: Something that must be built is missing.
     """

@@ -1,6 +1,6 @@
 """Robots inside this process, as links that call a shared library: the firmware, or one with a program as its brain.
 
-docs/article.md has the language of such programs. Robots with a line each get each other's memories from a relay.
+docs/article.md describes the language of such programs. A relay passes memories between robots with a line each.
 """
 
 import os
@@ -306,7 +306,7 @@ class Program:
 
     @property
     def source(self) -> Source:
-        """What is recorded of it."""
+        """Its source, as recorded in the world file."""
         return Source(Path(self.name).name, self.text)
 
     @property

@@ -128,7 +128,7 @@ class NativeFleet:
             self._command(robot, Opcode.SET, PARAMETERS[name].number, value)
 
     def teach(self, index: int, memory: Sequence[int]) -> None:
-        """Gives a robot that has started its eight cells; it learns no more."""
+        """Writes the eight cells of a started robot, and freezes its learning."""
         robot, half = self._robots[index], CELL_COUNT // 2
         for upper, cells in enumerate((memory[:half], memory[half:])):
             self._command(robot, Opcode.WRITE, upper << half | _WHOLE_HALF, int.from_bytes(bytes(cells), "little"))

@@ -79,7 +79,7 @@ class OwnBrain:
     Attributes:
         name: The name of its file, for people.
         text: Its source.
-        folder: What was made of it.
+        folder: The folder of what was built from it.
     """
 
     name: str
@@ -88,7 +88,7 @@ class OwnBrain:
 
     @property
     def source(self) -> Source:
-        """What is recorded of it."""
+        """Its source, as recorded in the world file."""
         return Source(Path(self.name).name, self.text)
 
     @property
@@ -176,7 +176,7 @@ class OwnBrain:
         """Links objects that have own_begin and own_next with a guard, `fast` or `checked`, and the rest of a robot.
 
         Args:
-            made: The file that is made.
+            made: The output file.
             name: What it is: a key of `_LINKS`.
             guard: The guard.
             objects: The objects.
@@ -203,7 +203,7 @@ def own_brain(source: Path) -> OwnBrain:
 
 
 def own_copy(source: Source) -> OwnBrain:
-    """As `own_brain`, of a source that was recorded: it is written to a file, where a debugger finds it."""
+    """As `own_brain`, for a recorded source, which is written to a file where a debugger finds it."""
     folder = _CACHE / f"source-{source.sha256[:24]}"
     folder.mkdir(parents=True, exist_ok=True)
     write_bytes(folder / source.name, source.text)
@@ -211,7 +211,7 @@ def own_copy(source: Source) -> OwnBrain:
 
 
 def compiled(text: bytes, name: str) -> OwnBrain:
-    """As `own_brain`, of a source and the name of its file."""
+    """As `own_brain`, for a source and the name of its file."""
     brain = OwnBrain(name, text, _CACHE / _key(text, name))
     if (brain.folder / "checked.o").exists():
         os.utime(brain.folder)
@@ -253,7 +253,7 @@ def _key(text: bytes, name: str) -> str:
 
 
 def _compile(brain: OwnBrain, folder: Path) -> str:
-    """Compiles the source, which the compiler reads from its input: what it includes beside it is not found."""
+    """Compiles the source from standard input, so that it cannot include files beside it."""
     name, path = brain.name, brain.path
     source = _with_lines(path, brain.text)
     warnings = _tools()["warnings"].split(";")
@@ -264,16 +264,16 @@ def _compile(brain: OwnBrain, folder: Path) -> str:
 
 
 def _with_lines(path: str, text: bytes) -> bytes:
-    """A source that says which file its lines are of."""
+    """A source with a `#line` that names its file."""
     quoted = path.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "?")
     return f'#line 1 "{quoted}"\n'.encode(errors="surrogateescape") + text
 
 
 def _compiler(arguments: Sequence[str], name: str, source: bytes = b"", path: str = "") -> str:
-    """Calls the compiler, and returns what it says.
+    """Calls the compiler, and returns its messages.
 
     Raises:
-        UsageError: It refuses the source; the message has what it says.
+        UsageError: It refuses the source; the error has its messages.
     """
     tool = _tools()["compiler"]
     locale = {**os.environ, "LC_ALL": "C"}
@@ -298,7 +298,7 @@ def _compiler(arguments: Sequence[str], name: str, source: bytes = b"", path: st
 
 
 def _check_symbols(name: str, made: Path) -> None:
-    """Refuses what a robot does not have, and variables that several robots would share."""
+    """Refuses functions that a robot does not have, and variables that several robots would share."""
     command = ["nm", "-l", "-f", "sysv", os.fspath(made)]
     table = subprocess.run(command, capture_output=True, text=True, errors="replace", check=True).stdout
     rows = [[word.strip() for word in line.split("|")] for line in table.splitlines() if line.count("|") == _COLUMNS]
@@ -332,7 +332,7 @@ def _tools() -> Any:
 
 
 def _prune() -> None:
-    """Drops what was not used for longest, but nothing that another run may be about to link."""
+    """Drops the least recently used entries, except those that another run may be about to link."""
     used = {it: it.stat().st_mtime for it in _CACHE.iterdir() if it.is_dir()}
     for folder in sorted(used, key=lambda it: used[it])[:-_CACHED_MAX]:
         if used[folder] <= time.time() - _BUSY_S:

@@ -1,4 +1,4 @@
-"""The images for a Raspberry Pi Pico in rp2040js, an emulator by others that Node runs."""
+"""Runs the images for a Raspberry Pi Pico in rp2040js, a third-party emulator on Node."""
 
 import os
 import shutil
@@ -21,7 +21,7 @@ def command_line(image: Path, *options: str) -> list[str]:
 
     Args:
         image: The `.bin` file.
-        options: Of pico.mjs, which explains them.
+        options: Options of pico.mjs, which explains them.
 
     Raises:
         UsageError: Node or rp2040js is not installed.
@@ -44,7 +44,7 @@ class Pico(SerialEmulator):
 
 
 class SteppedPico:
-    """A running rp2040js whose time passes only by orders, which pico.mjs explains.
+    """A running rp2040js whose time passes only on orders, which pico.mjs explains.
 
     Attributes:
         said: The frames that it sent on its serial line.
@@ -87,9 +87,9 @@ class SteppedPico:
                 stream.close()
 
     def write(self, text: bytes) -> None:
-        """Puts any text on it."""
+        """Puts any text on its serial line."""
         assert self._process.stdin is not None
-        with suppress(BrokenPipeError):  # then no answer comes, which says more
+        with suppress(BrokenPipeError):  # no answer comes then, and that error says more
             self._process.stdin.write(text)
 
     def _answer(self) -> str:

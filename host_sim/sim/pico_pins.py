@@ -24,12 +24,12 @@ _NANOS = 10**9
 
 
 class PicoParts(PartsOnPins):
-    """The parts at a Pico's pins. The supply is what two thirds of a kit's would be, and so are the motors' voltages.
+    """The parts at a Pico's pins. The supply and the motors' voltages are two thirds of a kit's.
 
     Attributes:
-        orders: What they do to its pins before its next beat.
+        orders: Orders to pico.mjs before its next beat, which set its pins.
         places: The pin of each signal's wire.
-        shares: For which part of the last beat each pin was driven high.
+        shares: The share of the last beat for which each pin was driven high.
     """
 
     divisor = 4.5
@@ -46,7 +46,7 @@ class PicoParts(PartsOnPins):
         self._totals = [0, 0]
 
     def set_bridge_fault(self, failed: bool, lasts_s: float = inf) -> None:
-        """As in `PartsOnPins`; a spike is shorter than any look at it."""
+        """As in `PartsOnPins`; a spike is too short to be sampled."""
         self._set("BRIDGE_FAULT", high=not failed)
         if lasts_s < _SPIKE_S:
             self._set("BRIDGE_FAULT", high=True)
@@ -80,7 +80,7 @@ class PicoParts(PartsOnPins):
 
 
 class PicoOnPins(SensesByPins):
-    """Such a robot."""
+    """A robot with a body on the pins of a Pico."""
 
     robot: PicoParts
 
@@ -88,8 +88,8 @@ class PicoOnPins(SensesByPins):
         """Starts the image, and lets it come up.
 
         Args:
-            image: What is in the flash.
-            options: Of pico.mjs.
+            image: The contents of the flash.
+            options: Options of pico.mjs.
             node: The robot's number.
 
         Raises:
@@ -120,7 +120,7 @@ class PicoOnPins(SensesByPins):
         self.pico.send(frame)
 
     def _stop(self) -> None:
-        """It stands still between two beats anyway."""
+        """Does nothing: it stands still between two beats."""
 
     def _run_until(self, moment: int) -> None:
         while not self._has_news() and self._now < moment:

@@ -1,4 +1,4 @@
-"""A flash image with slcan on its UART in another program's emulator: the STM32F405's in QEMU."""
+"""Runs a flash image with slcan on its UART in a third-party emulator: an STM32F405 in QEMU."""
 
 import os
 import shutil

@@ -154,7 +154,7 @@ _SLICE_S = 0.1
 
 @dataclass
 class OwnRobot:
-    """The program.
+    """A user's program, as a robot.
 
     Attributes:
         command: Program and arguments.

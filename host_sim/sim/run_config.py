@@ -294,7 +294,7 @@ class RunConfig:
 
     @property
     def source(self) -> "Source | None":
-        """What is recorded of a behaviour in a file; None for a built-in one."""
+        """The source of a behaviour in a file, as recorded in the world file; None for a built-in one."""
         brain = self.own or self.program
         return brain.source if brain else None
 

@@ -33,9 +33,9 @@ class BusLink:
         Args:
             bus: The bus.
             stats: Counts the line's outages and errors.
-            is_socket: Whether the bus is a socket that carries a frame a datagram, as SocketCAN does.
+            is_socket: Whether the bus is a socket that carries one frame per datagram, as SocketCAN does.
             echoes: Whether a copy of a frame just sent counts as returned by the adapter, and is skipped. Frames that
-                the adapter itself marks as its own always are.
+                the adapter itself marks as its own are always skipped.
         """
         self.closing: Callable[[], object] = lambda: None
         self.garbled, self.takes_extended = 0, False
@@ -77,7 +77,7 @@ class BusLink:
                 pass
         except (can.CanError, OSError) as error:
             raise LinkDownError(f"cannot hear the robot: {error}") from error
-        except (ValueError, LookupError):  # what some of python-can's interfaces make of noise on the line
+        except (ValueError, LookupError):  # some of python-can's interfaces raise these for noise on the line
             return _NO_FRAME
         if message is None:
             return None
@@ -91,7 +91,7 @@ class BusLink:
         return not message.is_rx and not self._is_socket
 
     def _heard(self, timeout_s: float) -> can.Message | None:
-        """The next message. python-can waits by the wall clock: for hours, if that is set back meanwhile."""
+        """The next message. python-can waits by the wall clock: for hours if the clock is set back meanwhile."""
         if not self._is_socket:
             return self._bus.recv(timeout_s)
         give_up = time.monotonic() + timeout_s

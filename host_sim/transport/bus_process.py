@@ -1,7 +1,7 @@
 """A user's own program on a bus: a process that finds the bus in its environment, in python-can's variables.
 
-CAN_INTERFACE is `octet` and CAN_CHANNEL the number of an open socket, which carries Linux's `struct can_frame`, one a
-datagram, as SocketCAN does; or they are an interface and a channel of python-can's, such as `socketcan` and `vcan0`.
+CAN_INTERFACE is `octet` and CAN_CHANNEL the number of an open socket, which carries Linux's `struct can_frame` in
+datagrams, as SocketCAN does; or they are an interface and a channel of python-can's, such as `socketcan` and `vcan0`.
 """
 
 import os

@@ -19,7 +19,7 @@ from host_sim.transport.slcan_link import open_serial_line
 
 _ID_MASK = 0x7FF
 _EXTRAS = {"udp_multicast": "multicast"}
-"""The names that python-can's extra packages have, if not those of their interfaces."""
+"""Names of python-can's extras that differ from those of their interfaces."""
 
 _STALE_MAX = 10_000
 _HINTS = {
@@ -36,7 +36,7 @@ def open_bus_link(bus: str, ids: Sequence[int], stats: LineStats, bitrate: int =
         bus: `INTERFACE:CHANNEL`.
         ids: The 11-bit identifiers to listen for.
         stats: Counts what happens to the line.
-        bitrate: Bits a second, for a bus that is set up when opened.
+        bitrate: Bus bit rate, bit/s, for a bus that is set up when opened.
 
     Raises:
         UsageError: The name is not one of a bus, or the bus cannot be opened.
@@ -55,7 +55,7 @@ def open_bus(bus: str, ids: Sequence[int] = (), bitrate: int = BIT_RATE) -> can.
     Args:
         bus: `INTERFACE:CHANNEL`, with options of the interface as in `socketcand:can0?host=pi&port=29536`.
         ids: The 11-bit identifiers to listen for, none for all; the kernel lets no others through where it can.
-        bitrate: Bits a second, for a bus that is set up when opened.
+        bitrate: Bus bit rate, bit/s, for a bus that is set up when opened.
 
     Raises:
         UsageError: The name is not one of a bus, or the bus cannot be opened.
@@ -78,12 +78,12 @@ def open_bus(bus: str, ids: Sequence[int] = (), bitrate: int = BIT_RATE) -> can.
         if filters:
             _forget_unfiltered(opened)
         return opened
-    except Exception as error:  # python-can's interfaces raise anything, such as NameError where a driver lacks
+    except Exception as error:  # python-can's interfaces raise anything, such as NameError for a missing driver
         raise _not_opened(interface, channel, error, words) from error
 
 
 def _not_opened(interface: str, channel: str, error: Exception, words: Sequence[str]) -> OctetError:
-    """The error to raise, from python-can's own and what it has logged."""
+    """The error to raise, made from python-can's error and its log messages."""
     reason = str(error).splitlines()[0] if str(error) else type(error).__name__
     number = getattr(error, "error_code", None) or getattr(error, "errno", None) or 0
     hint = _HINTS.get(number, "")
@@ -145,7 +145,7 @@ def _missing(interface: str) -> str:
 
 
 def _listen_to_python_can() -> list[str]:
-    """What python-can warns of from now on; it prints nothing, since its exceptions mostly have the same text."""
+    """Collects python-can's warnings instead of printing them, since its exceptions mostly have the same text."""
     words: list[str] = []
     logger = logging.getLogger("can")
     logger.handlers = [_Words(words)]
@@ -153,7 +153,7 @@ def _listen_to_python_can() -> list[str]:
 
 
 class _Words(logging.Handler):
-    """Takes log messages down."""
+    """Collects log messages."""
 
     def __init__(self, words: list[str]) -> None:
         super().__init__(logging.WARNING)

@@ -14,10 +14,10 @@ class Frame(NamedTuple):
 
 
 BIT_RATES = (125_000, 250_000, 500_000, 1_000_000)
-"""The usual ones, bits a second."""
+"""The usual bus bit rates, bit/s."""
 
 BIT_RATE = 500_000
-"""The one that is meant where none is named."""
+"""The default bus bit rate, bit/s."""
 
 
 _COPIES_MAX = 32
@@ -105,11 +105,11 @@ class Link(Protocol):
         """
 
     def close(self) -> None:
-        """Ends it."""
+        """Closes the link."""
 
 
 class FrameSocket(Protocol):
-    """A socket that carries a frame a datagram, as SocketCAN does, so that C code can send and receive as well.
+    """A socket that carries one frame per datagram, as SocketCAN does, so that C code can use it as well.
 
     Attributes:
         garbled: Number of datagrams that were not frames.

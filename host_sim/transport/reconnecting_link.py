@@ -34,7 +34,7 @@ class ReconnectingLink:
             self._note_gone(error)
 
     def send(self, frame: Frame) -> None:
-        """As in `Link`, but a line that is gone only costs the frame."""
+        """As in `Link`, but if the line is gone, only the frame is lost."""
         if self._link is None:
             self._stats.unsent += 1
             return

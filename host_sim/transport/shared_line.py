@@ -9,11 +9,11 @@ from host_sim.transport.link import Frame, Link
 
 _WAITING_MAX = 4096
 _OVERTIME_MAX = 256
-"""Frames that are taken from the line after the time is up: those that wait already, but not an endless flood."""
+"""Maximum number of frames taken after the timeout: those already waiting, but not an endless flood."""
 
 
 class SharedLine:
-    """Sorts the frames of a line by whom they are for."""
+    """Distributes the frames of a line to the links of the robots."""
 
     def __init__(self, line: Link, ids: Mapping[int, Sequence[int]]) -> None:
         """Shares a line, which remains the caller's to close.
@@ -27,9 +27,9 @@ class SharedLine:
         self._owners = {frame_id: self._waiting[node] for node, its_ids in ids.items() for frame_id in its_ids}
 
     def share(self, node: int) -> Link:
-        """A link that hears what comes for one robot from now on, and whatever noise comes while it listens.
+        """A link that receives frames for one robot from now on, and the noise that arrives while it listens.
 
-        Frames for it that come while others listen wait for it; of too many, the oldest are lost.
+        Frames for it that arrive while others listen are kept; of too many, the oldest are lost.
         """
         self._waiting[node].clear()
         return _Share(self._line, self._owners, self._waiting[node])

@@ -38,12 +38,12 @@ class Stream(Protocol):
 
 
 def encode(frame: Frame) -> bytes:
-    """The line of a frame, with its end."""
+    """The line of text for a frame, with its end."""
     return b"t%03X%d%s\r" % (frame.id, len(frame.data), frame.data.hex().upper().encode("ascii"))
 
 
 def decode(line: bytes) -> Frame | None:
-    """The frame in a line without its end; None if it is none with an 11-bit identifier and data."""
+    """The frame in a line without its end; None unless it has an 11-bit identifier and data."""
     match = _LINE.fullmatch(line)
     if match is None or len(match[3]) - 2 * int(match[2]) not in _STAMPS:
         return None
@@ -176,7 +176,7 @@ class SlcanLink:
 
 _BAUD = 115_200
 _BIT_RATES = (10_000, 20_000, 50_000, 100_000, 125_000, 250_000, 500_000, 800_000, 1_000_000)
-"""In the order of their numbers in slcan's command S."""
+"""Bit rates, by the digit of slcan's command S."""
 
 
 def open_serial_line(channel: str, bitrate: int, ids: Sequence[int], stats: LineStats) -> SlcanLink:
@@ -184,7 +184,7 @@ def open_serial_line(channel: str, bitrate: int, ids: Sequence[int], stats: Line
 
     Args:
         channel: The port's device, with `@BAUD` if its speed is not 115200.
-        bitrate: Bits a second of the bus.
+        bitrate: Bus bit rate, bit/s.
         ids: The 11-bit identifiers to listen for; none for all.
         stats: Counts what happens to the line.
 
