@@ -144,7 +144,7 @@ def test_report_requested_after_the_stop_belongs_to_the_end(short):
 
 
 def test_drive_for_silence_in_real_time_makes_no_difference(tmp_path):
-    """It says so with the last tick, whose SENSES may have come by then, and are yet to be answered."""
+    """The robot reports silence with the last tick, whose SENSES may have come by then and be unanswered yet."""
     protocol, log = Protocol(), FrameLog(tmp_path / "run.log")
     with make(RunConfig(environments=1, limit_s=0.4, real_time=True, late_max=100.0), log) as simulation:
         [*simulation.run()]

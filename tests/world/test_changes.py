@@ -158,7 +158,7 @@ def test_plant_can_be_put_while_the_robot_touches_a_wall():
     assert happen(arena, "plant@1s")
 
 
-def test_all_plants_grow():
+def test_grow_change_grows_all_plants():
     arena = Arena(generate(1, 1, PARAMS), PARAMS)
     happen(arena, "plant@1s")
     happen(arena, "plant@1s")
