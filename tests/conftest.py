@@ -21,7 +21,7 @@ from pathlib import Path
 import hypothesis
 import pytest
 
-hypothesis.settings.register_profile("octet", deadline=None)  # a busy machine is no fault
+hypothesis.settings.register_profile("octet", deadline=None, derandomize=True)  # time and chance are no faults
 hypothesis.settings.load_profile("octet")
 for _number in (signal.SIGINT, signal.SIGHUP):
     if signal.getsignal(_number) == signal.SIG_IGN:

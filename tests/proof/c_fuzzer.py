@@ -42,13 +42,13 @@ class Compiler:
         return self._objects[source]
 
 
-def fuzz(program: Path, limit: str) -> subprocess.CompletedProcess[str]:
-    """Runs it up to a limit of libFuzzer's, from its corpus on. What it prints is on stderr.
+def fuzz(program: Path, *options: str) -> subprocess.CompletedProcess[str]:
+    """Runs it with options of libFuzzer's, of which one limits it, from its corpus on. What it prints is on stderr.
 
     It begins with nothing: with frames of a real run it reaches no more in the same time, for such inputs are long.
     """
     corpus, finds = (_beside(program, name) for name in ("corpus", "finds"))
-    limits = (limit, "-rss_limit_mb=512", "-max_len=4096", "-print_final_stats=1")
+    limits = (*options, "-rss_limit_mb=512", "-max_len=4096", "-print_final_stats=1")
     return _run(program, *limits, f"-artifact_prefix={finds}/", corpus)
 
 
