@@ -179,9 +179,10 @@ def pytest_stage(name: str, tests: Sequence[str], allowed: Collection[str], more
 
 
 def pytest_command(report: Path, words: Sequence[str], allowed: Collection[str]) -> Command:
-    """The command of pytest with these arguments, and with a report for `count`."""
+    """The command of pytest with these arguments, and with a report for `count`. Prints what took longest."""
     skips = (f"--allow-missing={name}" for name in allowed)
-    return (".venv/bin/python", "-m", "pytest", "--quiet", f"--progress={report}", *skips, *words)
+    slowest = ("--durations=8", "--durations-min=4")
+    return (".venv/bin/python", "-m", "pytest", "--quiet", *slowest, f"--progress={report}", *skips, *words)
 
 
 def ctest_command(folder: str, report: Path, *selection: str) -> Command:
