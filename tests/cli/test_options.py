@@ -15,16 +15,16 @@ OTHERS = sorted(set(TABLE) - set(LAB))
 
 
 @pytest.mark.parametrize("command", sorted(parsers()))
-def test_each_option_has_a_row(command):
+def test_option_rows_equal_the_options_of_the_parser(command):
     assert set(rows(command)) == options(parsers()[command])
 
 
-def test_no_row_is_left_of_an_option_that_is_gone():
+def test_option_table_has_no_row_of_a_removed_option():
     assert set(TABLE) == set(parsers())
     assert [name for name in TABLE if not set(TABLE[name]) - {"words"} <= options(parsers()[name])] == []
 
 
-def test_a_test_that_is_named_gives_the_option():
+def test_file_named_in_an_option_row_gives_that_option():
     named = [(name, ROOT / row) for command in TABLE for name, row in rows(command).items() if isinstance(row, str)]
 
     assert [(name, path) for name, path in named if not re.search(rf"{name}\b", path.read_text())] == []
@@ -36,7 +36,7 @@ def trial(tmp_path_factory: pytest.TempPathFactory) -> Trial:
 
 
 @pytest.mark.parametrize(("command", "name"), tried(*OTHERS))
-def test_an_option_changes_what_its_row_says(command, name, trial):
+def test_option_has_the_effect_in_its_row(command, name, trial):
     trial.check(command, name)
 
 
@@ -47,7 +47,7 @@ def handed(target: str, *words: str) -> mock._Call:
     return called.call_args
 
 
-def test_check_asks_the_robot_with_the_number_on_the_bus():
+def test_check_asks_the_given_node_on_the_given_bus():
     assert handed("host_sim.lab.check.checking.external", "check", "--bus", "virtual:1", "--node", "3").args == (
         "virtual:1",
         3,
@@ -55,14 +55,14 @@ def test_check_asks_the_robot_with_the_number_on_the_bus():
 
 
 @pytest.mark.parametrize(("words", "lines"), [((), 1), (("--all",), 2)])
-def test_check_prints_all_sentences_if_told_to(monkeypatch, words, lines):
+def test_check_prints_sentences_that_hold_only_with_option_all(monkeypatch, words, lines):
     verdict = Verdict("T1", "It answers.", "holds")
     monkeypatch.setattr("host_sim.lab.check.checking.check_robot", lambda *_, **__: [verdict])
 
     assert octet("check", "--bus", "virtual:1", *words).stdout.count("\n") == lines
 
 
-def test_a_campaign_in_real_time_runs_in_lockstep_too():
+def test_campaign_in_real_time_runs_in_lockstep_too():
     words = ("campaign", "--html", "a.html", "--links", "fd", "--profiles", "article")
 
     paces = [handed("host_sim.lab.campaign.matrix.groups", *words, *more).args[2] for more in ((), ("--real-time",))]
@@ -70,7 +70,7 @@ def test_a_campaign_in_real_time_runs_in_lockstep_too():
     assert paces == [("lockstep",), ("lockstep", "real-time")]
 
 
-def test_profiles_are_compared_on_the_robot_that_is_named():
+def test_compare_runs_profiles_on_the_given_robot():
     words = ("compare", "article", "--robot", "emulated", "--seeds", "1")
 
     assert [
@@ -78,7 +78,7 @@ def test_profiles_are_compared_on_the_robot_that_is_named():
     ] == ["emulated"]
 
 
-def test_the_robot_that_is_calibrated_is_the_one_that_is_named():
+def test_calibrate_opens_the_given_bus_node_and_bit_rate():
     words = ("calibrate", "--bus", "slcan:/dev/nowhere", "--node", "3", "--bitrate", "250000")
 
     access = handed("host_sim.sim.connect.Connector", *words).args[1]
@@ -87,7 +87,7 @@ def test_the_robot_that_is_calibrated_is_the_one_that_is_named():
 
 
 @pytest.mark.parametrize(("words", "asks"), [((), True), (("--yes",), False)])
-def test_calibrate_asks_before_a_step_unless_told_not_to(monkeypatch, words, asks):
+def test_calibrate_asks_before_each_step_unless_yes_is_given(monkeypatch, words, asks):
     calibration = SimpleNamespace(stored_values=dict)
     monkeypatch.setattr("host_sim.lab.calibrate.calibrate_command._reached", lambda *_: (calibration, None))
 
@@ -97,7 +97,7 @@ def test_calibrate_asks_before_a_step_unless_told_not_to(monkeypatch, words, ask
 
 
 @pytest.mark.parametrize(("words", "ignores"), [((), False), (("--no-world",), True)])
-def test_talk_ignores_the_world_of_a_run_if_told_to(words, ignores):
+def test_talk_with_no_world_ignores_the_world_of_the_run(words, ignores):
     call = handed("host_sim.recording.resimulation.resimulate", "talk", "--log", "run.log", *words)
 
     assert call.kwargs["ignore_world"] is ignores

@@ -29,7 +29,7 @@ def octet_with(streams: str, *arguments: str, **variables: str) -> subprocess.Co
 
 
 @pytest.mark.parametrize("streams", ["2>&-", "<&- >&- 2>&-"])
-def test_a_run_needs_no_standard_stream(tmp_path, streams):
+def test_run_succeeds_with_closed_standard_streams(tmp_path, streams):
     done = octet_with(streams, *RUN, str(tmp_path))
 
     assert (done.returncode, done.stderr) == (0, "")
@@ -37,20 +37,20 @@ def test_a_run_needs_no_standard_stream(tmp_path, streams):
 
 
 @pytest.mark.parametrize("arguments", [("dbc", "--node", "1"), ("--help",)])
-def test_a_command_that_prints_needs_no_standard_output(arguments):
+def test_printing_command_reports_no_error_with_closed_standard_output(arguments):
     assert octet_with(">&-", *arguments).stderr == ""
 
 
 @pytest.mark.parametrize("arguments", [("dbc", "--node", "1"), ("--version",), ("--help",), ("run", "--help")])
 @pytest.mark.parametrize("unbuffered", ["1", ""])
-def test_a_full_output_is_an_error_in_one_line(arguments, unbuffered):
+def test_full_standard_output_is_reported_in_one_line(arguments, unbuffered):
     done = octet_with(">/dev/full", *arguments, PYTHONUNBUFFERED=unbuffered)
 
     assert done.returncode == 1
     assert done.stderr == "octet: cannot write to standard output: No space left on device\n"
 
 
-def test_a_run_whose_output_is_full_leaves_its_files(tmp_path):
+def test_run_with_full_standard_output_keeps_its_files(tmp_path):
     done = octet_with(">/dev/full", *RUN, str(tmp_path), PYTHONUNBUFFERED="")
 
     assert done.returncode == 1
@@ -59,11 +59,11 @@ def test_a_run_whose_output_is_full_leaves_its_files(tmp_path):
 
 
 @pytest.mark.parametrize("unbuffered", ["1", ""])
-def test_a_reader_who_closes_the_pipe_is_no_error_worth_a_word(unbuffered):
+def test_pipe_closed_by_its_reader_prints_no_error(unbuffered):
     assert octet_with("| head -1", "dbc", "--nodes", "1", PYTHONUNBUFFERED=unbuffered).stderr == ""
 
 
-def test_a_run_whose_reader_has_read_enough_is_done(tmp_path):
+def test_run_finishes_when_the_reader_closes_the_pipe(tmp_path):
     done = octet_with("| head -1; exit ${PIPESTATUS[0]}", *RUN, str(tmp_path), PYTHONUNBUFFERED="")
 
     assert (done.returncode, done.stderr) == (0, "")
@@ -89,7 +89,7 @@ def begun(monkeypatch, total: int | None = None) -> tuple[Terminal, ProgressLine
 
 @pytest.mark.parametrize("total", [None, 7])
 @pytest.mark.parametrize("columns", [20, 200])
-def test_the_line_never_wraps(monkeypatch, columns, total):
+def test_progress_line_never_wraps(monkeypatch, columns, total):
     monkeypatch.setenv("COLUMNS", str(columns))
     terminal, line = begun(monkeypatch, total)
 
@@ -112,7 +112,7 @@ def test_progress_line_is_due_at_intervals(monkeypatch):
     assert not line.is_due()
 
 
-def test_a_line_for_a_short_task_is_due_after_its_delay(monkeypatch):
+def test_progress_line_of_a_short_task_is_due_after_its_delay(monkeypatch):
     now_s = 5.0
     monkeypatch.setattr(time, "monotonic", lambda: now_s)
     begun(monkeypatch)
@@ -124,7 +124,7 @@ def test_a_line_for_a_short_task_is_due_after_its_delay(monkeypatch):
     assert line.is_due()
 
 
-def test_drawing_an_animation_shows_how_far_it_is(monkeypatch, tmp_path):
+def test_drawing_an_animation_shows_its_progress(monkeypatch, tmp_path):
     trajectory = run(RunConfig(seed=1, environments=1, limit_s=2)).trajectory
     terminal, _ = begun(monkeypatch)
     monkeypatch.setattr(animation, "SOON_S", 0.0)
@@ -135,7 +135,7 @@ def test_drawing_an_animation_shows_how_far_it_is(monkeypatch, tmp_path):
     assert f" drawing {tmp_path / 'a.gif'}" in CONTROL.sub("", terminal.getvalue())
 
 
-def test_a_measurement_of_a_calibration_shows_which_one_it_is(monkeypatch):
+def test_calibration_shows_the_name_of_its_measurement(monkeypatch):
     values = iter([1, 0, 0])  # it measures, has ended, and refused nothing
 
     def command(name, **_):
@@ -151,7 +151,7 @@ def test_a_measurement_of_a_calibration_shows_which_one_it_is(monkeypatch):
     assert "light: measuring" in terminal.getvalue()
 
 
-def test_items_are_counted_as_they_come(monkeypatch):
+def test_counted_yields_items_and_shows_progress(monkeypatch):
     terminal, _ = begun(monkeypatch)
 
     assert list(counted(iter("abc"), 3, "letters")) == ["a", "b", "c"]
@@ -159,13 +159,13 @@ def test_items_are_counted_as_they_come(monkeypatch):
     assert "1/3 letters" in CONTROL.sub("", terminal.getvalue())
 
 
-def test_without_a_terminal_there_is_none(tmp_path):
+def test_run_prints_no_progress_line_without_a_terminal(tmp_path):
     done = octet_process("run", "--bus", "none", "--environments", "1", "--limit-s", "2", "--out", tmp_path)
 
     assert (done.returncode, done.stderr) == (0, "")
 
 
-def test_a_run_says_what_to_do_with_it_next(tmp_path):
+def test_run_prints_next_steps_with_the_path_of_its_log(tmp_path):
     done = octet("run", "--bus", "none", "--environments", "1", "--limit-s", "1", "--out", tmp_path)
 
     (line,) = [line for line in done.stdout.splitlines() if line.startswith("next ")]
@@ -177,7 +177,7 @@ def test_a_run_says_what_to_do_with_it_next(tmp_path):
 @pytest.mark.parametrize(
     ("term", "link"), [("xterm-256color", "\x1b]8;;file:///a/b\x1b\\/a/b\x1b]8;;\x1b\\"), ("dumb", ""), ("linux", "")]
 )
-def test_a_file_is_a_link_where_the_terminal_may_know_links(monkeypatch, term, link):
+def test_file_is_printed_as_a_link_if_the_terminal_supports_links(monkeypatch, term, link):
     monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
     monkeypatch.setenv("TERM", term)
 
@@ -203,7 +203,7 @@ def on_a_terminal(*arguments: str, **variables: str) -> tuple[int, str]:
 WRONG = ("run", "--robots", "0")
 
 
-def test_an_error_is_red_on_a_terminal_and_plain_in_a_pipe():
+def test_error_is_red_on_a_terminal_and_plain_in_a_pipe():
     plain = octet_with("", *WRONG, TERM="xterm")
 
     assert on_a_terminal(*WRONG) == (plain.returncode, plain.stderr.replace("octet:", "\x1b[31moctet:\x1b[39m", 1))
@@ -211,9 +211,9 @@ def test_an_error_is_red_on_a_terminal_and_plain_in_a_pipe():
 
 
 @pytest.mark.parametrize("variables", [{"NO_COLOR": "1"}, {"TERM": "dumb"}])
-def test_no_color_disables_colours(variables):
+def test_error_is_plain_with_no_color_or_a_dumb_terminal(variables):
     assert on_a_terminal(*WRONG, **variables)[1] == octet_with("", *WRONG).stderr
 
 
-def test_an_empty_no_color_asks_for_nothing():
+def test_error_stays_red_with_an_empty_no_color():
     assert "\x1b[31m" in on_a_terminal(*WRONG, NO_COLOR="")[1]

@@ -128,7 +128,7 @@ def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("words", WRONG)
-def test_a_wrong_line_is_answered_with_what_to_do_and_writes_nothing(log, tmp_path, monkeypatch, words):
+def test_wrong_command_line_says_what_to_do_and_writes_nothing(log, tmp_path, monkeypatch, words):
     monkeypatch.chdir(ROOT)
     before = log.read_bytes()
     (tmp_path / "loop").symlink_to("loop")
@@ -145,7 +145,7 @@ def test_a_wrong_line_is_answered_with_what_to_do_and_writes_nothing(log, tmp_pa
 
 
 @pytest.mark.parametrize("words", [(), ("--help",)])
-def test_alone_it_lists_every_command_with_the_first_ones_first(words):
+def test_octet_without_a_command_lists_all_commands_run_first(words):
     done = octet(*words)
 
     listed = [line.split()[0] for line in done.stdout.splitlines() if line.startswith("  ") and "-" not in line[:4]]
@@ -157,7 +157,7 @@ def test_alone_it_lists_every_command_with_the_first_ones_first(words):
 
 
 @pytest.mark.parametrize("command", ["run", "watch"])
-def test_the_help_of_a_run_shows_the_options_that_are_used_most(command):
+def test_help_of_run_shows_the_most_used_options(command):
     text = octet(command, "--help").stdout
 
     options = re.findall(r"\n  (?:-h, )?--([\w-]+)", text)
@@ -168,7 +168,7 @@ def test_the_help_of_a_run_shows_the_options_that_are_used_most(command):
 
 
 @pytest.mark.parametrize("command", ["run", "watch"])
-def test_all_options_of_a_run_are_shown_when_all_are_asked_for(command):
+def test_help_all_of_run_shows_all_options_and_parameters(command):
     text = octet(command, "--help-all").stdout
 
     options = set(re.findall(r"\n  (?:-h, )?--([\w-]+)", text))
@@ -177,7 +177,7 @@ def test_all_options_of_a_run_are_shown_when_all_are_asked_for(command):
     assert "\nparameters for --set:\n" in text
 
 
-def test_its_version_is_that_of_the_project():
+def test_version_option_prints_the_version_of_the_project():
     done = octet("--version")
 
     assert (done.returncode, done.stdout) == (0, "Octet 1.0\n")
