@@ -83,7 +83,7 @@ def decide_side_by_side(profile: str, oracle: type[Listing], decisions: int) -> 
     return seen
 
 
-def test_random_decisions_are_those_of_the_oracle(profile, request):
+def test_random_decisions_match_the_oracle(profile, request):
     decisions = request.config.getoption("decisions")
     seen = decide_side_by_side(profile, oracle_of(profile), decisions)
     # And they held enough of everything that it does
@@ -92,12 +92,12 @@ def test_random_decisions_are_those_of_the_oracle(profile, request):
 
 
 @pytest.mark.parametrize(("profile", "other"), list(itertools.permutations(PROFILES, 2)))
-def test_the_oracle_of_another_behaviour_is_found_to_differ(profile, other):
+def test_comparison_detects_the_oracle_of_another_behaviour(profile, other):
     with pytest.raises(AssertionError):
         decide_side_by_side(profile, oracle_of(other), DECISIONS)
 
 
-def test_a_run_begins_with_the_memory_that_the_oracle_says(profile):
+def test_memory_at_the_start_of_a_run_matches_the_oracle(profile):
     brain = FFI.new("struct brain *")
     for before in MEMORIES[MEMORY_KINDS[profile]]:
         FFI.buffer(brain.memory.cell)[:] = bytes(before)
@@ -112,7 +112,7 @@ TICKS = 4000
 
 
 @pytest.mark.parametrize("profile", ["article", "searcher"])
-def test_random_ticks_are_those_of_the_oracle(profile):
+def test_caution_matches_its_oracle_in_random_ticks(profile):
     dice, oracle, seen = random.Random(1), Caution(), set()
     caution, brain, twin = FFI.new("struct caution *"), FFI.new("struct brain *"), FFI.new("struct brain *")
     config, senses = FFI.new("struct config *"), FFI.new("struct senses *")
@@ -188,7 +188,7 @@ class SharingRobot:
 
 
 @pytest.mark.parametrize("profile", PROFILES)
-def test_what_is_taken_is_what_the_oracle_says(profile):
+def test_cells_taken_from_other_robots_match_the_oracle(profile):
     dice, robot, taken = random.Random(1), SharingRobot(profile), 0
     cells = FFI.buffer(robot.brain.memory.cell)
     for _ in range(CASES):
@@ -251,13 +251,13 @@ def core(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return linked(CORE, tmp_path_factory.mktemp("core"))
 
 
-def test_the_core_wants_nothing_but_copying_and_clearing(core):
+def test_core_links_with_memcpy_and_memset_only(core):
     assert len(CORE) >= 12
     assert wanted_by(core) <= ALLOWED
 
 
 @pytest.mark.parametrize("source", IMPURE.values(), ids=IMPURE.keys())
-def test_purity_gate_finds_planted_impurities(source, core, tmp_path):
+def test_link_check_detects_use_of_heap_clock_and_console(source, core, tmp_path):
     impure = tmp_path / "impure.c"
     impure.write_text(source)
 
@@ -265,7 +265,7 @@ def test_purity_gate_finds_planted_impurities(source, core, tmp_path):
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "firmware").rglob("*.[ch]")), ids=lambda path: path.name)
-def test_the_core_is_the_same_everywhere_and_counts_in_whole_numbers(path):
+def test_firmware_has_no_conditional_compilation_or_floating_point(path):
     text = path.read_text()
     guards = re.findall(r"^#\s*(?:if|ifdef|ifndef|elif)\b.*$", text, re.MULTILINE)
 
@@ -279,9 +279,9 @@ def included_from_the_body(text: str) -> list[str]:
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "firmware").rglob("*.[ch]")), ids=lambda path: path.name)
-def test_only_main_knows_that_there_is_a_body(path):
+def test_only_main_includes_a_header_of_hal(path):
     assert included_from_the_body(path.read_text()) == (["hal/hal.h"] if path.name == "main.c" else [])
 
 
-def test_a_header_of_the_body_is_noticed():
+def test_included_header_of_hal_is_detected():
     assert included_from_the_body('#include <stdint.h>\n#include "hal/link/link.h"\n') == ["hal/link/link.h"]

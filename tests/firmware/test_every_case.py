@@ -53,7 +53,7 @@ def at(values: Sequence[int], cells: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("pattern", PATTERNS)
 @pytest.mark.parametrize("profile", LISTING_FORWARD)
-def test_every_first_action_is_that_of_the_oracle(profile, pattern):
+def test_first_actions_match_the_oracle_for_all_memories(profile, pattern):
     oracle, (memories, values) = oracle_of(profile), cell_cases(profile)
     for draw in range(2):
         # Given every memory with every repeat count
@@ -73,7 +73,7 @@ def test_every_first_action_is_that_of_the_oracle(profile, pattern):
 # After a step the repeat count is 0 whatever it was: the first actions, above, have shown that.
 @pytest.mark.parametrize("draws", list(itertools.product(range(2), range(10))))
 @pytest.mark.parametrize("profile", LISTING_FORWARD)
-def test_every_look_around_is_that_of_the_oracle(profile, draws):
+def test_look_arounds_match_the_oracle_for_all_memories(profile, draws):
     oracle, (memories, _) = oracle_of(profile), cell_cases(profile)
     for pattern in PATTERNS:
         readings = [Reading(0), Reading(pattern << 1)]
@@ -88,7 +88,7 @@ def test_every_look_around_is_that_of_the_oracle(profile, draws):
 
 @pytest.mark.parametrize("beacon_mm", [0, 1, 149, 150, 151, 8191])
 @pytest.mark.parametrize("profile", BY_PATTERN)
-def test_every_sight_of_food_after_a_step_is_as_by_the_oracle(profile, beacon_mm):
+def test_actions_at_sight_of_food_after_a_step_match_the_oracle(profile, beacon_mm):
     oracle, (memories, values) = oracle_of(profile), cell_cases(profile)
     for pattern, draw in itertools.product(PATTERNS, range(2)):
         readings = [Reading(0, True, 8191), Reading(pattern << 1, True, beacon_mm)]
@@ -104,7 +104,7 @@ def test_every_sight_of_food_after_a_step_is_as_by_the_oracle(profile, beacon_mm
 
 @pytest.mark.parametrize("pattern", PATTERNS[1:])
 @pytest.mark.parametrize("profile", REMEMBERING)
-def test_every_boredom_is_that_of_the_oracle(profile, pattern):
+def test_boredom_matches_the_oracle_for_all_memories(profile, pattern):
     oracle, (memories, values) = oracle_of(profile), cell_cases(profile)
     memories = memories[memories[:, pattern] != 0]
     bored = Brains(profile, memories, 9)
@@ -124,7 +124,7 @@ def test_every_boredom_is_that_of_the_oracle(profile, pattern):
 
 
 @pytest.mark.parametrize("profile", ["forgetful", "adaptive", "searcher"])
-def test_every_set_of_used_cells_is_judged_as_by_the_oracle(profile):
+def test_sets_of_used_cells_are_judged_as_by_the_oracle(profile):
     oracle, (memories, _) = oracle_of(profile), cell_cases(profile)
     readings = [Reading(2), Reading(4)]
     for used, count in itertools.product(range(0, 256, 2), (8, 9)):
@@ -167,7 +167,7 @@ def judged(
 
 @pytest.mark.parametrize("old", PATTERNS[1:])
 @pytest.mark.parametrize("profile", LISTING_FORWARD)
-def test_every_trial_is_judged_as_by_the_oracle(profile, old):
+def test_trials_are_judged_as_by_the_oracle_for_all_memories(profile, old):
     oracle, (memories, values) = oracle_of(profile), cell_cases(profile)
     # Given every memory that does not know the old pattern, after a trial to either side
     memories = memories[memories[:, old] == 0]
@@ -189,7 +189,7 @@ def test_every_trial_is_judged_as_by_the_oracle(profile, old):
 
 
 @pytest.mark.parametrize("feel", range(32))
-def test_five_decides_in_every_reading_as_its_oracle(feel):
+def test_five_decides_as_its_oracle_in_all_readings(feel):
     oracle = oracle_of("five")
     # Given a memory that knows each side for a reading, or none
     memories = [bytearray(MEMORIES[MemoryKind.ALL_SENSORS][feel].tobytes()) for _ in range(3)]

@@ -6,14 +6,14 @@ from tests.firmware.octet_c import ROOT
 SEEDS_OF_THE_PAGE = 10
 
 
-def test_the_page_has_what_the_sweep_prints():
+def test_bodies_page_has_the_lines_that_the_sweep_prints():
     page = (ROOT / "docs/bodies.md").read_text().splitlines()
 
     for line in lines(SEEDS_OF_THE_PAGE, (0, 60)):
         assert line in page
 
 
-def test_a_lag_that_is_far_too_long_is_found():
+def test_wheel_sweep_detects_a_far_too_long_lag():
     figures = run(TOO_LATE_MS, 0)
 
     assert figures.stopped
