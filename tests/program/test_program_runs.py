@@ -13,14 +13,14 @@ EXAMPLES = ROOT / "host_sim/program/examples"
 ARTICLE = EXAMPLES / "article.bas"
 
 
-def test_the_figures_stand_as_they_were_printed():
+def test_figures_of_the_article_s_program_are_unchanged():
     figures = ARTICLE.read_text().partition("// What the article has in its downloads")[0]
 
     assert hashlib.sha256(figures.encode()).hexdigest()[:16] == "d4d25e444d14bb1c"
 
 
 @pytest.mark.parametrize("seed", range(1, 21))
-def test_the_article_s_program_learns_the_cells_that_the_firmware_learns(seed):
+def test_article_s_program_learns_the_same_cells_as_the_firmware(seed):
     program = run(RunConfig(seed=seed, profile=str(ARTICLE)))
 
     assert program.memories == run(RunConfig(seed=seed)).memories
@@ -35,19 +35,19 @@ def without_pause(tmp_path):
 
 
 @pytest.mark.parametrize("seed", [1, 4, 7])
-def test_without_its_pause_it_sends_the_firmware_s_frames_byte_for_byte(seed, without_pause):
+def test_program_without_its_pause_sends_the_firmware_s_frames(seed, without_pause):
     program = run(RunConfig(seed=seed, profile=without_pause))
 
     assert program.log_sha256 == run(RunConfig(seed=seed)).log_sha256
 
 
-def test_on_a_real_body_it_goes_the_firmware_s_way(without_pause):
+def test_program_on_a_kit_body_sends_the_firmware_s_frames(without_pause):
     config = {"seed": 2, "environments": 1, "body": "kit", "settings": {"step_mm": 12}}
 
     assert run(RunConfig(profile=without_pause, **config)).log_sha256 == run(RunConfig(**config)).log_sha256
 
 
-def test_behind_a_link_it_sends_the_same_frames():
+def test_program_behind_a_link_sends_the_same_frames():
     config = {"seed": 3, "environments": 2, "profile": str(ARTICLE)}
 
     assert run(RunConfig(bus="fd", **config)).log_sha256 == run(RunConfig(**config)).log_sha256
@@ -60,7 +60,7 @@ def test_several_robots_have_a_program_each():
 
 
 @pytest.mark.parametrize("name", [path.name for path in EXAMPLES.iterdir()])
-def test_each_example_has_no_mistake(name):
+def test_examples_run_without_a_mistake(name):
     run(RunConfig(environments=1, limit_s=10, profile=str(EXAMPLES / name)))
 
 
@@ -70,7 +70,7 @@ def written(folder: Path, text: str) -> str:
     return str(path)
 
 
-def test_a_mistake_is_told_with_its_line_before_anything_is_begun(tmp_path, capsys):
+def test_mistake_is_reported_with_its_line_before_the_run_begins(tmp_path, capsys):
     program = written(tmp_path, "x = 1\nrTrun 5\n")
     out = tmp_path / "out"
 
@@ -83,7 +83,7 @@ def test_a_mistake_is_told_with_its_line_before_anything_is_begun(tmp_path, caps
 
 
 @pytest.mark.parametrize("bus", ["none", "fd"])
-def test_a_program_that_loops_for_ever_is_stopped_and_told(bus, tmp_path, capsys):
+def test_endless_loop_in_a_program_is_stopped_and_reported(bus, tmp_path, capsys):
     program = written(tmp_path, "rForward 2\nwhile true\nwend\n")
 
     short = ["--environments", "1", "--limit-s", "3"]
@@ -92,7 +92,7 @@ def test_a_program_that_loops_for_ever_is_stopped_and_told(bus, tmp_path, capsys
     assert 'line 2: "while": expected rForward, rTurn or delay in the loop' in capsys.readouterr().out
 
 
-def test_a_file_that_cannot_be_a_program_is_refused(tmp_path):
+def test_missing_large_or_binary_program_is_refused(tmp_path):
     with pytest.raises(UsageError, match=r"no\.bas"):
         run(RunConfig(profile=str(tmp_path / "no.bas")))
     with pytest.raises(UsageError, match=r"own\.bas"):
@@ -110,7 +110,7 @@ def test_option_that_excludes_a_program_is_refused(other, capsys):
     assert capsys.readouterr().err.count("\n") == 1
 
 
-def test_a_replay_runs_the_program_again_that_was_there_then(tmp_path, capsys):
+def test_replay_runs_the_recorded_program_not_the_changed_file(tmp_path, capsys):
     program = written(tmp_path, (EXAMPLES / "one_rule.bas").read_text())
     out = tmp_path / "out"
     words = ["--environments", "1", "--limit-s", "9", "--bus", "none", "--out", str(out)]
@@ -137,7 +137,7 @@ print "not complete";
 
 
 @pytest.mark.parametrize("bus", ["none", "fd"])
-def test_what_a_program_prints_is_in_the_run_s_output(bus, tmp_path, capsys):
+def test_run_prints_what_its_program_prints(bus, tmp_path, capsys):
     program = written(tmp_path, PRINTS)
 
     assert main(["run", "--profile", program, "--out", str(tmp_path), "--bus", bus, "--environments", "1"]) == 0
@@ -147,7 +147,7 @@ def test_what_a_program_prints_is_in_the_run_s_output(bus, tmp_path, capsys):
 
 
 @pytest.mark.parametrize("bus", ["none", "fd"])
-def test_a_program_that_prints_without_end_is_no_trouble(bus, tmp_path, capsys):
+def test_output_of_an_endlessly_printing_program_is_limited(bus, tmp_path, capsys):
     program = written(tmp_path, "while true\nrForward 1\nfor i = 1 to 999\nprint i, i, i\nnext\nwend\n")
     words = ["--environments", "1", "--limit-s", "5", "--bus", bus]
 
@@ -159,7 +159,7 @@ def test_a_program_that_prints_without_end_is_no_trouble(bus, tmp_path, capsys):
 
 
 @pytest.mark.parametrize("bus", ["none", "fd"])
-def test_a_program_that_asks_for_distances_is_sent_them(bus, tmp_path, capsys):
+def test_program_that_asks_for_distances_gets_them(bus, tmp_path, capsys):
     text = "while rRange() > 6\nrForward 1\nwend\nprint rRange() > 2, rFeel() & 4\n"
     words = ["--environments", "1", "--seed", "1", "--bus", bus, "--out", str(tmp_path)]
 
@@ -209,7 +209,7 @@ print "turned", turned
 
 
 @pytest.mark.parametrize("name", COURSE)
-def test_a_course_s_program_runs(name, tmp_path, capsys):
+def test_program_in_the_manner_of_a_course_runs(name, tmp_path, capsys):
     program = written(tmp_path, COURSE[name])
     words = ["--environments", "1", "--limit-s", "60", "--bus", "none", "--out", str(tmp_path)]
 

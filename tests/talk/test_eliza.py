@@ -23,7 +23,7 @@ def said(rules: str, *sentences: str) -> list[str]:
     return [talk.answer(sentence).text for sentence in sentences]
 
 
-def test_the_greeting_is_the_first_list():
+def test_greeting_is_the_first_list_of_a_script():
     assert read_script(f"(GOOD DAY .)\n{MY}{ENDS}", "a script").greeting == "GOOD DAY ."
 
 
@@ -42,14 +42,14 @@ def test_punctuation_becomes_commas_and_full_stops(sentence, words):
     assert words_of(sentence) == words
 
 
-def test_a_delimiter_drops_what_is_before_the_first_keyword_and_cuts_after_it():
+def test_delimiter_keeps_only_the_part_with_the_first_keyword():
     rule = "(KEY ((0 KEY 0) (A 1 B 3)))"
 
     assert said(rule, "x, y key z, w") == ["A Y B Z"]
     assert said(rule, "x but y key but z") == ["A Y B"]
 
 
-def test_the_highest_rank_wins_and_of_equal_ones_the_first():
+def test_keyword_of_highest_rank_wins_and_of_equal_ranks_the_first():
     rules = "(ONE 1 ((0) (ONE))) (THREE 3 ((0) (NEWKEY))) (TWO 2 ((0) (NEWKEY))) (FIVE 5 ((0) (NEWKEY)))"
 
     assert said(rules, "one three two five") == ["ONE"]
@@ -65,11 +65,11 @@ def test_ranks_1_3_2_5_are_tried_as_5_3_1_2():
     assert said(rules, "k1 k3 k2 k5 r p") == ["P"]
 
 
-def test_words_are_substituted_at_once_and_only_once():
+def test_words_are_substituted_simultaneously_and_only_once():
     assert said("(I = YOU ((0) (1))) (YOU = I)", "i and you") == ["YOU AND I"]
 
 
-def test_each_zero_takes_as_few_words_as_it_can():
+def test_zero_in_a_decomposition_takes_as_few_words_as_possible():
     assert said("(A ((0 X 0 Y 0) (1 / 3 / 5)))", "a x b x y c y") == ["A / B X / C Y"]
     assert said("(A ((0 X 0 Y) (1 / 3)))", "a x b y c y") == ["A / B Y C"]
 
@@ -82,47 +82,47 @@ def test_numbers_lists_and_tags_stand_for_words():
     assert said(f"{family} (A ((0 (/FAMILY) 0) (GOT 2)))", "a b dad") == ["GOT DAD"]
 
 
-def test_a_list_without_a_sign_stands_for_no_word():
+def test_list_without_a_sign_matches_no_word():
     assert said("(A ((0 (A) 0) (LISTED)) ((0) (NOT LISTED)))", "a") == ["NOT LISTED"]
 
 
-def test_digits_are_a_number_whatever_follows_them():
+def test_leading_digits_of_a_word_are_a_part_number():
     assert said("(A ((0 A 0) (3, AND 1ST)))", "x a b c") == ["B C , AND X ST"]
 
 
-def test_reassemblies_take_turns_also_when_they_lead_on():
+def test_reassemblies_take_turns_including_those_that_lead_on():
     rules = "(A ((0) (ONE) (NEWKEY) (=B) (PRE (X 1) (=B)) (LAST))) (B ((0) (B 1)))"
 
     assert said(rules, *["a"] * 6) == ["ONE", "NONE A", "B A", "B X A", "LAST", "ONE"]
 
 
-def test_where_nothing_matches_the_link_is_taken_or_the_program_itself_speaks():
+def test_unmatched_sentence_takes_the_link_or_gets_a_built_in_answer():
     assert said("(A ((X) (Y)) (=B)) (B ((0) (B)))", "a") == ["B"]
     assert said("(A ((X) (Y)))", *"aaaaa") == ["HMMM", "GO ON , PLEASE", "I SEE", "PLEASE CONTINUE", "HMMM"]
 
 
-def test_every_fourth_sentence_without_a_keyword_brings_back_what_was_remembered():
+def test_fourth_sentence_recalls_a_memory_if_it_has_no_keyword():
     assert said("", "my dog here", "x", "y", "z") == ["YOUR DOG HERE", "NONE X", "FOURTH DOG HERE", "NONE AGAIN"]
 
 
-def test_none_is_no_keyword_and_a_memory_is_said_once():
+def test_none_and_memory_are_no_keywords():
     assert said("", "none", "memory", "x") == ["NONE NONE", "NONE AGAIN", "NONE X"]
 
 
-def test_the_hash_is_that_of_slip():
+def test_hash_equals_that_of_slip():
     assert (slip_hash("ALWAYS", 7), slip_hash("HERE", 2)) == (14, 3)
     assert slip_hash("INVENTIONS", 15) == slip_hash("IONS", 15)
     assert 0 <= slip_hash("\U0001f600", 2) < 4
 
 
-def test_a_script_that_loops_for_ever_is_stopped_with_its_keyword():
+def test_endless_script_is_stopped_and_its_keyword_reported():
     with pytest.raises(OctetError, match="loops for ever at A: stopped after 100000 steps"):
         eliza("(A ((0) (=A)))").answer("a")
     with pytest.raises(OctetError, match="loops for ever at A"):
         eliza("(A ((0) (PRE (1 1) (=A))))").answer("a")
 
 
-def test_a_fact_is_said_with_its_evidence_and_one_that_is_not_known_leads_on():
+def test_known_fact_comes_with_its_evidence_and_unknown_one_leads_on():
     rules = "(A 2 ((0) (I KNOW (* IT)))) (B 1 ((0) (ONLY WORDS)))"
 
     assert eliza(rules, IT=Known("THIS", 7)).answer("a b") == ("I KNOW THIS", (7,))
@@ -130,7 +130,7 @@ def test_a_fact_is_said_with_its_evidence_and_one_that_is_not_known_leads_on():
     assert eliza(rules, IT=None).answer("a") == ("NONE A", ())
 
 
-def test_a_fact_is_asked_about_its_part():
+def test_fact_gets_the_words_of_its_part():
     asked: list[list[str]] = []
     facts = {"IT": lambda words: asked.append([*words])}
     Eliza(read_script(f"(HI)(A ((0 A 0) ((* IT 3)))) {MY} {ENDS}", "x", facts), facts).answer("x a y z")
@@ -171,12 +171,12 @@ def test_any_text_is_answered(sentence):
         (f"(A) {MY} {ENDS} (B ((0) (=C)))", "the link leads to C, which has no transformation"),
     ],
 )
-def test_a_mistake_in_a_script_is_told_with_its_line(script, error):
+def test_mistake_in_a_script_is_reported_with_its_line(script, error):
     with pytest.raises(UsageError) as raised:
         read_script(script, "x")
 
     assert error in str(raised.value)
 
 
-def test_comments_empty_lists_and_lower_case_are_read():
+def test_script_may_have_comments_empty_lists_and_lower_case():
     assert said("; a comment (\n() (a ((0) (b))) ; and (another", "a") == ["B"]

@@ -13,17 +13,17 @@ SENTENCES = 40_000
 
 
 @pytest.mark.parametrize("script", [own("eliza"), own("robot"), NASTY], ids=["eliza", "robot", "all features"])
-def test_forty_thousand_sentences_are_answered_alike(script):
+def test_engine_answers_40000_sentences_as_the_second_reading(script):
     assert differences(script, SENTENCES, seed=2) == []
 
 
-def test_a_thousand_random_scripts_are_followed_alike():
+def test_engine_follows_1000_random_scripts_as_the_second_reading():
     draw = random.Random(2)
 
     assert [it for seed in range(1000) for it in differences(random_script(draw), 40, seed)] == []
 
 
-def test_ten_thousand_answers_about_twenty_runs_are_what_the_frames_say(tmp_path):
+def test_ten_thousand_answers_about_twenty_runs_match_the_frames(tmp_path):
     count, found = 0, []
     draw = random.Random(3)
     for seed in range(20):

@@ -65,7 +65,7 @@ def ask(log, trajectory, index):
 
 
 @pytest.mark.parametrize("script", LANGUAGES)
-def test_nine_of_ten_questions_are_answered_from_the_log_and_none_that_it_cannot_know(ask, script):
+def test_nine_of_ten_questions_are_answered_from_the_log_none_invented(ask, script):
     asked = [(kind, ask(text, script=script).split()[0].strip("[]"), text) for kind, text in questions(script)]
 
     invented = [text for kind, mark, text in asked if kind == "words" and mark != "words"]
@@ -76,14 +76,14 @@ def test_nine_of_ten_questions_are_answered_from_the_log_and_none_that_it_cannot
 
 
 @pytest.mark.parametrize("script", LANGUAGES)
-def test_the_program_itself_never_has_to_speak_for_the_robot(script):
+def test_robot_scripts_never_need_a_built_in_answer(script):
     rules = script_named(script).rules.values()
 
     open_ended = [it.key for it in rules if it.can_answer and not it.link and it.transformations[-1].parts != (0,)]
     assert open_ended == []
 
 
-def test_german_has_a_text_for_each_english_one_with_the_same_gaps():
+def test_german_texts_cover_the_english_ones_with_equal_placeholders():
     english, german = texts_of("robot"), texts_of("robot-de")
     said = {name for name in SENTENCES if not re.search("_exact$|plant", name)}
     gaps = {name: [set(re.findall(r"{\w+}", it.facts[name])) for it in (english, german)] for name in english.facts}
@@ -94,7 +94,7 @@ def test_german_has_a_text_for_each_english_one_with_the_same_gaps():
     assert (len(german.words.patterns), len(german.words.sides)) == (len(PATTERNS), len(SIDES))
 
 
-def test_other_code_finds_the_same_answers_in_the_frames(log, trajectory):
+def test_answers_match_those_read_from_the_frames(log, trajectory):
     last = trajectory.ticks - 1
 
     count, found = differences(log, [0, last // 3, last], [7, last // 4, last - 1])
@@ -103,7 +103,7 @@ def test_other_code_finds_the_same_answers_in_the_frames(log, trajectory):
     assert found == []
 
 
-def test_an_answer_that_is_wrong_is_found_in_the_frames(log, trajectory, monkeypatch):
+def test_comparison_with_the_frames_detects_wrong_answers(log, trajectory, monkeypatch):
     monkeypatch.setattr(Texts, "times", lambda self, count: self.say("times", count=count + 1))
 
     _, found = differences(log, [trajectory.ticks - 1], [])
@@ -111,7 +111,7 @@ def test_an_answer_that_is_wrong_is_found_in_the_frames(log, trajectory, monkeyp
     assert {it[2] for it in found} >= {"How sure are you?", "Were you bored?", "How often have you tried?"}
 
 
-def test_what_it_learned_is_what_its_memory_holds_in_the_end(log, trajectory, ask):
+def test_answer_about_learning_lists_the_memory_at_the_end(log, trajectory, ask):
     said = ask("What have you learned?")
 
     memory = trajectory.at(trajectory.ticks - 1)["memory"]
@@ -120,7 +120,7 @@ def test_what_it_learned_is_what_its_memory_holds_in_the_end(log, trajectory, as
     assert said.startswith(f"[log] {'; '.join(known)} ({log}:")
 
 
-def test_the_lines_on_which_an_answer_rests_are_those_of_its_tick(log, ask):
+def test_answer_cites_the_log_line_of_its_tick(log, ask):
     said = ask("Why did you turn left?")
 
     seconds, line = re.search(r"AT ([\d.]+) S:", said)[1], int(re.search(r":(\d+)\)$", said)[1])
@@ -128,7 +128,7 @@ def test_the_lines_on_which_an_answer_rests_are_those_of_its_tick(log, ask):
     assert float(stamp.strip("()")) == pytest.approx(float(seconds), abs=0.02)
 
 
-def test_a_log_of_another_program_has_the_same_ticks_however_uneven_its_times(log, index, tmp_path):
+def test_candump_log_with_uneven_times_has_the_same_ticks(log, index, tmp_path):
     times = random.Random(1)
     text = [
         f"({1_700_000_000 + float(it[1:18]) + times.random() / 1000:.6f}{it[18:]}"
@@ -139,13 +139,13 @@ def test_a_log_of_another_program_has_the_same_ticks_however_uneven_its_times(lo
     assert index_log(tmp_path / "candump.log", 1) == index
 
 
-def test_it_knows_nothing_of_what_comes_later(ask):
+def test_robot_knows_nothing_of_later_ticks(ask):
     assert ask("What have you learned?", 0.0).startswith("[log] I HAVE LEARNED NOTHING YET")
     assert ask("What did you do at 12.5 s?", 0.0).startswith("[words]")
     assert "I HAVE NOT HAD A MEAL YET" in ask("What did you eat?", 0.0)
 
 
-def test_a_drive_that_is_altered_changes_the_answer_that_rests_on_it_and_no_other(log, index, tmp_path):
+def test_altered_drive_changes_only_the_answers_that_rest_on_it(log, index, tmp_path):
     before = resimulate(log, ignore_world=True).trajectory
     tick = int(np.flatnonzero(np.array(before.tracks[0].column("reason")) == Reason.REMEMBERED)[-1])
     lines, at = log.read_text().splitlines(keepends=True), index.lines[tick] - 1
@@ -170,7 +170,7 @@ def test_a_drive_that_is_altered_changes_the_answer_that_rests_on_it_and_no_othe
     assert changed == {"why", "turn"}
 
 
-def test_a_cell_that_is_altered_changes_the_answers_that_rest_on_it_and_no_other(log, index, tmp_path):
+def test_altered_cell_changes_only_the_answers_that_rest_on_it(log, index, tmp_path):
     before = resimulate(log, ignore_world=True).trajectory
     read = [*read_log(log)]
     said = [PROTOCOL.decode(it.frame) for it in read]
@@ -190,7 +190,7 @@ def test_a_cell_that_is_altered_changes_the_answers_that_rest_on_it_and_no_other
     assert changed == {"learned", "sure", "cell", "told"}  # it did not do that itself
 
 
-def test_an_answer_looks_at_few_states_however_long_the_run(ask, monkeypatch):
+def test_answer_reads_at_most_two_states_of_the_run(ask, monkeypatch):
     looked = []
     at = Trajectory.at
     monkeypatch.setattr(Trajectory, "at", lambda self, *args: looked.append(args) or at(self, *args))
@@ -200,7 +200,7 @@ def test_an_answer_looks_at_few_states_however_long_the_run(ask, monkeypatch):
         assert len(looked) <= 2, text
 
 
-def test_a_robot_without_a_log_knows_its_memory_only(tmp_path):
+def test_robot_without_a_log_knows_only_its_memory(tmp_path):
     memory = tmp_path / "robot.mem"
     memory.write_bytes(bytes([0, 1, 0, 0, 2, 0, 0, 0]))
     robot, source = about_memory("robot", memory)
@@ -211,7 +211,7 @@ def test_a_robot_without_a_log_knows_its_memory_only(tmp_path):
     assert robot.answer("What did you eat?").mark == "words"
 
 
-def test_the_command_answers_lines_of_any_kind(log):
+def test_talk_answers_lines_of_any_kind(log):
     asked = b"What have you learned?\n\xff\xfe\x00\n\n" + b"x" * 1_000_000 + b"\nWhere are you?"
 
     done = octet_process("talk", "--log", log, input=asked.decode(errors="surrogateescape"), errors="surrogateescape")
@@ -230,7 +230,7 @@ def test_the_command_answers_lines_of_any_kind(log):
         (["--memory", "x", "--at", "1"], "--memory is for a robot without a log"),
     ],
 )
-def test_what_cannot_be_read_is_a_line_and_exit_code_2(arguments, error):
+def test_talk_reports_unreadable_files_in_a_line_with_exit_code_2(arguments, error):
     done = octet("talk", *arguments)
 
     assert (done.returncode, done.stdout) == (2, "")
@@ -242,7 +242,7 @@ FOREIGN = """(HELLO) (IF ((0 IF 0) (WHY IF 3))) (NO ((0 NO 0) (1 NO 3)))
 (MEMORY NO (0 = 1) (0 = 1) (0 = 1) (0 = 1)) (NONE ((0) (GO ON)))"""
 
 
-def test_a_script_of_somebody_else_hears_each_sentence_as_it_is(tmp_path):
+def test_script_from_a_file_gets_each_sentence_unchanged(tmp_path):
     """As the public reimplementation answers by these rules: a comma and a decimal point split the sentence."""
     path = tmp_path / "own.script"
     path.write_text(FOREIGN)

@@ -9,17 +9,17 @@ from tests.talk.random_talk import NASTY, differences, own, random_script
 
 
 @pytest.mark.parametrize("script", [own("eliza"), own("robot"), NASTY], ids=["eliza", "robot", "all features"])
-def test_random_sentences_are_answered_alike(script):
+def test_engine_answers_random_sentences_as_the_second_reading(script):
     assert differences(script, 700, seed=1) == []
 
 
-def test_random_scripts_are_followed_alike():
+def test_engine_follows_random_scripts_as_the_second_reading():
     draw = random.Random(1)
 
     assert [it for seed in range(30) for it in differences(random_script(draw), 30, seed)] == []
 
 
-def test_an_engine_that_is_wrong_is_found(monkeypatch):
+def test_second_reading_detects_a_wrong_engine(monkeypatch):
     monkeypatch.setattr(eliza, "_DELIMITERS", frozenset({",", "."}))
 
     assert differences(NASTY, 700, seed=1) != []
