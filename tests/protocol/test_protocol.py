@@ -53,12 +53,12 @@ def said_by_cantools(name: str, data: bytes) -> dict[str, int]:
 
 
 @given(any_drive)
-def test_a_drive_is_read_by_the_names_of_its_fields(drive):
+def test_decoded_drive_equals_the_encoded_one(drive):
     assert PROTOCOL.decode_drive(PROTOCOL.encode("DRIVE", {"counter": 0, **signals_of(drive)})) == drive
 
 
 @given(any_senses, st.integers(0, 14))
-def test_senses_are_sent_by_the_names_of_their_fields(senses, counter):
+def test_decoded_senses_equal_the_encoded_ones(senses, counter):
     said = PROTOCOL.decode(PROTOCOL.encode_senses(senses, counter))
 
     assert said is not None
@@ -69,7 +69,7 @@ def test_senses_are_sent_by_the_names_of_their_fields(senses, counter):
 
 @pytest.mark.parametrize("name", [message.name for message in DATABASE.messages])
 @given(data=any_data)
-def test_every_message_is_read_as_by_a_reader_of_the_dbc(name, data):
+def test_messages_unpack_and_pack_as_by_cantools(name, data):
     layout = MessageLayout(MESSAGES[name])
     length = MESSAGES[name].length
     try:
@@ -84,20 +84,20 @@ def test_every_message_is_read_as_by_a_reader_of_the_dbc(name, data):
     assert said_by_cantools(name, layout.pack(said)) == expected
 
 
-def test_a_signal_that_is_missing_is_named():
+def test_missing_signal_is_named():
     with pytest.raises(KeyError, match="seed"):
         PROTOCOL.encode("COMMAND", {"counter": 0, "opcode": Opcode.START, "owner": 1, "lockstep": 0, "profile": 0})
 
 
 @pytest.mark.parametrize("tick", [-1, 256])
-def test_a_number_that_its_signal_cannot_hold_is_refused(tick):
+def test_number_out_of_the_range_of_its_signal_is_refused(tick):
     drive = Drive(tick=tick, left_mm_s=0, right_mm_s=0, reason=0, repeat_count=0, action=0, eat=False)
 
     with pytest.raises(ValueError, match=f"DRIVE.tick has no room for {tick}"):
         PROTOCOL.encode("DRIVE", {"counter": 0, **signals_of(drive)})
 
 
-def test_choices_are_told_by_name():
+def test_describe_prints_choices_by_name():
     start = {"counter": 3, "opcode": Opcode.START, "owner": 2, "lockstep": 1, "profile": 1, "seed": 7}
 
     line = PROTOCOL.describe(PROTOCOL.encode("COMMAND", start))
@@ -106,12 +106,12 @@ def test_choices_are_told_by_name():
 
 
 @pytest.mark.parametrize("node", [0, 32, -1])
-def test_a_node_out_of_range_is_refused(node):
+def test_node_out_of_range_is_refused(node):
     with pytest.raises(ValueError, match=r"1\.\.31"):
         Protocol(node)
 
 
-def test_a_command_with_an_opcode_that_does_not_exist_is_decoded_without_its_signals():
+def test_command_with_unknown_opcode_is_decoded_without_its_signals():
     data = bytes.fromhex("00A9010000000000")
     frame = Frame(0x021, bytes((crc8(0x021, data),)) + data[1:])
 
@@ -122,12 +122,12 @@ def test_a_command_with_an_opcode_that_does_not_exist_is_decoded_without_its_sig
     assert Protocol().describe(frame) == "COMMAND counter=9 opcode=10 owner=1"
 
 
-def test_a_layout_fits_if_it_is_one_of_those_that_are_the_same():
+def test_layout_with_another_hash_does_not_fit():
     assert PROTOCOL.fits(LAYOUT_HASH)
     assert not PROTOCOL.fits(LAYOUT_HASH ^ 1)
 
 
-def test_each_side_has_the_identifiers_of_what_it_sends():
+def test_identifiers_are_divided_between_robot_and_simulator():
     of_robot, of_sim = (set(Protocol(2).ids_from(side)) for side in ("ROBOT", "SIM"))
 
     assert Protocol(2).id_of("DRIVE") in of_robot
@@ -141,7 +141,7 @@ def test_choices_are_known_by_name_and_by_number():
     assert PROTOCOL.choice("COMMAND", "opcode", 255) == "255"
 
 
-def test_a_distance_that_nothing_is_within_is_sent_as_none():
+def test_missing_distance_is_sent_as_range_none():
     frame = PROTOCOL.encode_ranges(Ranges(None, 1, 2, 3, 60), 9, 4)
 
     signals = PROTOCOL.decode(frame).signals
@@ -157,11 +157,11 @@ def test_damaged_or_foreign_frame_decodes_to_nothing():
     assert "not a frame of node 1, or damaged" in PROTOCOL.describe(senses)
 
 
-def test_an_identifier_tells_the_node():
+def test_node_is_read_from_the_identifier():
     assert node_of(Protocol(5).id_of("SENSES")) == 5
 
 
-def test_damaged_or_foreign_drive_moves_no_wheel():
+def test_damaged_or_foreign_drive_decodes_to_nothing():
     drive = Protocol(2).encode("DRIVE", {signal.name: 0 for signal in MESSAGES["DRIVE"].signals})
 
     assert Protocol(2).decode_drive(drive) is not None
@@ -178,7 +178,7 @@ def half(number: int, counter: int = 1) -> DecodedFrame:
 WHOLE = (0, 1, 2, 3, 10, 11, 12, 13)
 
 
-def test_halves_are_joined_in_whichever_order_they_come():
+def test_halves_of_a_memory_are_joined_in_either_order():
     report = MemoryReport()
 
     assert [report.join(half(0)), report.join(half(1))] == [None, WHOLE]
@@ -192,7 +192,7 @@ def test_halves_of_two_reports_are_not_joined():
     assert report.join(half(0, counter=2)) == WHOLE
 
 
-def test_a_half_that_there_is_not_is_left_out():
+def test_invalid_half_of_a_memory_is_ignored():
     report = MemoryReport()
     report.join(half(0))
 
@@ -203,18 +203,18 @@ def test_a_half_that_there_is_not_is_left_out():
 SENSES = Protocol(3).encode_senses(Senses(7, 4, False, False, 0, 1, 2), 5)
 
 
-def test_a_frame_is_heard_as_that_of_its_node():
+def test_hear_decodes_a_frame_of_any_node():
     heard = hear(SENSES)
 
     assert (heard.node, heard.name) == (3, "SENSES")
     assert (heard.signals["tick"], heard.signals["feel"]) == (7, 4)
 
 
-def test_a_damaged_frame_is_its_nodes_and_says_nothing():
+def test_hear_gives_node_and_name_of_a_damaged_frame_without_signals():
     assert hear(Frame(SENSES.id, bytes(8))) == Heard(3, "SENSES", None)
 
 
-def test_an_identifier_of_no_message_is_nobodys():
+def test_hear_ignores_an_unknown_identifier():
     unknown = next(number for number in range(0x800) if number not in IDS)
 
     assert hear(Frame(unknown, b"")) is None

@@ -117,36 +117,36 @@ def test_both_sides_compute_the_same_crc(c_side):
         assert crc8(frame_id, data) == frame.data[0]
 
 
-def test_no_two_messages_of_any_two_nodes_share_an_identifier():
+def test_identifiers_of_all_nodes_are_unique_and_avoid_canopen():
     ids = [message.frame_id + node - 1 for message in DATABASE.messages for node in range(1, NODE_MAX + 1)]
     assert len(set(ids)) == len(ids)
     assert max(ids) < 0x800
     assert not [frame_id for frame_id in ids for taken in CANOPEN if frame_id in taken]
 
 
-def test_control_of_any_node_comes_before_reports_of_any_other():
+def test_control_messages_have_priority_over_reports_of_all_nodes():
     control = [MESSAGES[name].frame_id for name in ("COMMAND", "DRIVE", "SENSES")]
     reports = [message.frame_id for message in DATABASE.messages if message.frame_id not in control]
     assert max(control) + NODE_MAX - 1 < min(reports)
 
 
 @pytest.mark.parametrize("message", MESSAGES.values(), ids=MESSAGES)
-def test_each_message_has_a_comment(message):
+def test_message_has_a_comment(message):
     assert message.comment
 
 
 @pytest.mark.parametrize("signal", SIGNALS)
-def test_each_signal_is_a_whole_number_as_it_is(signal):
+def test_signal_is_an_unscaled_integer(signal):
     assert (signal.scale, signal.offset, signal.is_float) == (1, 0, False)
 
 
 @pytest.mark.parametrize("signal", SIGNALS)
-def test_each_signal_has_a_comment(signal):
+def test_signal_has_a_comment(signal):
     assert signal.comment
 
 
 @pytest.mark.parametrize("signal", SIGNALS)
-def test_each_signal_has_a_range_that_its_bits_hold(signal):
+def test_range_of_a_signal_fits_its_bits(signal):
     if signal.minimum is None and signal.maximum is None:  # [0|0]: a DBC says so for no range, too
         assert list(signal.choices) == [0]
         return
@@ -155,11 +155,11 @@ def test_each_signal_has_a_range_that_its_bits_hold(signal):
 
 
 @pytest.mark.parametrize("signal", SIGNALS)
-def test_each_quantity_has_a_unit_and_each_choice_its_names(signal):
+def test_signal_has_either_a_unit_or_named_choices_or_is_plain(signal):
     assert [bool(signal.unit), bool(signal.choices), signal.name in PLAIN].count(True) == 1
 
 
 @pytest.mark.parametrize("signal", SIGNALS)
-def test_each_named_choice_is_within_the_range(signal):
+def test_named_choices_are_within_the_range_of_their_signal(signal):
     for number in signal.choices or ():
         assert (signal.minimum or 0) <= number <= (signal.maximum or 0)
