@@ -22,7 +22,7 @@ from tests.lab.campaign.support import CLEAN, outcome_of
 from tests.runs.support import octet
 
 
-def test_each_fault_is_noticed_and_reported_in_short_runs(tmp_path):
+def test_short_campaign_notices_all_faults_and_writes_its_report(tmp_path):
     report = tmp_path / "campaign.html"
 
     done = octet("campaign", "--html", report, "--profiles", "article", "--limit-s", "6")
@@ -38,14 +38,14 @@ def test_each_fault_is_noticed_and_reported_in_short_runs(tmp_path):
     assert "--fault drop:30%" in text
 
 
-def test_a_fault_that_shows_late_has_the_time_for_it_in_lockstep():
+def test_late_fault_gets_a_longer_run_in_lockstep():
     late = [each for each in matrix.CLASSES if each.name == "the left sensor is stuck off"]
     (lockstep, real_time) = groups(["searcher"], ["fd"], PACES, lambda _: 6.0, late)
 
     assert [cell.limit_s for cell in (*lockstep, *real_time)] == [6, 60, 6, 6]
 
 
-def test_a_fault_without_effect_fails_the_campaign(tmp_path, monkeypatch):
+def test_fault_without_effect_fails_the_campaign(tmp_path, monkeypatch):
     nothing = FaultClass("nothing that happens", faults=("drop@999999",))
     monkeypatch.setattr(groups, "__defaults__", ((nothing,),))
 
@@ -55,7 +55,7 @@ def test_a_fault_without_effect_fails_the_campaign(tmp_path, monkeypatch):
     assert done.stderr.startswith("UNSEEN: nothing that happens: tools/run ")
 
 
-def test_a_robot_that_does_not_come_up_breaks_its_run_and_not_the_campaign(monkeypatch):
+def test_robot_that_fails_to_start_breaks_its_run_not_the_campaign(monkeypatch):
     def fail(link, _program):
         raise RobotError(f"the robot on {link} was not ready")
 
@@ -66,7 +66,7 @@ def test_a_robot_that_does_not_come_up_breaks_its_run_and_not_the_campaign(monke
     assert (found.problems, found.end) == (["broke"], "the robot on none was not ready")
 
 
-def test_a_fault_of_the_body_is_not_seen_by_frames_that_are_repeated(monkeypatch):
+def test_repeated_frames_do_not_count_as_notice_of_a_body_fault(monkeypatch):
     def repeat(client):
         client.frames.repeated += 1
 
@@ -78,7 +78,7 @@ def test_a_fault_of_the_body_is_not_seen_by_frames_that_are_repeated(monkeypatch
     assert found.problems == ["unseen"]
 
 
-def test_a_run_that_breaks_or_is_unsafe_or_misled_is_a_problem():
+def test_broken_unsafe_or_misled_run_is_a_problem():
     (outcome,) = run_all([replace(CLEAN, limit_s=1.0)])
     assert outcome.problems == []
 
@@ -89,7 +89,7 @@ def test_a_run_that_breaks_or_is_unsafe_or_misled_is_a_problem():
     assert 'class="bad"' in page([outcome])
 
 
-def test_a_body_that_denies_its_wheels_must_be_told_of_by_the_robot_and_nothing_wrong_be_learned():
+def test_robot_must_report_denied_wheels_and_learn_nothing_wrong():
     cell = replace(CLEAN, fault="odometers are swapped", changes=("swap-odometers@2s",))
     told = Outcome(cell, seen="3 denied")
 
@@ -101,7 +101,7 @@ def test_a_body_that_denies_its_wheels_must_be_told_of_by_the_robot_and_nothing_
 
 
 @pytest.mark.parametrize("name", ["no fault", "a third of the frames is lost", "the ring of sensors is mirrored"])
-def test_the_command_of_a_cell_repeats_it(tmp_path, name):
+def test_command_of_a_cell_repeats_its_run(tmp_path, name):
     (cells,) = groups(["adaptive"], ["none"], [LOCKSTEP], lambda _: 3.0)
     cell = next(cell for cell in cells if (cell.fault or "no fault") == name)
     (outcome,) = run_all([cell])
@@ -112,24 +112,24 @@ def test_the_command_of_a_cell_repeats_it(tmp_path, name):
     assert outcome.digest in done.stdout
 
 
-def test_an_image_that_is_missing_is_a_problem_and_not_a_robot_that_ended_in_order(monkeypatch):
+def test_missing_image_counts_as_a_broken_run(monkeypatch):
     monkeypatch.setattr("host_sim.base.paths.image_path", lambda board, link: Path("nowhere", board, link))
 
     assert outcome_of("article blue_pill lockstep seed=12 limit=1 event=reset@20").broke
 
 
-def test_each_cell_is_a_line_that_is_read_as_it_was_written():
+def test_cell_written_as_a_line_parses_to_the_same_cell():
     everywhere = groups(["article", "five"], LINKS, PACES, default_limit_s)
 
     for cell in (cell for cells in everywhere for cell in cells):
         assert Cell.parse(str(cell)) == cell
 
 
-def test_a_cell_with_a_limit_of_many_digits_can_be_repeated_to_the_tick():
+def test_limit_of_many_digits_is_written_to_the_millisecond():
     assert Cell.parse(str(Cell("article", "none", LOCKSTEP, limit_s=12.34567))).limit_s == 12.346
 
 
-def test_a_schedule_is_shrunk_to_what_matters():
+def test_shrink_leaves_the_guilty_fault_and_a_shorter_limit():
     line = "article none lockstep seed=12 limit=13 fault=duplicate:9% fault=forge:stop@300/to change=mirror@2s"
 
     *_, smallest = shrink(Cell.parse(line), lambda smaller: outcome_of(str(smaller)))
@@ -138,7 +138,7 @@ def test_a_schedule_is_shrunk_to_what_matters():
     assert smallest.cell.limit_s < 13
 
 
-def test_a_fault_with_a_chance_is_shrunk_to_the_frames_that_matter():
+def test_fault_with_a_probability_is_shrunk_to_the_frames_that_matter():
     def attempt(cell: Cell) -> Outcome:
         struck = [rule for rule in ("drop@7/to", "drop@9-12/to") if cell.faults]
         lost = "drop:30%" in cell.faults or "drop@7/to" in cell.faults
@@ -172,13 +172,13 @@ def test_malformed_run_is_refused_in_one_line(option, text):
     assert done.stderr.count("\n") == 1
 
 
-def test_a_campaign_without_a_report_says_what_it_needs():
+def test_campaign_without_a_report_asks_for_its_file():
     done = octet("campaign")
 
     assert (done.returncode, "FILE.html" in done.stderr) == (2, True)
 
 
-def test_robots_do_not_meet_on_the_bus_that_they_share():
+def test_campaign_on_vcan_refuses_several_jobs():
     done = octet("campaign", "--html", "campaign.html", "--links", "fd", "vcan", "--jobs", "2")
 
     assert (done.returncode, done.stderr) == (
@@ -187,7 +187,7 @@ def test_robots_do_not_meet_on_the_bus_that_they_share():
     )
 
 
-def test_the_report_begins_with_what_is_not_as_it_should_be_and_does_not_say_anything_twice():
+def test_report_begins_with_problems_and_repeats_nothing():
     cells = [replace(CLEAN, fault=name, events=(Event("kill", 0, 20),)) for name in ("good", "unseen", "long")]
     ended, bad = Outcome(cells[0], seen="it ended", end="it ended"), Outcome(cells[1])
     doubted = Outcome(cells[2], doubts=tuple(f"doubt {number}" for number in range(9)))
@@ -200,7 +200,7 @@ def test_the_report_begins_with_what_is_not_as_it_should_be_and_does_not_say_any
     assert "Not as they should be" not in page([ended])
 
 
-def test_a_cell_is_repeated_and_shrunk_from_the_command_line():
+def test_command_line_repeats_and_shrinks_a_cell():
     line = "article none lockstep seed=12 limit=2 fault=drop:5% fault=forge:stop@90/to"
 
     again, smaller = octet("campaign", "--repeat", line), octet("campaign", "--shrink", line)
@@ -217,7 +217,7 @@ def test_unknown_link_is_reported():
         raise AssertionError
 
 
-def test_reports_that_come_later_are_no_other_course():
+def test_course_is_the_same_when_reports_come_later():
     logs = [CourseLog() for _ in range(3)]
     senses, drive, heartbeat, other = (Frame(number, bytes(8)) for number in (0x101, 0x041, 0x6A1, 0x042))
     said = [(heartbeat, senses, drive), (senses, other, drive, heartbeat), (Frame(0x101, bytes([1] * 8)), drive)]
@@ -246,7 +246,7 @@ REACHED = FaultClass("a forged erase", ("forge:erase@300/to",))
 
 
 @pytest.mark.parametrize(("fault", "reach"), [(NEVER, "never came"), (REFUSED, "refused"), (REACHED, "reached")])
-def test_each_run_says_whether_its_fault_reached_its_receiver(fault, reach):
+def test_run_reports_whether_its_fault_reached_its_receiver(fault, reach):
     (cells,) = groups(["article"], ["none"], [LOCKSTEP], lambda _: 8.0, [fault])
 
     _, outcome = run_all(cells)
@@ -256,7 +256,7 @@ def test_each_run_says_whether_its_fault_reached_its_receiver(fault, reach):
     assert ('class="well"' in page([outcome]), fault.name in summary([outcome])) == (False, reach != "reached")
 
 
-def test_a_fault_that_never_comes_fails_the_campaign(tmp_path, monkeypatch):
+def test_fault_that_never_comes_fails_the_campaign(tmp_path, monkeypatch):
     monkeypatch.setattr("host_sim.lab.campaign.matrix.groups.__defaults__", ((NEVER,),))
     words = ("--profiles", "article", "--limit-s", "3", "--json", tmp_path / "campaign.json")
 
@@ -267,13 +267,13 @@ def test_a_fault_that_never_comes_fails_the_campaign(tmp_path, monkeypatch):
     assert [case["result"] for case in json.loads((tmp_path / "campaign.json").read_text())] == ["passed", "skipped"]
 
 
-def test_a_run_that_is_doubted_for_something_else_does_not_say_that_its_fault_came():
+def test_doubts_about_the_host_do_not_show_that_the_fault_came():
     outcome = Outcome(replace(CLEAN, fault=NEVER.name, faults=NEVER.faults), doubts=("this host was too slow",))
 
     assert outcome.reach == "never came"
 
 
-def test_runs_side_by_side_have_the_same_outcomes_in_the_same_order():
+def test_parallel_runs_have_the_same_outcomes_in_the_same_order():
     cells = [Cell("article", "none", LOCKSTEP, limit_s=limit_s, faults=("drop:30%",)) for limit_s in (3.0, 0.5, 1.0)]
 
     assert list(run_all([CLEAN, *cells], jobs=4)) == list(run_all([CLEAN, *cells]))

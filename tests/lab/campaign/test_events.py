@@ -25,7 +25,7 @@ from tests.runs.support import octet
 
 
 @pytest.mark.parametrize("link", ["none", "fd", "slcan", *BOARDS])
-def test_every_event_of_a_link_is_made_to_happen_there(link):
+def test_campaign_covers_all_events_of_a_link(link):
     asked = {event.name for (cells,) in [groups(["article"], [link], PACES[:1], default_limit_s)] for cell in cells
              for event in cell.events}  # fmt: skip
 
@@ -67,14 +67,14 @@ def test_event_at_a_robot_is_reported_and_safe(where, event, told):
         "nucleo_g431rb lockstep seed=12 limit=6 event=flash-cut:2@200",
     ],
 )
-def test_the_power_goes_twice_in_a_row_while_flash_is_written_and_the_memory_is_restored(where):
+def test_memory_is_restored_after_two_power_cuts_in_a_flash_write(where):
     outcome = outcome_of(f"article {where}")
 
     assert outcome.problems == []
     assert "its memory restored" in outcome.doubts[0]
 
 
-def test_the_power_goes_twice_in_a_row_while_flash_is_erased_and_the_memory_is_kept(monkeypatch):
+def test_memory_is_kept_after_two_power_cuts_in_a_flash_erase(monkeypatch):
     setup = Board("blue_pill")
     monkeypatch.setattr("host_sim.lab.campaign.running.open_setup", lambda *_: nullcontext(setup))
 
@@ -103,7 +103,7 @@ def test_the_power_goes_twice_in_a_row_while_flash_is_erased_and_the_memory_is_k
         ),
     ],
 )
-def test_an_event_without_effect_fails_the_campaign(monkeypatch, where, event):
+def test_event_without_effect_fails_the_campaign(monkeypatch, where, event):
     monkeypatch.setattr("host_sim.lab.campaign.running.trigger", lambda *_: None)
     for limit in ("_LEAST_S", "_FIRST_S", "_MOST_S"):  # what a busy host repeats would look like the effect
         monkeypatch.setattr(f"host_sim.client.connection.{limit}", 10.0)
@@ -114,11 +114,11 @@ def test_an_event_without_effect_fails_the_campaign(monkeypatch, where, event):
 
 
 @pytest.mark.parametrize("event", ["fast-clock:2", "slow-clock:2"])
-def test_a_clock_that_drifts_leaves_no_trace_in_lockstep(event):
+def test_drifting_clock_in_lockstep_leaves_the_log_unchanged(event):
     assert not leaves_a_trace(event, "blue_pill", limit_s=2)
 
 
-def test_in_real_time_a_robot_that_hangs_lets_its_wheels_rest_in_time():
+def test_wheels_stop_in_time_when_a_robot_hangs_in_real_time():
     outcome = outcome_of("article fd real-time seed=12 limit=2 event=hang:500@20")
 
     assert outcome.problems == []
@@ -132,7 +132,7 @@ def test_pause_in_lockstep_leaves_the_log_unchanged(link, event):
     assert not leaves_a_trace(event, link, limit_s=1)
 
 
-def test_an_event_that_does_not_come_to_happen_fails_the_campaign():
+def test_event_that_does_not_happen_fails_the_campaign():
     assert "did not happen" in outcome_of("article fd lockstep seed=12 limit=1 event=hang:10@900").problems
 
 
@@ -165,24 +165,24 @@ def outcomes():
 
 
 @pytest.mark.parametrize("fault", TRIED)
-def test_a_fault_of_the_pins_reaches_the_robot_which_bears_or_tells_it(outcomes, fault):
+def test_pin_fault_reaches_the_robot_which_tolerates_or_reports_it(outcomes, fault):
     outcome = outcomes[fault]
     assert (outcome.reach, outcome.problems, outcome.end) == ("reached", [], "")
     assert ("denied" in outcome.seen) == outcome.cell.denies
 
 
-def test_a_robot_that_has_stopped_for_its_wheels_answers_to_the_end(outcomes):
+def test_robot_stopped_by_a_bridge_fault_answers_to_the_end(outcomes):
     assert outcomes["the bridge reports a fault"].recovered
 
 
-def test_the_power_goes_twice_in_a_row_while_flash_is_written_and_the_robot_goes_on():
+def test_robot_on_pins_goes_on_after_two_power_cuts_in_a_flash_write():
     outcome = outcome_of("article pins lockstep seed=12 limit=6 event=flash-cut:3@200")
 
     assert (outcome.problems, outcome.end) == ([], "")
     assert "its memory restored" in outcome.doubts[0]
 
 
-def test_each_event_has_a_row():
+def test_pin_faults_of_the_matrix_cover_all_pin_events():
     assert {it.event.partition(":")[0] for it in PINS} == set(PIN_EVENTS)
 
 
@@ -194,7 +194,7 @@ def drawn(count, seed):
     return [cell for _, *cells in walk.walk(count, seed, *WHERE) for cell in cells]
 
 
-def test_the_same_seed_draws_the_same_schedules():
+def test_equal_seeds_draw_equal_schedules_and_other_seeds_others():
     first, again, other = (list(map(str, drawn(30, seed))) for seed in (1, 1, 2))
 
     assert first == again
@@ -222,7 +222,7 @@ def test_random_schedules_change_nothing_without_a_warning():
     assert re.search(r"^\d+ runs: 0 not as they should be", done.stdout, re.M)
 
 
-def test_a_schedule_that_changes_a_run_without_a_warning_is_shrunk(monkeypatch):
+def test_schedule_that_changes_a_run_without_a_warning_is_shrunk(monkeypatch):
     guilty = "event=clock-back:3600@40"
     schedule = Cell.parse(f"article none lockstep seed=1 limit=2 fault=duplicate@30-40/to {guilty}")
     monkeypatch.setattr(walk, "_drawn", lambda *_: schedule)

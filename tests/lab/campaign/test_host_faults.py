@@ -32,21 +32,21 @@ ENDS = [
 
 
 @pytest.mark.parametrize(("event", "told"), ENDS, ids=[event for event, _ in ENDS])
-def test_a_run_whose_files_cannot_be_written_says_so_and_what_was_saved_stays(event, told):
+def test_write_error_ends_the_run_and_keeps_what_was_saved(event, told):
     outcome = outcome_of(f"{LEARNS} event={event}")
 
     assert outcome.problems == []
     assert (outcome.end, outcome.seen, outcome.broke) == (told, told, False)
 
 
-def test_a_memory_file_that_vanishes_is_written_again():
+def test_vanished_memory_file_is_written_again():
     outcome = outcome_of("article fd lockstep seed=12 limit=1 event=memory-gone@20")
 
     assert (outcome.problems, outcome.end) == ([], "")
     assert "robot.mem has vanished during the run, and is written again" in outcome.seen
 
 
-def test_a_memory_that_is_not_in_its_file_at_the_end_fails_the_campaign(monkeypatch):
+def test_memory_missing_from_its_file_at_the_end_fails_the_campaign(monkeypatch):
     monkeypatch.setattr(MemorySaver, "finish", MemorySaver.save)
 
     outcome = outcome_of("article none lockstep seed=12 limit=1 event=memory-gone@20")
@@ -64,27 +64,27 @@ def files(tmp_path):
         written.close()
 
 
-def test_files_that_hold_all_have_lost_nothing(files):
+def test_complete_files_count_as_no_loss(files):
     files.finish(SOME)
 
     assert files.lost() == ""
 
 
 @pytest.mark.parametrize(("name", "what"), [("run.log", "the log"), ("robot.mem", "the memory")])
-def test_a_file_that_holds_something_else_has_lost_it(files, tmp_path, name, what):
+def test_file_with_other_content_counts_as_a_loss(files, tmp_path, name, what):
     files.finish(SOME)
     (tmp_path / name).write_bytes(bytes(NOTHING))
 
     assert files.lost() == what
 
 
-def test_a_file_that_is_half_written_when_the_run_ends_has_lost_something(files, tmp_path):
+def test_half_written_memory_file_counts_as_a_loss(files, tmp_path):
     (tmp_path / "robot.mem").write_bytes(bytes(SOME[:4]))
 
     assert files.lost() == "the memory"
 
 
-def test_the_harm_to_files_is_taken_back(tmp_path):
+def test_file_faults_are_undone_at_the_end(tmp_path):
     with ExitStack() as undo:
         files = RunFiles(tmp_path, undo)
         for event in ("read-only", "disk-full"):
@@ -98,27 +98,27 @@ def test_the_harm_to_files_is_taken_back(tmp_path):
 
 
 @pytest.mark.parametrize("event", ["kill-simulator:7000@100", "kill-saving:200@200"])
-def test_a_simulator_that_is_killed_has_kept_the_memory_and_another_one_goes_on_with_it(event):
+def test_new_simulator_continues_with_the_memory_of_a_killed_one(event):
     outcome = outcome_of(f"{LEARNS} event={event}")
 
     assert (outcome.problems, outcome.end, outcome.recovered) == ([], "", True)
     assert outcome.seen == "the simulator was killed, and another one went on with its memory"
 
 
-def test_another_simulator_takes_over_the_robot_of_one_that_was_killed():
+def test_new_simulator_takes_over_the_robot_of_a_killed_one():
     outcome = outcome_of("article slcan lockstep seed=12 limit=1 event=kill-simulator:7000@20")
 
     assert (outcome.problems, outcome.end, outcome.recovered) == ([], "", True)
 
 
 @pytest.mark.parametrize("event", ["unplug:100", "reset", "kill", "hang:100", "noise:1", "hold-up:100"])
-def test_what_happens_to_a_line_and_its_robot_before_the_simulator_is_killed_happens_there(event):
+def test_line_event_before_a_kill_of_the_simulator_takes_effect(event):
     outcome = outcome_of(f"article slcan lockstep seed=12 limit=1 event={event}@15 event=kill-simulator:7000@20")
 
     assert (outcome.problems, outcome.broke) == ([], False)
 
 
-def test_a_line_is_told_what_happens_by_the_process_that_has_it(monkeypatch):
+def test_process_that_owns_the_line_unplugs_it(monkeypatch):
     told = []
     monkeypatch.setattr(Cable, "plug", lambda _: told.append("plug"))
     monkeypatch.setattr(Cable, "unplug", lambda _: told.append("unplug"))
@@ -128,7 +128,7 @@ def test_a_line_is_told_what_happens_by_the_process_that_has_it(monkeypatch):
     assert told[:1] == ["unplug"]
 
 
-def test_a_simulator_that_hangs_is_ended_and_fails_the_campaign(monkeypatch):
+def test_hanging_simulator_is_ended_and_fails_the_campaign(monkeypatch):
     monkeypatch.setattr("host_sim.lab.campaign.host_events.SILENT_S", 0.5)
     monkeypatch.setattr(MemorySaver, "save", lambda *_: time.sleep(60))
 
@@ -138,7 +138,7 @@ def test_a_simulator_that_hangs_is_ended_and_fails_the_campaign(monkeypatch):
     assert "the simulator hung" in outcome.end
 
 
-def test_a_process_that_is_held_up_on_a_busy_host_goes_on():
+def test_held_up_process_continues_on_a_busy_host():
     busy = """
 import subprocess, time
 from host_sim.lab.campaign.host_events import hold_up
@@ -152,13 +152,13 @@ hold_up(10)
     assert subprocess.run([sys.executable, "-c", busy], timeout=20, check=False).returncode == 0
 
 
-def test_a_memory_that_is_not_in_its_file_when_the_simulator_is_killed_fails_the_campaign(monkeypatch):
+def test_unsaved_memory_of_a_killed_simulator_fails_the_campaign(monkeypatch):
     monkeypatch.setattr(MemorySaver, "save", lambda *_: None)
 
     assert "lost without a warning" in outcome_of(f"{LEARNS} event=kill-simulator:5@400").problems
 
 
-def test_a_simulator_that_ends_before_it_is_killed_fails_the_campaign(monkeypatch):
+def test_simulator_that_ends_before_its_kill_fails_the_campaign(monkeypatch):
     line = "article none lockstep seed=12 limit=1 event=kill-simulator:5@400"
 
     assert "did not happen" in outcome_of(line).problems
@@ -170,18 +170,18 @@ def test_a_simulator_that_ends_before_it_is_killed_fails_the_campaign(monkeypatc
 
 
 @pytest.mark.parametrize("event", ["clock-ahead:3600", "clock-back:3600"])
-def test_a_wall_clock_that_is_set_leaves_no_trace_in_lockstep(event):
+def test_changed_wall_clock_in_lockstep_leaves_the_log_unchanged(event):
     assert not leaves_a_trace(event, "fd", limit_s=1)
 
 
-def test_the_world_goes_on_in_real_time_when_the_clock_is_set_back_while_the_robot_hangs():
+def test_world_continues_when_the_clock_is_set_back_during_a_hang():
     outcome = outcome_of("article fd real-time seed=12 limit=2 event=hang:500@20 event=clock-back:3600@20")
 
     assert outcome.problems == []
     assert "lost" in outcome.seen
 
 
-def test_the_clock_is_set_after_the_next_reading_and_set_right_in_the_end():
+def test_clock_event_shifts_all_but_the_next_reading_and_is_undone():
     began_s = time.time()
     with ExitStack() as undo:
         clock_events(undo)["clock-back"](3600)
@@ -191,14 +191,14 @@ def test_the_clock_is_set_after_the_next_reading_and_set_right_in_the_end():
     assert time.time() > began_s - 1800
 
 
-def test_a_cell_that_need_not_be_noticed_is_repeated_as_one():
+def test_repeat_of_a_harmless_event_succeeds_unseen():
     done = octet("campaign", "--repeat", "article none lockstep seed=12 limit=2 event=clock-back:3600@100")
 
     assert (done.returncode, done.stderr) == (0, "")
     assert "seen: nothing" in done.stdout
 
 
-def test_a_run_whose_memory_file_vanishes_writes_it_again_and_says_so(tmp_path, monkeypatch):
+def test_run_reports_a_vanished_memory_file_and_writes_it_again(tmp_path, monkeypatch):
     memory = tmp_path / "robot.mem"
     monkeypatch.setattr("host_sim.cli.outputs.Outputs._write_page", lambda *_: memory.unlink())
 
@@ -230,5 +230,5 @@ def test_event_at_a_robot_on_vcan_is_reported_and_safe(event, told):
 @pytest.mark.vcan
 @pytest.mark.parametrize("opcode", OPCODES)
 @pytest.mark.parametrize("pace", PACES)
-def test_each_forged_command_is_reported(tmp_path, opcode, pace):
+def test_forged_command_on_vcan_is_reported(tmp_path, opcode, pace):
     forge_on_vcan(tmp_path, pace, opcode)

@@ -43,13 +43,13 @@ def check(capsys, command, *more):
     return code, printed.out, printed.err
 
 
-def test_each_sentence_about_a_robot_has_a_number():
+def test_sentences_about_a_robot_have_numbers():
     bare = [text for text in prose() if not re.search(r"\([A-Z]\d+\)", text)]
 
     assert [text for text in bare if not text.startswith(OF_OTHERS)] == []
 
 
-def test_each_sentence_has_a_check_or_a_reason():
+def test_sentences_have_a_check_or_a_reason_for_none():
     of_frames = {"B1", "B3", "B7", "B8", "P1"}
     rows = {number for number in sentences() if "." in number}
 
@@ -57,13 +57,13 @@ def test_each_sentence_has_a_check_or_a_reason():
     assert not (set(CHECKS) | of_frames | rows) & set(NOT_CHECKED)
 
 
-def test_the_project_s_robot_passes(capsys):
+def test_robot_of_the_project_passes_the_check(capsys):
     code, out, _ = check(capsys, f"sh -c 'exec {PROGRAM} --node $OCTET_NODE fd:$CAN_CHANNEL'")
 
     assert code == 0, out
 
 
-def test_a_robot_written_from_the_protocol_passes_and_the_results_are_written(capsys, tmp_path):
+def test_example_robot_passes_and_its_results_are_written(capsys, tmp_path):
     json_path, junit_path = tmp_path / "robot.json", tmp_path / "robot.xml"
 
     files = ("--json", json_path, "--junit", junit_path)
@@ -77,7 +77,7 @@ def test_a_robot_written_from_the_protocol_passes_and_the_results_are_written(ca
     assert {case["result"] for case in cases} == {"passed", "skipped"}
 
 
-def test_a_robot_that_fails_is_shown_with_its_frames(capsys, tmp_path):
+def test_failed_check_shows_the_frames_of_the_robot(capsys, tmp_path):
     defective = tmp_path / "robot.py"
     defective.write_text(EXAMPLE.read_text().replace("0x4B13", "0x4B14"))
 
@@ -91,7 +91,7 @@ def test_a_robot_that_fails_is_shown_with_its_frames(capsys, tmp_path):
     assert "layout is 0x4B14" in ET.parse(tmp_path / "robot.xml").find(".//failure").get("message")
 
 
-def test_frames_sent_before_a_stop_are_no_answer_to_it():
+def test_frames_sent_before_stop_do_not_count_as_its_answer():
     with virtual(example.Robot)() as talk:
         talk.link.said.extend(Frame(*frame) for frame in talk.link.robot.report(example.HEARTBEAT))
 
@@ -118,12 +118,12 @@ def test_command_that_is_no_robot_is_reported_in_one_line(capsys, monkeypatch, c
     assert err.count("\n") == 1
 
 
-def test_a_bus_that_is_none_is_told_in_a_line(capsys):
+def test_check_reports_an_unknown_bus(capsys):
     assert main(["check", "--bus", "socketcan:no-such-bus"]) == 2
     assert "cannot open the bus socketcan:no-such-bus" in capsys.readouterr().err
 
 
-def test_a_robot_must_be_named(capsys):
+def test_check_without_a_robot_asks_for_one(capsys):
     assert main(["check"]) == 2
     assert "--robot-command CMD" in capsys.readouterr().err
 
@@ -147,11 +147,11 @@ class Short(Robot):
 
 
 @pytest.mark.parametrize(("robot", "number"), [(Dumb, "T5"), (Short, "B3")])
-def test_a_robot_whatever_its_defect_is_judged_and_breaks_no_check(robot, number):
+def test_check_judges_a_silent_robot_and_one_with_short_frames(robot, number):
     assert number in {verdict.number for verdict in check_robot(virtual(robot)) if verdict.state == "fails"}
 
 
-def test_where_a_robot_cannot_be_started_its_bus_is_closed_again(monkeypatch):
+def test_bus_is_closed_when_the_robot_cannot_be_started(monkeypatch):
     link = SimpleNamespace(closed=0)
     link.close = lambda: vars(link).update(closed=1)
     monkeypatch.setattr(checking, "_open", lambda *_: link)
@@ -162,19 +162,19 @@ def test_where_a_robot_cannot_be_started_its_bus_is_closed_again(monkeypatch):
     assert link.closed
 
 
-def test_a_good_robot_that_is_there_already_passes():
+def test_running_robot_passes_without_checks_that_need_its_command():
     verdicts = check_robot(one_for_all(example.Robot()), missing=("T1", "S6"))
 
     assert [verdict for verdict in verdicts if verdict.state == "fails"] == []
     assert {verdict.number for verdict in verdicts if "--robot-command" in verdict.why} == {"T1", "S6"}
 
 
-def test_every_check_has_a_canary():
+def test_all_checks_have_a_canary():
     assert sorted(set(CHECKS) - set(CANARIES)) == []
 
 
 @pytest.mark.parametrize("number", sorted(CANARIES))
-def test_a_robot_with_one_defect_fails_that_sentence_and_no_other(number):
+def test_robot_with_one_defect_fails_exactly_its_sentence(number):
     verdicts = check_robot(virtual(CANARIES[number]))
 
     assert [verdict.number for verdict in verdicts if verdict.state == "fails"] == [number]

@@ -51,7 +51,7 @@ def senses(log: Path) -> list[dict[str, int]]:
 
 
 @pytest.mark.parametrize("tick", [0, 371, 1000])
-def test_gdb_stands_where_the_senses_of_the_tick_enter_the_step(log, tick):
+def test_gdb_stops_where_the_senses_of_the_tick_enter_the_step(log, tick):
     shown = debug(log, "--tick", str(tick), "--ex", "output/u sensed->tick", "--ex", "output/u sensed->odometer_left")
 
     assert re.search(rf"^tick {tick}, {tick * 0.02:.2f} s, 0 of {tick} drives differ", shown, re.MULTILINE)
@@ -59,7 +59,7 @@ def test_gdb_stands_where_the_senses_of_the_tick_enter_the_step(log, tick):
     assert shown.endswith(f"{sensed['tick']}{sensed['odometer_left']}")
 
 
-def test_time_and_decision_name_a_tick(log):
+def test_debug_finds_the_tick_of_a_time_or_a_decision(log):
     assert "tick 371, 7.42 s" in debug(log, "--at", "7.439", "--ex", "cells")
     shown = debug(log, "--decision", "12", "--ex", "finish", "--ex", "output/d robot->action")
     assert shown.endswith("12")
@@ -71,14 +71,14 @@ def test_continue_goes_to_the_next_tick_and_goto_back(log):
     assert re.findall(r"^tick (\d+),", shown, re.MULTILINE) == ["50", "51", "7", "8"]
 
 
-def test_breakpoints_before_the_tick_do_not_stop_on_the_way_to_it(log):
+def test_breakpoints_do_not_stop_gdb_on_the_way_to_the_tick(log):
     shown = debug(log, "--tick", "50", "--ex", "break brain_next", "--ex", "goto 60", "--ex", "info breakpoints")
 
     assert re.findall(r"^tick (\d+),", shown, re.MULTILINE) == ["50", "60"]
     assert "brain_next" in shown
 
 
-def test_cells_are_those_that_the_run_ended_with(long_log):
+def test_cells_at_the_last_tick_equal_the_memory_of_the_summary(long_log):
     memory = json.loads((long_log.parent / "summary.json").read_text())["robots"][0]["memory"]
     last = len(senses(long_log)) - 1
 
@@ -94,12 +94,12 @@ def to_the_end(log: Path, *words: str) -> tuple[int, int]:
     return int(found[1]), int(found[2])
 
 
-def test_a_firmware_that_has_not_changed_drives_as_in_the_log(long_log):
+def test_unchanged_firmware_drives_as_in_the_log(long_log):
     assert to_the_end(long_log) == (len(senses(long_log)), 0)
 
 
 @pytest.mark.parametrize("path", REAL_TIME, ids=lambda path: path.stem)
-def test_a_log_in_real_time_is_explained(path):
+def test_debugger_reproduces_a_log_in_real_time(path):
     compared, differ = to_the_end(path)
 
     assert compared > 20
@@ -129,7 +129,7 @@ def altered(log: Path, other: Path, tick: int) -> None:
     other.write_text("".join(lines))
 
 
-def test_the_first_drive_that_differs_is_told_and_replay_prints_the_command(log, tmp_path):
+def test_debug_command_of_replay_reports_the_first_drive_that_differs(log, tmp_path):
     other = tmp_path / "altered.log"
     altered(log, other, 89)
 
@@ -143,7 +143,7 @@ def test_the_first_drive_that_differs_is_told_and_replay_prints_the_command(log,
     assert "tick 89: the first DRIVE that differs from the log's" in shown
 
 
-def test_the_debugger_stands_at_tick_10000_soon(long_log, capsys):
+def test_debugger_reaches_tick_10000(long_log, capsys):
     began = os.times()
     shown = debug(long_log, "--tick", "10000", "--ex", "cells")
     took = [end - start for start, end in zip(began, os.times(), strict=True)]
@@ -153,7 +153,7 @@ def test_the_debugger_stands_at_tick_10000_soon(long_log, capsys):
     assert "tick 10000, 200.00 s, 0 of 10000 drives differ" in shown
 
 
-def test_an_editor_stops_before_the_tick_as_the_page_says(log, tmp_path):
+def test_editor_with_the_page_s_settings_stops_before_the_tick(log, tmp_path):
     (text,) = LAUNCH.findall((ROOT / "docs/debugging.md").read_text())
     octet_process("debug", log, "--out", tmp_path / "out/debug").check_returncode()
     (launch,) = json.loads(text.replace("${workspaceFolder}/build", str(ROOT / "build")))["configurations"]
@@ -177,7 +177,7 @@ def test_an_editor_stops_before_the_tick_as_the_page_says(log, tmp_path):
     assert values == ['^done,value="371"\n']
 
 
-def test_a_run_whose_robot_stands_at_a_breakpoint_waits_and_has_the_same_log(tmp_path):
+def test_run_waits_at_a_breakpoint_and_writes_the_same_log(tmp_path):
     options = ["--environments", "1", "--limit-s", "10", "--quiet"]
     seven_s = "continue\nshell sleep 7\nprint/d sensed->tick\ndelete\ncontinue\n"
     octet_process("run", *options, "--bus", "fd", "--out", tmp_path / "without").check_returncode()
@@ -212,7 +212,7 @@ def test_leaving_the_debugger_ends_the_run(tmp_path):
         ("run --gdb --bus socketcan:vcan0 --robot external", "leave --bus and --robot out"),
     ],
 )
-def test_undebuggable_log_is_refused_in_a_sentence(log, tmp_path, words, said):
+def test_debug_refuses_unsuitable_logs_and_options_in_one_line(log, tmp_path, words, said):
     program = tmp_path / "program/run.log"
     if "{program}" in words:
         bas = ROOT / "host_sim/program/examples/article.bas"
@@ -227,7 +227,7 @@ def test_undebuggable_log_is_refused_in_a_sentence(log, tmp_path, words, said):
 
 
 @pytest.mark.parametrize("words", ["debug {log}", "run --gdb --environments 1"])
-def test_without_gdb_a_sentence_says_what_to_do(log, tmp_path, words):
+def test_missing_gdb_is_reported_with_its_install_command(log, tmp_path, words):
     empty = {**os.environ, "PATH": str(tmp_path)}
     words = [word.format(log=log) for word in words.split()] + (["--out", str(tmp_path)] if "run" in words else [])
     done = octet_process(*words, env=empty)

@@ -27,7 +27,7 @@ def run(source: Path, *options: str) -> str:
 
 
 @pytest.mark.parametrize("options", [(), ("--robots", "3"), ("--fast",), ("--fast", "--robots", "3")], ids=str)
-def test_a_mistake_names_the_command_that_stops_at_its_decision(options, tmp_path):
+def test_mistake_names_the_command_that_stops_at_its_decision(options, tmp_path):
     bus = ("--bus", "none") if "--fast" in options else ()
     said = run(wrong(tmp_path), *options, *bus)
 
@@ -42,7 +42,7 @@ def test_a_mistake_names_the_command_that_stops_at_its_decision(options, tmp_pat
     assert re.search(r"own_next .*my robot\.c:45\n45\t", shown)
 
 
-def test_a_mistake_in_a_later_environment_is_found_at_its_tick(tmp_path):
+def test_mistake_in_a_later_environment_is_debugged_at_its_tick(tmp_path):
     said = run(wrong(tmp_path, 3), "--environments", "100", "--limit-s", "7")
     tick = re.search(r"--tick (\d+)", said)[1]
 
@@ -53,14 +53,14 @@ def test_a_mistake_in_a_later_environment_is_found_at_its_tick(tmp_path):
     assert shown.endswith("3")
 
 
-def test_a_mistake_before_the_first_tick_names_no_command(tmp_path):
+def test_mistake_before_the_first_tick_names_no_command(tmp_path):
     source = wrong(tmp_path)
     source.write_text(TEMPLATE.replace("return true;", "return 1 / (brain->memory.cell[0] * 0) == 1;"))
 
     assert run(source).count("\n") == 1
 
 
-def test_a_source_that_came_with_a_log_is_compiled_on_request_only(tmp_path):
+def test_source_that_came_with_a_log_is_compiled_only_on_request(tmp_path):
     run(wrong(tmp_path))
     log, words = tmp_path / "run.log", ("--ex", "continue", "--ex", "list 45,45")
 
@@ -71,7 +71,7 @@ def test_a_source_that_came_with_a_log_is_compiled_on_request_only(tmp_path):
     assert "9 / (pattern - 1)" in shown.stdout
 
 
-def test_without_its_world_file_a_log_asks_for_the_source(tmp_path):
+def test_debug_of_a_log_without_its_world_file_asks_for_the_source(tmp_path):
     run(wrong(tmp_path))
     (tmp_path / "run.world.json").unlink()
 
@@ -81,7 +81,7 @@ def test_without_its_world_file_a_log_asks_for_the_source(tmp_path):
     assert "had a behaviour of its own: add --profile MINE.C, its file" in done.stderr
 
 
-def test_a_robot_with_one_s_own_behaviour_is_started_in_gdb(tmp_path):
+def test_robot_with_own_behaviour_starts_in_gdb(tmp_path):
     source = tmp_path / "mine.c"
     source.write_text(TEMPLATE)
     run = ["run", "--profile", source, "--environments", "1", "--limit-s", "2", "--out", tmp_path]
@@ -94,7 +94,7 @@ def test_a_robot_with_one_s_own_behaviour_is_started_in_gdb(tmp_path):
     assert (tmp_path / "summary.json").exists()
 
 
-def test_missing_build_is_named(monkeypatch, tmp_path, capsys):
+def test_missing_debug_build_is_reported(monkeypatch, tmp_path, capsys):
     from host_sim.cli.main import main  # noqa: PLC0415 - the other tests start processes
     from host_sim.sim import own_brain  # noqa: PLC0415
 

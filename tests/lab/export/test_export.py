@@ -88,7 +88,7 @@ def test_mdfreader_reads_the_mf4_file(exported, recorded):
 TRC_LINE = re.compile(r" *\d+ +(\d+\.\d{3}) DT +1 +0([0-9A-F]{3}) Rx -  (\d) +((?:[0-9A-F]{2} ?)*)")
 
 
-def test_the_trc_file_is_as_peak_describes_version_2_1(exported, recorded):
+def test_trc_file_follows_peak_s_description_of_version_2_1(exported, recorded):
     """By the columns of PEAK's own description: of libraries, only python-can reads TRC, and it wrote the file."""
     lines = exported["trc"].read_text().splitlines()
     assert lines[0] == ";$FILEVERSION=2.1"
@@ -101,7 +101,7 @@ def test_the_trc_file_is_as_peak_describes_version_2_1(exported, recorded):
     assert times == [it.time_us - recorded[0].time_us for it in recorded]
 
 
-def test_the_mf4_file_begins_with_its_first_frame(tmp_path):
+def test_mf4_file_starts_at_the_time_of_its_first_frame(tmp_path):
     """Absolute times, and negative ones would show if it began when it was written."""
     log, path = tmp_path / "a.log", tmp_path / "a.mf4"
     log.write_text("".join(f"(1700000000.{us:06d}) can0 041#0011\n" for us in (250_000, 270_000)))
@@ -124,7 +124,7 @@ def signals_of(row: dict[str, object], message: str) -> dict[str, int]:
 
 
 @pytest.mark.parametrize("name", ["csv", "parquet"])
-def test_the_table_has_every_signal(exported, recorded, name):
+def test_exported_table_has_all_signals(exported, recorded, name):
     with exported[name].open("rb") as file:
         csv = name == "csv"
         table = pd.read_csv(file, dtype={"data": str}) if csv else fastparquet.ParquetFile(file).to_pandas()
@@ -146,7 +146,7 @@ def test_the_table_has_every_signal(exported, recorded, name):
             assert signals_of(row, message) == (expected or {})
 
 
-def test_pandas_reads_integers_that_may_be_missing(exported):
+def test_pandas_reads_columns_with_gaps_as_nullable_integers(exported):
     library("pyarrow", "export")
     table = pd.read_parquet(exported["parquet"], engine="pyarrow")
 
@@ -162,7 +162,7 @@ def test_skipped_frames_are_reported(log, tmp_path, capsys):
     assert output.out == f"wrote     {tmp_path / 'a.csv'}\n"
 
 
-def test_a_missing_library_is_named_with_the_command_that_installs_it(log, tmp_path, capsys, monkeypatch):
+def test_missing_library_is_reported_with_its_install_command(log, tmp_path, capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "asammdf", None)
 
     assert main(["export", str(log), "--mf4", str(tmp_path / "a.mf4")]) == 2
@@ -171,7 +171,7 @@ def test_a_missing_library_is_named_with_the_command_that_installs_it(log, tmp_p
     assert list(tmp_path.iterdir()) == []
 
 
-def test_no_other_command_loads_the_libraries_of_exports():
+def test_importing_the_buses_loads_no_export_library():
     loaded = (
         "import sys, host_sim.transport.buses; print(sorted({'asammdf', 'pandas', 'pyarrow'} & set(sys.modules)))"
     )
@@ -201,7 +201,7 @@ def test_export_without_a_format_lists_the_formats(log, capsys):
 
 
 @pytest.mark.parametrize("name", LAST_S)
-def test_a_time_that_a_format_has_no_room_for_is_one_line_and_leaves_nothing(tmp_path, capsys, name):
+def test_time_beyond_the_range_of_a_format_leaves_the_old_file(tmp_path, capsys, name):
     log, path = tmp_path / "far.log", tmp_path / f"a.{name}"
     frame = f"octet {Protocol().id_of('DRIVE'):03X}#0011"
     log.write_text(f"({LAST_S[name]}.000000) {frame}\n")
@@ -215,7 +215,7 @@ def test_a_time_that_a_format_has_no_room_for_is_one_line_and_leaves_nothing(tmp
     assert path.read_bytes() == written
 
 
-def test_a_log_is_a_table_of_arrow_and_of_pandas(tmp_path):
+def test_log_table_is_an_arrow_table_that_converts_to_pandas(tmp_path):
     log = tmp_path / "run.log"
     done = run(RunConfig(seed=3, environments=2, limit_s=20), log=log)
 

@@ -41,7 +41,7 @@ def test_python_can_has_files_of_each_format():
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
-def test_each_file_has_the_frames_that_python_can_reads(path):
+def test_frames_read_from_a_file_equal_those_of_python_can(path):
     messages = list(can.LogReader(path))
     read = [it for _, it in frames_in(path)]
 
@@ -75,7 +75,7 @@ def test_mf4_files_of_python_can_are_read(tmp_path):
     assert (read[1].time_us - read[0].time_us, log.skipped) == (40_000, {EXTENDED: 1})
 
 
-def test_a_damaged_mf4_file_is_one_line(tmp_path):
+def test_damaged_mf4_file_is_reported_in_one_line(tmp_path):
     path = tmp_path / "a.mf4"
     path.write_bytes(b"MDF     4.10    " + bytes(300))
 

@@ -42,7 +42,7 @@ def graded(tmp_path_factory: pytest.TempPathFactory) -> dict[int, list]:
     return found
 
 
-def test_each_exercise_has_a_solution_mutants_and_a_section():
+def test_exercises_have_a_solution_mutants_and_a_section():
     page = (ROOT / "docs/exercises.md").read_text()
 
     assert set(TITLES) == set(MUTANTS) == set(range(1, EXERCISES + 1))
@@ -50,7 +50,7 @@ def test_each_exercise_has_a_solution_mutants_and_a_section():
 
 
 @pytest.mark.parametrize("number", TITLES)
-def test_the_solution_is_right(graded, number):
+def test_solution_of_an_exercise_passes(graded, number):
     assert graded[number][0].verdict.status == "pass", graded[number][0].verdict.message
 
 
@@ -61,7 +61,7 @@ def test_wrong_solutions_of_each_exercise_are_rejected(graded, number):
     assert survived == []
 
 
-def test_the_first_wrong_decision_is_told_in_words(graded):
+def test_verdict_describes_the_first_wrong_decision_in_words(graded):
     assert "front-right" in graded[1][1].verdict.message
     assert graded[1][1].verdict.message.endswith(
         ": you chose a turn right by 10 degrees; asked is a turn left by 10 degrees"
@@ -84,7 +84,7 @@ def submissions(folder: Path) -> Path:
     return folder
 
 
-def test_a_folder_gives_tables_for_people_and_programs(tmp_path):
+def test_grading_a_folder_writes_html_csv_junit_and_json(tmp_path):
     folder = submissions(tmp_path / "submissions")
     outputs = [word for it in ("--html", "--csv", "--junit") for word in (it, tmp_path / f"grades.{it[2:]}")]
 
@@ -104,7 +104,7 @@ def test_a_folder_gives_tables_for_people_and_programs(tmp_path):
     assert "mine.c" in done.stdout.splitlines()[0].partition("the same but for names and comments: ")[2]
 
 
-def test_the_verdict_is_the_same_again_and_another_with_another_seed(tmp_path):
+def test_verdict_is_repeatable_and_changes_with_the_seed(tmp_path):
     wrong = tmp_path / "wrong.c"
     wrong.write_text(solution(5).replace(*MUTANTS[5][0]))
 
@@ -113,7 +113,7 @@ def test_the_verdict_is_the_same_again_and_another_with_another_seed(tmp_path):
     assert once == again != other
 
 
-def test_the_page_and_the_debugger_open_at_the_first_wrong_decision(tmp_path, monkeypatch):
+def test_page_and_debugger_open_at_the_first_wrong_decision(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("my robot.c").write_text(solution(5).replace("TRIAL_DEG", "TURN_DEG"))
 
@@ -126,7 +126,7 @@ def test_the_page_and_the_debugger_open_at_the_first_wrong_decision(tmp_path, mo
     assert re.search(rf"^tick {tick}, .*\n(.*\n)*\$1 = [1-9]", shown, re.MULTILINE)
 
 
-def test_a_right_solution_has_no_page(tmp_path, monkeypatch):
+def test_right_solution_has_no_page(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("mine.c").write_text(solution(1))
 
@@ -144,7 +144,7 @@ def test_a_right_solution_has_no_page(tmp_path, monkeypatch):
         ("4 {out}/no.c", "no.c: there is no such file or folder"),
     ],
 )
-def test_what_cannot_be_graded_is_refused_in_a_sentence(tmp_path, words, said):
+def test_grade_refuses_wrong_numbers_files_and_options(tmp_path, words, said):
     (tmp_path / "empty/a folder.c").mkdir(parents=True)
     for name in ("ada.c", "bob.c"):
         (tmp_path / name).write_text("int x;")

@@ -37,7 +37,7 @@ def episode(env: gymnasium.Env, seed: int, steps: int = 60) -> list[tuple]:
 
 
 @pytest.mark.filterwarnings("ignore:.*no window can be opened")  # "human" is tried, too
-def test_gymnasium_finds_no_fault():
+def test_environment_passes_gymnasium_s_checks():
     check_env(gymnasium.make("octet/Arena-v0").unwrapped)
 
 
@@ -45,7 +45,7 @@ def test_equal_seeds_give_equal_episodes_and_others_do_not(env):
     assert episode(env, 5) == episode(ArenaEnv(), 5) != episode(env, 6)
 
 
-def test_each_reset_begins_in_another_arena(env):
+def test_reset_begins_in_another_arena(env):
     env.reset(seed=1)
     first = [env.step(FORWARD)[0].tolist() for _ in range(100)]
     env.reset()
@@ -53,7 +53,7 @@ def test_each_reset_begins_in_another_arena(env):
     assert [env.step(FORWARD)[0].tolist() for _ in range(100)] != first
 
 
-def test_a_step_forward_is_12_mm(env):
+def test_forward_step_is_12_mm(env):
     env.reset(seed=1)
     senses, reward, *_, info = env.step(FORWARD)
 
@@ -65,7 +65,7 @@ def test_a_step_forward_is_12_mm(env):
 @pytest.mark.parametrize(
     ("action", "degrees"), [(LEFT, -10), (RIGHT, 10), (TRY_LEFT, -45), (TRY_RIGHT, 45), (ABOUT, 180)]
 )
-def test_a_turn_is_as_large_as_the_table_says(env, action, degrees):
+def test_turns_have_the_angles_of_the_action_table(env, action, degrees):
     env.reset(seed=1)
     left, right = (int(count) for count in env.step(action)[0][5:])
     forward, back = (left, right) if degrees > 0 else (right, left)
@@ -74,7 +74,7 @@ def test_a_turn_is_as_large_as_the_table_says(env, action, degrees):
     assert forward == pytest.approx(abs(degrees) * COUNTS_PER_DEGREE, abs=0.5 * COUNTS_PER_DEGREE)
 
 
-def test_it_is_the_world_of_the_firmware():
+def test_environment_senses_as_the_firmware_s_robot_tick_by_tick():
     """Straight on until something is near: the firmware's own robot senses the same, tick by tick."""
     env = ArenaEnv(step_ticks=1)
     env.reset(options={"environment": (3, 1)})
@@ -85,7 +85,7 @@ def test_it_is_the_world_of_the_firmware():
             assert env.step(FORWARD)[0].tolist()[1:] == [*map(int, next_senses(simulation))][1:]
 
 
-def test_each_episode_draws_a_body_of_the_kit_that_the_firmware_would_have():
+def test_kit_body_of_an_episode_equals_that_of_the_firmware_s_run():
     env = ArenaEnv(step_ticks=1, body="kit")
     env.reset(options={"environment": (3, 1)})
     with make(
@@ -97,7 +97,7 @@ def test_each_episode_draws_a_body_of_the_kit_that_the_firmware_would_have():
             assert env.step(FORWARD)[0].tolist()[1:] == [*map(int, next_senses(simulation))][1:]
 
 
-def test_real_bodies_differ_from_one_episode_to_the_next():
+def test_kit_bodies_differ_from_episode_to_episode():
     ways = []
     env = ArenaEnv(body="kit")
     for seed in (1, 2):
@@ -111,7 +111,7 @@ def next_senses(simulation) -> Senses:
     return simulation.arena.body.sense(simulation.tick)
 
 
-def test_food_is_eaten_rewarded_and_gone():
+def test_eaten_food_is_rewarded_and_removed():
     env = ArenaEnv(rewards=Rewards(food=10, second=0, bump=0))
     seed = next(seed for seed in range(200) if eats_at_once(seed))
     env.reset(options={"environment": (seed, 1)})
@@ -130,14 +130,14 @@ def eats_at_once(seed: int) -> bool:
     return bool(senses[3])
 
 
-def test_an_episode_ends_when_the_time_is_up():
+def test_episode_is_truncated_when_the_time_is_up():
     env = ArenaEnv(limit_s=1)
     env.reset(seed=1)
 
     assert env.step(ABOUT)[2:4] == (False, True)
 
 
-def test_an_episode_ends_when_all_food_is_eaten():
+def test_episode_terminates_when_all_food_is_eaten():
     env = ArenaEnv()
     env.reset(seed=1)
     for food in env._worlds.arenas[0].inside.food:
@@ -146,7 +146,7 @@ def test_an_episode_ends_when_all_food_is_eaten():
     assert env.step(FORWARD)[2:4] == (True, False)
 
 
-def test_bumps_cost():
+def test_bump_lowers_the_reward():
     env = ArenaEnv(rewards=Rewards(food=0, second=0, bump=-1))
     env.reset(seed=1)
     rewards = [env.step(FORWARD)[1] for _ in range(1000)]
@@ -162,13 +162,13 @@ def parallel_env() -> ArenaParallelEnv:
     return ArenaParallelEnv(robots=3, limit_s=20)
 
 
-def test_pettingzoo_finds_no_fault(parallel_env, capsys):
+def test_parallel_environment_passes_pettingzoo_s_checks(parallel_env, capsys):
     parallel_api_test(parallel_env, num_cycles=200)
 
     assert "Passed" in capsys.readouterr().out
 
 
-def test_equal_seeds_give_equal_episodes():
+def test_parallel_environment_repeats_episodes_of_equal_seeds():
     parallel_seed_test(lambda: ArenaParallelEnv(robots=3, limit_s=20))
 
 
@@ -182,7 +182,7 @@ def test_parallel_environment_of_one_robot_equals_the_single_one():
         assert (senses["robot_1"].tolist(), rewards["robot_1"]) == (theirs.tolist(), reward)
 
 
-def test_a_step_ends_with_the_longest_action(parallel_env):
+def test_parallel_step_ends_with_the_longest_action(parallel_env):
     parallel_env.reset(seed=1)
     senses, _, _, _, infos = parallel_env.step({"robot_1": ALL_FORWARD, "robot_2": ALL_ABOUT, "robot_3": ALL_LEFT})
 
@@ -202,7 +202,7 @@ def test_robots_sense_each_other():
     assert any(feels(25, number) != feels(1, number) for number in range(1, 21))
 
 
-def test_all_end_at_once(parallel_env):
+def test_episodes_of_all_robots_end_at_once(parallel_env):
     parallel_env.reset(seed=1)
     while parallel_env.agents:
         *_, terminations, truncations, _ = parallel_env.step(dict.fromkeys(parallel_env.agents, ALL_ABOUT))
@@ -244,7 +244,7 @@ def test_vector_environment_equals_single_environments(envs):
     assert episodes > COUNT
 
 
-def test_observations_stay_as_they_are(envs):
+def test_vector_step_does_not_overwrite_earlier_observations(envs):
     before, _ = envs.reset(seed=1)
     kept = before.copy()
     envs.step(np.zeros(COUNT, np.int64))
@@ -253,14 +253,14 @@ def test_observations_stay_as_they_are(envs):
     assert before in envs.observation_space
 
 
-def test_a_seed_for_each(envs):
+def test_vector_reset_takes_a_seed_for_each_arena(envs):
     first, _ = envs.reset(seed=[3] * COUNT)
     steps = [envs.step(np.zeros(COUNT, np.int64))[0] for _ in range(50)]
 
     assert all((senses == senses[0]).all() for senses in [first, *steps])
 
 
-def test_a_step_may_be_a_tick():
+def test_vector_step_can_be_one_tick():
     envs = gymnasium.make_vec("octet/Arena-v0", num_envs=2, vectorization_mode="vector_entry_point", step_ticks=1)
     envs.reset(seed=1)
 
@@ -284,6 +284,6 @@ def test_reset_options_choose_the_environment_of_each_arena(envs):
 
 
 @pytest.mark.parametrize("environments", [[(1, 1)], 7, [(1, 1)] * 5 + [(1, 0)], "123456"])
-def test_environments_that_are_none_are_refused(envs, environments):
+def test_vector_reset_refuses_invalid_environments(envs, environments):
     with pytest.raises(error.Error, match="give a"):
         envs.reset(options={"environments": environments})

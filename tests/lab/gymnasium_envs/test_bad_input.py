@@ -44,13 +44,13 @@ NO_ACTIONS = [
 ]
 
 
-def test_a_body_that_is_none():
+def test_unknown_body_is_refused():
     with pytest.raises(error.Error, match="nobody"):
         ArenaEnv(body="nobody.toml")
 
 
 @pytest.mark.parametrize("action", NO_ACTIONS, ids=repr)
-def test_an_action_that_is_none(action):
+def test_invalid_action_is_refused_and_the_next_step_works(action):
     env = ArenaEnv()
     env.reset(seed=1)
     with pytest.raises(error.InvalidAction, match="is not an action"):
@@ -64,7 +64,7 @@ def test_an_action_that_is_none(action):
     [*NO_ACTIONS, [0], [0, 1, 2], [0, 6], [0, math.nan], np.array([0.0, math.inf]), np.array([0, -1])],
     ids=repr,
 )
-def test_actions_of_several_arenas_that_are_none(actions):
+def test_vector_environment_refuses_invalid_actions_and_goes_on(actions):
     envs = ArenaVectorEnv(2)
     envs.reset(seed=1)
     with pytest.raises(error.InvalidAction):
@@ -74,14 +74,14 @@ def test_actions_of_several_arenas_that_are_none(actions):
 
 
 @pytest.mark.parametrize("actions", [{}, {"robot_1": 0}, {"robot_1": 0, "robot_3": 0}, {"robot_1": 0, "robot_2": 9}])
-def test_actions_of_robots_that_are_none(actions):
+def test_parallel_environment_refuses_invalid_actions(actions):
     env = ArenaParallelEnv(2)
     env.reset(seed=1)
     with pytest.raises(error.InvalidAction):
         env.step(actions)
 
 
-def test_a_step_before_the_beginning_or_after_the_end():
+def test_step_before_reset_or_after_the_end_is_refused():
     single, several = ArenaEnv(limit_s=1), ArenaParallelEnv(2, limit_s=1)
     for begin in (lambda: None, lambda: (single.reset(), several.reset())):
         begin()
@@ -96,30 +96,30 @@ def test_a_step_before_the_beginning_or_after_the_end():
 
 
 @pytest.mark.parametrize("seed", [-1, 1.5, "one", math.nan])
-def test_a_seed_that_is_none(seed):
+def test_invalid_seed_is_refused(seed):
     for env in (ArenaEnv(), ArenaVectorEnv(2), ArenaParallelEnv(2)):
         with pytest.raises((error.Error, TypeError)):
             env.reset(seed=seed)
 
 
-def test_a_wrong_number_of_seeds():
+def test_wrong_number_of_seeds_is_refused():
     with pytest.raises(error.Error, match="3 seeds for 2 arenas"):
         ArenaVectorEnv(2).reset(seed=[1, 2, 3])
 
 
 @pytest.mark.parametrize("environment", [None, 7, (1,), (1, 2, 3), (-1, 1), (2**32, 1), (1, 0), (1.5, 1), "ab"])
-def test_an_environment_that_is_none(environment):
+def test_invalid_environment_option_is_refused(environment):
     with pytest.raises(error.Error, match="give a seed"):
         ArenaEnv().reset(options={"environment": environment})
 
 
 @pytest.mark.parametrize("robots", [0, -1, 32])
-def test_more_robots_than_there_can_be(robots):
+def test_number_of_robots_out_of_range_is_refused(robots):
     with pytest.raises(error.Error, match="robots do not fit"):
         ArenaParallelEnv(robots)
 
 
-def test_more_robots_than_have_room(monkeypatch):
+def test_robots_without_room_in_the_arena_are_refused(monkeypatch):
     def full(_seed, number, *_):
         raise NoRoomError(number, 7)
 
@@ -135,18 +135,18 @@ def test_more_robots_than_have_room(monkeypatch):
     [{"limit_s": 0}, {"limit_s": math.nan}, {"limit_s": math.inf}, {"step_ticks": 0}, {"step_ticks": -1}],
     ids=repr,
 )
-def test_limits_out_of_range(arguments):
+def test_limits_out_of_range_are_refused(arguments):
     for kind in (ArenaEnv, ArenaVectorEnv, ArenaParallelEnv):
         with pytest.raises(error.Error):
             kind(**arguments)
 
 
-def test_no_arenas():
+def test_vector_environment_without_arenas_is_refused():
     with pytest.raises(error.Error, match="num_envs"):
         ArenaVectorEnv(0)
 
 
-def test_c_code_that_is_missing_is_named(monkeypatch, tmp_path):
+def test_missing_c_library_is_reported(monkeypatch, tmp_path):
     monkeypatch.setattr(driven_worlds, "LIBRARY", tmp_path / "liboctet_driven.so")
     driven_worlds.loaded.cache_clear()
     with pytest.raises(error.DependencyNotInstalled, match=r"liboctet_driven\.so is missing; build it"):
@@ -170,7 +170,7 @@ def test_gymnasium_collects_pictures_that_change_with_the_robot():
     assert all(not np.array_equal(a, b) for a, b in pairwise(pictures))
 
 
-def test_the_picture_shows_the_food_that_is_left():
+def test_picture_shows_the_food_that_is_left():
     env = ArenaEnv(render_mode="rgb_array")
     env.reset(seed=1)
 
@@ -180,7 +180,7 @@ def test_the_picture_shows_the_food_that_is_left():
     assert 3 * 80 < green.sum() < 3 * 130  # three discs of 100 mm, at 0.12 pixels a mm: 113 pixels each
 
 
-def test_without_a_mode_there_is_no_picture_and_no_other_mode():
+def test_render_without_a_mode_is_none_and_unknown_modes_are_refused():
     env = ArenaEnv()
     env.reset(seed=1)
 
@@ -239,7 +239,7 @@ def test_human_mode_shows_each_step_in_a_window_until_it_is_closed(tk):
     assert len(tk.pictures) == 2
 
 
-def test_a_window_is_closed_with_its_environment_and_is_not_copied(tk):
+def test_window_closes_with_its_environment_and_is_not_copied(tk):
     for env in (
         ArenaEnv(render_mode="human"),
         ArenaVectorEnv(2, render_mode="human"),
@@ -252,7 +252,7 @@ def test_a_window_is_closed_with_its_environment_and_is_not_copied(tk):
         assert tk.is_gone
 
 
-def test_human_mode_draws_each_step_in_the_terminal_where_there_is_no_window(capsys, monkeypatch):
+def test_human_mode_draws_each_step_in_the_terminal_without_a_window(capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "tkinter", None)
     env = ArenaEnv(render_mode="human")
     with pytest.warns(UserWarning, match="no window can be opened: import of tkinter halted"):
@@ -266,7 +266,7 @@ def test_human_mode_draws_each_step_in_the_terminal_where_there_is_no_window(cap
 
 @pytest.mark.parametrize("duplicate", [copy.deepcopy, lambda env: pickle.loads(pickle.dumps(env))])
 @pytest.mark.parametrize("body", ["ideal", "kit"])
-def test_a_copy_goes_on_as_the_original_does(duplicate, body):
+def test_copy_continues_as_the_original_does(duplicate, body):
     env = ArenaEnv(limit_s=60, body=body)
     env.reset(seed=3)
     actions = np.random.default_rng(1).integers(6, size=80)
@@ -282,7 +282,7 @@ def test_a_copy_goes_on_as_the_original_does(duplicate, body):
     assert np.array_equal(env.reset()[0], other.reset()[0])  # the next arena is the same, too
 
 
-def test_a_copy_does_not_move_with_the_original():
+def test_copy_does_not_move_with_the_original():
     env = ArenaEnv()
     env.reset(seed=3)
     other = copy.deepcopy(env)
@@ -291,7 +291,7 @@ def test_a_copy_does_not_move_with_the_original():
     assert env.step(0)[4]["robot_s"] > other.step(0)[4]["robot_s"]
 
 
-def test_copies_of_many_arenas_and_of_several_robots_are_equal():
+def test_copies_of_vector_and_parallel_environments_continue_alike():
     many, several = ArenaVectorEnv(3, limit_s=2), ArenaParallelEnv(2)
     many.reset(seed=1)
     several.reset(seed=1)
@@ -310,7 +310,7 @@ def test_copies_of_many_arenas_and_of_several_robots_are_equal():
         assert all(np.array_equal(ours[0][agent], theirs[0][agent]) for agent in several.possible_agents)
 
 
-def test_a_closed_environment_does_nothing_more():
+def test_closed_environment_refuses_step_and_reset():
     single, many, several = ArenaEnv(), ArenaVectorEnv(2), ArenaParallelEnv(2)
     for env, action in ((single, 0), (many, np.zeros(2, int)), (several, {"robot_1": 0, "robot_2": 0})):
         env.reset(seed=1)

@@ -31,14 +31,14 @@ def few(monkeypatch):
 
 
 @pytest.mark.parametrize("profile", ["article", "searcher"])
-def test_the_rows_of_the_page_are_those_of_its_command(profile, capsys):
+def test_python_page_has_the_rows_that_the_board_prints(profile, capsys):
     main([profile])
 
     *_, row = capsys.readouterr().out.splitlines()
     assert row in PAGE.splitlines()
 
 
-def test_the_page_has_every_player_and_the_best_first():
+def test_python_page_ranks_all_players_best_first():
     rows = re.findall(r"^\| (\S+?),?(?: seed \d)? \| (\d\.\d\d) \(", PAGE, re.MULTILINE)
 
     _, profiles = read_board()
@@ -46,7 +46,7 @@ def test_the_page_has_every_player_and_the_best_first():
     assert [food for _, food in rows] == sorted((food for _, food in rows), reverse=True)
 
 
-def test_a_policy_plays_in_the_arenas_of_the_fleet():
+def test_policy_plays_in_the_arenas_of_the_fleet():
     forward = food_of_policy(lambda arenas: lambda _: np.zeros(arenas, int), FEW)
     about = food_of_policy(lambda arenas: lambda _: np.full(arenas, 5), FEW)
 
@@ -63,7 +63,7 @@ def test_a_policy_plays_in_the_arenas_of_the_fleet():
 
 
 @pytest.mark.usefixtures("few")
-def test_a_file_with_a_policy_has_its_row(tmp_path, capsys):
+def test_board_prints_a_row_for_a_file_with_a_policy(tmp_path, capsys):
     (tmp_path / "mine.py").write_text(TURN_ABOUT)
     main([str(tmp_path / "mine.py"), "never"])
 
@@ -78,7 +78,7 @@ def test_a_file_with_a_policy_has_its_row(tmp_path, capsys):
     [(None, "there is no file"), ("KEEPS = ''", "has no function begin"), ("", "has no function begin")],
 )
 @pytest.mark.usefixtures("few")
-def test_a_file_without_a_policy_is_refused(tmp_path, capsys, text, said):
+def test_board_refuses_a_file_without_a_policy(tmp_path, capsys, text, said):
     if text is not None:
         (tmp_path / "mine.py").write_text(text)
     with pytest.raises(SystemExit):
@@ -88,14 +88,14 @@ def test_a_file_without_a_policy_is_refused(tmp_path, capsys, text, said):
 
 
 @pytest.mark.usefixtures("few")
-def test_a_word_that_names_no_player_is_refused(capsys):
+def test_board_refuses_an_unknown_player(capsys):
     with pytest.raises(SystemExit):
         main(["seacher"])
 
     assert "did you mean searcher" in capsys.readouterr().err
 
 
-def test_equal_seeds_train_equal_networks_and_others_train_others():
+def test_equal_seeds_train_equal_networks_and_other_seeds_others():
     ours, same, other = (Training(seed, arenas=8).run(steps=128) for seed in (1, 1, 2))
 
     assert ours.samples == same.samples
@@ -104,7 +104,7 @@ def test_equal_seeds_train_equal_networks_and_others_train_others():
     assert sum(it.size for it in ours.network.layers) == ppo.WEIGHTS
 
 
-def test_the_gradient_of_the_network_is_that_of_differences():
+def test_network_gradient_equals_finite_differences():
     """The judge is the definition: the loss a little to each side of a weight."""
     draws = np.random.default_rng(1)
     network, seen = Network(draws), draws.random((5, 14))
@@ -132,7 +132,7 @@ def test_the_gradient_of_the_network_is_that_of_differences():
             assert gradient.flat[at] == pytest.approx((losses[0] - losses[1]) / 2e-6, rel=1e-4, abs=1e-6)
 
 
-def test_the_deep_learner_eats_more_and_more():
+def test_ppo_eats_more_food_after_training():
     begun, trained = Training(1, arenas=60), Training(1, arenas=60).run(steps=2560)
 
     first, last = (
@@ -143,7 +143,7 @@ def test_the_deep_learner_eats_more_and_more():
 
 
 @pytest.mark.parametrize("first", ["", "import octet_robot\n"])
-def test_gymnasium_finds_the_environments_by_the_package(first):
+def test_gymnasium_makes_the_environment_by_its_package_name(first):
     code = f"{first}import gymnasium\nprint(gymnasium.make('octet_robot:octet/Arena-v0').reset(seed=1)[0].shape)"
 
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=ROOT)
@@ -152,23 +152,23 @@ def test_gymnasium_finds_the_environments_by_the_package(first):
 
 
 @pytest.mark.filterwarnings("ignore:.*is different from the unwrapped version")
-def test_scaled_senses_are_an_observation_like_any():
+def test_scaled_senses_pass_gymnasium_s_checks():
     check_env(ScaledSenses(gymnasium.make("octet_robot:octet/Arena-v0").unwrapped), skip_render_check=True)
 
 
-def test_scaled_senses_say_what_is_near():
+def test_scaled_senses_are_cones_bump_sight_and_nearness():
     told = scaled(np.array([[200, 0b10001, 1, 1, 2500, 9, 9], [0, 0b00100, 0, 0, 0, 0, 0]], np.int32))
 
     assert told.tolist() == [[1, 0, 0, 0, 1, 1, 1, 0.5], [0, 0, 1, 0, 0, 0, 0, 0]]
 
 
-def test_a_curve_has_a_point_for_each_500_steps_up_to_the_last_episode():
+def test_curve_has_a_point_per_500_steps_up_to_the_last_episode():
     ends, food = Learned(np.zeros((1, 1)), np.array([1, 2, 4]), np.array([0, 499, 500])).curve()
 
     assert (ends.tolist(), food.tolist()) == ([500, 1000], [1.5, 4.0])
 
 
-def test_the_baseline_eats_more_and_more():
+def test_q_table_eats_more_with_training_and_is_repeatable():
     learned = learn(seed=1, steps=1600)
 
     _, food = learned.curve()

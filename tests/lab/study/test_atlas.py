@@ -41,7 +41,7 @@ judged_on = [101, 104]
 
 
 @pytest.mark.parametrize("config", [SHORT, replace(SHORT, body="kit", seed=9)])
-def test_the_search_finds_what_each_memory_does_in_a_run_of_its_own(config):
+def test_map_equals_separate_runs_with_each_memory(config):
     found = map_of(Trial(config)).values[::9]
 
     frozen = [Frozen(config.seed, memory) for memory in MEMORIES[::9]]
@@ -50,7 +50,7 @@ def test_the_search_finds_what_each_memory_does_in_a_run_of_its_own(config):
     assert len(np.unique(found[:, 0])) > 3
 
 
-def test_the_programmed_memory_does_what_the_programmed_robot_does():
+def test_frozen_programmed_memory_behaves_as_profile_fixed():
     """The judge is another behaviour, which learns nothing by itself."""
     config = replace(SHORT, robots=5, worlds="own", limit_s=100.0)
     frozen = [Frozen(config.seed + i, NAMED["programmed"]) for i in range(5)]
@@ -59,14 +59,14 @@ def test_the_programmed_memory_does_what_the_programmed_robot_does():
     assert {(it.seed, it.ticks, it.pose) for it in ours} == {(it.seed, it.ticks, it.pose) for it in programmed}
 
 
-def test_a_robot_that_learns_no_more_keeps_its_memory():
+def test_frozen_robot_keeps_its_memory():
     results = list(run_fleet(replace(SHORT, limit_s=100.0), frozen=[Frozen(4, (0,) * 8), Frozen(5, (0, 2) * 4)]))
 
     assert {it.robot: it.memory for it in results} == {1: (0,) * 8, 2: (0, 2) * 4}
     assert all(it.contacts.number for it in results)
 
 
-def test_behind_a_mirrored_ring_the_map_is_turned_over():
+def test_mirrored_ring_mirrors_the_map():
     usual, with_mirror = (map_of(Trial(replace(SHORT, changes=changes))) for changes in ((), ("mirror@0s",)))
 
     assert (with_mirror.values[:, 0] == mirrored(usual.values[:, 0])).all()
@@ -111,7 +111,7 @@ def study(tmp_path, monkeypatch):
     return make
 
 
-def test_a_study_that_was_stopped_goes_on(study, tmp_path, monkeypatch, capsys):
+def test_atlas_resumes_and_adds_seeds(study, tmp_path, monkeypatch, capsys):
     made: list[int] = []
 
     def watched(trial: Trial) -> SeedMap:
@@ -136,7 +136,7 @@ def test_a_study_that_was_stopped_goes_on(study, tmp_path, monkeypatch, capsys):
     assert (tmp_path / "out/map.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_its_tables_and_pictures_go_into_the_document(study, tmp_path):
+def test_atlas_writes_its_tables_and_pictures_into_the_document(study, tmp_path):
     docs = tmp_path / "docs"
     docs.mkdir()
     (docs / "learning.md").write_text(
@@ -148,7 +148,7 @@ def test_its_tables_and_pictures_go_into_the_document(study, tmp_path):
     assert {it.name for it in docs.rglob("a*.*")} == {"a.csv", "a-cells.csv", "a-map.csv", "a-map.png"}
 
 
-def test_each_condition_of_an_atlas_has_its_columns_and_its_own_comparison(study, tmp_path, monkeypatch):
+def test_conditions_of_an_atlas_have_their_own_columns_and_comparisons(study, tmp_path, monkeypatch):
     docs = tmp_path / "docs"
     docs.mkdir()
     (docs / "learning.md").write_text(
@@ -167,7 +167,7 @@ def test_each_condition_of_an_atlas_has_its_columns_and_its_own_comparison(study
     assert (docs / "images/a-map.png").exists()
 
 
-def test_a_map_that_is_damaged_is_said(study, tmp_path, capsys):
+def test_damaged_map_is_reported(study, tmp_path, capsys):
     assert study(1) == 0
     (part,) = (tmp_path / "out" / FOLDER).iterdir()
     part.write_bytes(part.read_bytes()[:100])
@@ -176,7 +176,7 @@ def test_a_map_that_is_damaged_is_said(study, tmp_path, capsys):
     assert f"cannot read the maps in {part}" in capsys.readouterr().err
 
 
-def test_an_atlas_is_not_compared(study, tmp_path, capsys):
+def test_compare_refuses_an_atlas(study, tmp_path, capsys):
     assert study(1) == 0
 
     for what in ("out", "a.toml"):
@@ -203,7 +203,7 @@ def test_unsupported_atlas_option_is_reported(tmp_path, text, said):
         read_plan(tmp_path / "a.toml")
 
 
-def test_seeds_to_judge_on_are_for_an_atlas_only(tmp_path):
+def test_judged_on_is_refused_without_an_atlas(tmp_path):
     (tmp_path / "a.toml").write_text('profiles = ["article"]\njudged_on = [200, 300]\n')
 
     with pytest.raises(UsageError, match='2: judged_on needs memories = "all"'):
@@ -220,7 +220,7 @@ def table(name: str) -> list[dict[str, str]]:
     ("name", "conditions"),
     [("atlas", [""]), ("atlas_worlds", ["random ", "corridors "]), ("atlas_bodies", ["ideal ", "kit "])],
 )
-def test_the_page_has_the_tables_of_its_study_and_names_the_best_memory(name, conditions):
+def test_learning_page_has_the_atlas_tables_and_the_best_memory(name, conditions):
     page = (ROOT / "docs/learning.md").read_text()
 
     assert [*dict.fromkeys(row["condition"] for row in table(name))] == [
@@ -237,7 +237,7 @@ EMPTY = Layout((), ((500.0, 1500.0), (2000.0, 1500.0), (3500.0, 1500.0)), Pose(1
 WALL = Layout((Bar((1500.0, 0.0), (1500.0, 2400.0)),), ((2000.0, 1500.0),), Pose(1000.0, 1500.0, 0.0))
 
 
-def test_it_sees_what_a_robot_sees_that_looks_there():
+def test_explorer_sees_food_where_a_robot_looking_there_does():
     world, seen = world_of("random"), []
     for seed in range(40):
         layout = world.generate(seed, 1)
@@ -254,17 +254,17 @@ def finish_s(layout: Layout, *, turns: bool) -> float:
     return Explorer(Room(layout, SimParams()), turns=turns).finish_s()
 
 
-def test_where_nothing_hides_the_food_it_takes_the_ways_up_to_what_it_can_reach():
+def test_explorer_that_sees_all_takes_straight_ways_less_its_reach():
     """500 mm back, 1,500 and 1,500 mm on, less 150 mm each, at 200 mm/s."""
     assert finish_s(EMPTY, turns=False) == pytest.approx((3500 - 3 * 150) / 200)
 
 
-def test_one_that_turns_goes_first_to_the_food_that_it_sees_first():
+def test_turning_explorer_goes_first_to_the_food_that_it_sees_first():
     """1,000 and 1,500 mm on, then half a turn at 180 degrees/s and 3,000 mm back."""
     assert finish_s(EMPTY, turns=True) == pytest.approx((5500 - 3 * 150) / 200 + 1)
 
 
-def test_behind_a_wall_it_has_to_look_for_the_food():
+def test_explorer_takes_longer_for_food_behind_a_wall():
     one = SimParams(food_bands_mm=((0.0, 4000.0),))
     room = Room(WALL, one)
 
@@ -280,7 +280,7 @@ def numbers_of(text: str) -> dict[str, list[float]]:
     return {name: [float(it) for it in re.findall(r"\d+(?:\.\d+)?", mean + " " + part)] for name, mean, part in rows}
 
 
-def test_the_page_has_the_rows_of_the_command_and_few_seeds_agree():
+def test_learning_page_has_the_explorer_s_rows_and_few_seeds_agree():
     page = numbers_of((ROOT / "docs/learning.md").read_text())
     few = numbers_of("\n".join(rows_of(samples_of(6))))
 

@@ -22,7 +22,7 @@ GOAL = '[[goals]]\nfigure = "finished"\ncondition = "article"\nat_{word} = {boun
 ONE = ["--seeds", "1", "--environments", "1", "--jobs", "1"]
 
 
-def test_profiles_are_compared_at_once(capsys):
+def test_compare_runs_the_given_profiles_without_a_study(capsys):
     assert main(["compare", "never", "five", "--set", "filter=1", *ONE]) == 0
 
     lines = capsys.readouterr().out.splitlines()
@@ -30,7 +30,7 @@ def test_profiles_are_compared_at_once(capsys):
     assert [line.split()[0] for line in lines[2:4]] == ["never", "five"]
 
 
-def test_a_python_without_packages_judges_a_command_line_with_a_body():
+def test_command_line_with_a_body_is_judged_without_packages():
     code = 'from host_sim.__main__ import judge; print(*judge(["compare", "article", "--body", "kit"]))'
 
     judged = subprocess.run([sys.executable, "-S", "-c", code], capture_output=True, text=True, check=False, cwd=ROOT)
@@ -39,7 +39,7 @@ def test_a_python_without_packages_judges_a_command_line_with_a_body():
 
 
 @pytest.mark.parametrize(("word", "bound", "code"), [("least", 0, 0), ("most", -1, 1)])
-def test_a_missed_goal_is_an_exit_code(tmp_path, capsys, word, bound, code):
+def test_compare_exits_with_1_if_a_goal_is_missed(tmp_path, capsys, word, bound, code):
     plan, out = tmp_path / "a.toml", str(tmp_path / "out")
     text = 'title = "Mine"\nprofiles = ["article", "never"]\nseeds = 1\nenvironments = 1\nlimit_s = 20\n'
     plan.write_text(text + GOAL.format(word=word, bound=bound))
@@ -64,7 +64,7 @@ def test_seeds_that_are_no_longer_in_the_plan_are_not_compared(tmp_path, capsys)
     assert "a: 2 seeds of 1 environment each, none of 1..10" in capsys.readouterr().out
 
 
-def test_a_study_without_a_title_is_called_as_its_file(tmp_path, capsys):
+def test_study_without_a_title_is_named_after_its_file(tmp_path, capsys):
     (tmp_path / "mine.toml").write_text('profiles = ["fixed"]\nseeds = 1\nenvironments = 1\nlimit_s = 5\n')
     assert main(["study", str(tmp_path / "mine.toml"), "--out", str(tmp_path / "out"), "--jobs", "1"]) == 0
 
@@ -90,20 +90,20 @@ def test_a_study_without_a_title_is_called_as_its_file(tmp_path, capsys):
         [],
     ],
 )
-def test_wrong_usage_is_one_line(capsys, words):
+def test_wrong_usage_is_reported_in_one_line(capsys, words):
     assert main(["compare", *words]) == 2
 
     assert capsys.readouterr().err.count("\n") == 1
 
 
-def test_an_option_for_profiles_is_refused_with_a_study(tmp_path, capsys):
+def test_option_for_profiles_is_refused_with_a_study(tmp_path, capsys):
     assert main(["compare", str(tmp_path), "--seeds", "3"]) == 2
 
     said = f"octet: {tmp_path} is the folder of a study: leave out --seeds, for profiles only\n"
     assert capsys.readouterr().err == said
 
 
-def test_each_plot_is_a_picture(tmp_path):
+def test_draw_plots_writes_four_pictures(tmp_path):
     changed = row(number=2, contacts=[contact(body=SWAPPED)], bodies=[SWAPPED])
     few = samples(*(run(name, seed, row(10.0 * seed), changed) for name in "ab" for seed in (1, 2)))
 
@@ -115,12 +115,12 @@ def test_each_plot_is_a_picture(tmp_path):
             assert picture.size == (770, 462)
 
 
-def test_without_a_change_there_is_no_recovery_to_draw(tmp_path):
+def test_recovery_is_not_drawn_without_a_change(tmp_path):
     assert "recovery" not in [path.stem for path in draw_plots(samples(run("a", 1, row())), tmp_path)]
 
 
 @pytest.mark.parametrize("kind", CLASSES)
-def test_a_creature_is_the_same_for_the_same_seed_and_scores_what_it_did(kind):
+def test_score_curve_of_a_creature_is_repeatable_and_a_running_mean(kind):
     curve = list(scores(kind, 7, 50))
 
     assert curve == list(scores(kind, 7, 50))
@@ -140,7 +140,7 @@ def test_learning_robots_score_more_than_those_without_memory():
     assert late["Gamma"] > late["Alpha"] + 0.25
 
 
-def test_a_study_of_robots_in_worlds_of_their_own_is_compared_as_fleets(tmp_path, capsys):
+def test_study_with_own_worlds_is_compared_as_fleets(tmp_path, capsys):
     plan = tmp_path / "a.toml"
     few = "robots = [2]\nown_worlds = true\nseeds = 2\nenvironments = 1\nlimit_s = 5\n"
     plan.write_text(f'profiles = ["fixed"]\n{few}')
@@ -162,5 +162,5 @@ def trial(tmp_path_factory: pytest.TempPathFactory) -> Trial:
 
 
 @pytest.mark.parametrize(("command", "name"), tried(*LAB))
-def test_an_option_changes_what_its_row_says(command, name, trial):
+def test_option_has_the_effect_in_its_row(command, name, trial):
     trial.check(command, name)

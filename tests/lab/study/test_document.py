@@ -30,17 +30,17 @@ MEASURED = re.compile(r"\d[\d.,]*\s?(?:%|s\b|contacts|episodes|times)")
 NOT_PROSE = re.compile(r"```.*?```|`[^`]*`|!?\[[^\]]*\]\([^)]*\)|^\|.*?$|<!--.*?-->", re.DOTALL | re.MULTILINE)
 
 
-def test_each_number_is_that_of_its_table():
+def test_numbers_of_the_learning_page_equal_their_tables():
     text = LEARNING.read_text()
 
     assert fill(text, LEARNING.parent) == text, "make it anew: tools/octet study studies/NAME.toml --docs docs"
 
 
-def test_each_measured_number_is_from_a_table():
+def test_measured_numbers_of_the_learning_page_come_from_tables():
     assert MEASURED.findall(NOT_PROSE.sub("", LEARNING.read_text())) == []
 
 
-def test_the_commands_that_take_too_long_for_a_test_are_written_as_they_should_be():
+def test_by_hand_commands_of_the_learning_page_parse():
     blocks = re.findall(r"^```sh by-hand\n(.*?)^```$", LEARNING.read_text(), re.DOTALL | re.MULTILINE)
     every = [shlex.split(line) for block in blocks for line in block.splitlines()]
     lines = [words for program, *words in every if program == "tools/octet"]
@@ -78,19 +78,19 @@ def docs(tmp_path) -> Path:
         ),
     ],
 )
-def test_a_number_is_filled_in_from_its_table(docs, text, filled):
+def test_fill_replaces_numbers_by_those_of_their_tables(docs, text, filled):
     assert fill(text, docs) == filled
     assert fill(filled, docs) == filled
 
 
-def test_a_number_that_is_in_no_table_is_said(docs):
+def test_fill_reports_a_missing_number_or_table(docs):
     with pytest.raises(OctetError, match="has no figure mean_s of x"):
         fill("[1](tables/t.csv#x,mean_s)", docs)
     with pytest.raises(OctetError, match=r"cannot read the table .*/u\.csv"):
         fill("[1](tables/u.csv#x,mean_s)", docs)
 
 
-def test_one_command_makes_tables_plots_and_numbers(tmp_path):
+def test_study_with_docs_writes_tables_plots_and_numbers(tmp_path):
     studies, docs = tmp_path / "studies", tmp_path / "docs"
     for folder in (studies, docs):
         folder.mkdir()
@@ -105,13 +105,13 @@ def test_one_command_makes_tables_plots_and_numbers(tmp_path):
     assert (docs / "images/score-score.png").exists()
 
 
-def test_a_folder_without_the_document_is_said(tmp_path, capsys):
+def test_folder_without_the_document_is_reported(tmp_path, capsys):
     assert main(["study", str(ROOT / "studies/score.toml"), "--docs", str(tmp_path)]) == 2
 
     assert f"there is no {tmp_path / 'learning.md'}" in capsys.readouterr().err
 
 
-def test_every_table_of_the_document_has_its_study_with_the_same_conditions():
+def test_tables_of_the_page_have_the_conditions_of_their_studies():
     """What a study's file says now is what its table was made of, condition by condition."""
     tables = {*re.findall(r"tables/([\w-]+)\.csv", LEARNING.read_text())}
 
@@ -131,7 +131,7 @@ def lives():
     return measured(replace(read_plan(STUDY), first_seed=2_100_001, seeds=30), 2)
 
 
-def test_a_life_agrees_with_the_fleet_about_trials_meals_and_memories():
+def test_life_agrees_with_the_fleet_about_trials_meals_and_memories():
     """The judge is the fleet, which counts in C."""
     (trial, *_) = read_plan(STUDY).conditions
     config = replace(trial.config, seed=7, environments=3)
@@ -160,11 +160,11 @@ def test_first_trials_are_counted_by_pattern():
 
 
 @pytest.mark.parametrize(("x_mm", "plot"), [(0, 0), (999, 0), (1000, 2), (1150, 2), (1151, 1), (2749, 1), (2750, 2)])
-def test_the_listing_erases_by_the_place_of_the_robot(x_mm, plot):
+def test_listing_erases_by_the_place_of_the_robot(x_mm, plot):
     assert erased(x_mm) == plot
 
 
-def test_the_page_has_the_rows_of_the_command_and_few_seeds_agree(lives):
+def test_article_page_has_the_rows_of_claims_and_few_seeds_agree(lives):
     """Thirty seeds say the same within twice their interval and a point."""
     page = {name: [float(it) for it in numbers] for name, *numbers in ROW.findall(PAGE)}
     few = {name: [float(it) for it in numbers] for name, *numbers in ROW.findall(table_of(lives))}

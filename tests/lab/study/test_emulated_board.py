@@ -6,7 +6,7 @@ from host_sim.lab.study.trial import run_trial
 from tests.lab.study.support import trial
 
 
-def test_the_flash_image_learns_by_the_very_curve_of_the_host():
+def test_flash_image_has_the_learning_curve_of_the_host():
     here, there = (trial("article", 3, limit_s=14.0, robot=robot) for robot in ("spawn", "emulated"))
 
     ours, theirs = (run_trial(each) for each in (here, there))

@@ -30,11 +30,11 @@ FOUR = [run("a", seed, row(robot_s)) for seed, robot_s in enumerate((100.0, 200.
 
 
 @pytest.mark.parametrize(("name", "expected"), [("median_s", 250), ("mean_s", 400)])
-def test_times(name, expected):
+def test_median_s_and_mean_s_are_those_of_the_run_times(name, expected):
     assert value(name, *FOUR) == expected
 
 
-def test_an_environment_that_was_not_finished_has_no_time_to_finish():
+def test_unfinished_environment_counts_as_infinite_in_the_median():
     runs = [run("a", seed, row(600.0, finished=False)) for seed in range(3)]
 
     assert value("median_s", *runs, *(run("a", seed, row(100.0)) for seed in range(3, 7))) == 100
@@ -42,11 +42,11 @@ def test_an_environment_that_was_not_finished_has_no_time_to_finish():
     assert value("mean_s", *runs, run("a", 3, row(100.0))) == 475
 
 
-def test_a_time_is_held_against_that_of_the_shortest_tour():
+def test_by_tour_is_the_median_time_in_shortest_tours():
     assert value("by_tour", *FOUR, run("a", 4, row(600.0, finished=False))) == 15
 
 
-def test_finished_is_a_part_of_the_environments():
+def test_finished_is_the_percentage_of_finished_environments():
     assert value("finished", run("a", 1, row(), row(number=2, finished=False))) == 50
 
 
@@ -56,30 +56,30 @@ def test_blocked_time_is_a_mean_over_all_contacts():
     assert value("blocked_s", run("a", 1, few), run("a", 2, many)) == pytest.approx(0.4)
 
 
-def test_what_trapped_the_robot_counts_as_blocked_for_a_minute_only():
+def test_blocked_time_counts_a_trapped_contact_for_a_minute_only():
     assert value("blocked_s", run("a", 1, row(contacts=[contact(2.0), contact(500.0)]))) == 31
 
 
-def test_trapped_is_more_than_a_minute_at_once():
+def test_trapped_counts_environments_with_a_contact_over_a_minute():
     assert (
         value("trapped", run("a", 1, row(contacts=[contact(60.0)] * 2), row(number=2, contacts=[contact(61.0)])))
         == 50
     )
 
 
-def test_the_score_is_the_part_of_the_turns_that_cleared_the_way():
+def test_score_is_the_part_of_the_turns_that_cleared_the_way():
     contacts = [contact(turns=3), contact(turns=2, cleared=False)]
 
     assert value("score", run("a", 1, row(contacts=contacts))) == pytest.approx(0.2)
 
 
-def test_wrong_is_what_is_known_in_the_last_environment():
+def test_wrong_counts_what_is_known_in_the_last_environment():
     wrong, right = row(sides=[LEFT_OF_LEFT]), row(number=2)
 
     assert value("wrong", run("a", 1, wrong, right), run("a", 2, right, wrong)) == 50
 
 
-def test_wrong_turns_are_exchanged_while_a_body_is_mirrored():
+def test_wrong_judges_turns_as_exchanged_while_a_body_is_mirrored():
     assert value("wrong", run("a", 1, row(sides=[LEFT_OF_LEFT], bodies=[SWAPPED]))) == 0
 
 
@@ -108,7 +108,7 @@ def test_recovery_that_is_forgotten_again_is_not_lasting():
     assert value("lasting_recovery", *runs) == 4
 
 
-def test_a_recovery_counts_once_a_seed_however_many_robots_share_the_environment():
+def test_recovery_counts_once_per_seed_with_robots_sharing_a_world():
     right = contact(sides=(0, 2, 0, 0, 1, 0, 0, 0), body=SWAPPED)
     rows = [row(bodies=[SWAPPED] * 4, sides=[NOTHING] * 4, contacts=[right]) for _ in range(20)]
     (sample,) = samples(*(run("a", seed, it, robots=4) for seed, it in enumerate(rows)))
@@ -118,7 +118,7 @@ def test_a_recovery_counts_once_a_seed_however_many_robots_share_the_environment
     assert (found.low, found.high) == pytest.approx([100 * it for it in wilson(np.ones((20, 1)))[1:]])
 
 
-def test_without_a_change_there_is_no_recovery():
+def test_recovery_is_undefined_without_a_change():
     assert math.isnan(value("recovery", *FOUR))
 
 
@@ -128,7 +128,7 @@ def test_robot_that_never_knows_all_counts_as_latest():
     assert value("known_s", *runs) == 30
 
 
-def test_the_interval_of_a_mean_is_what_the_seeds_give():
+def test_interval_of_a_mean_agrees_with_its_standard_error():
     draws = np.random.default_rng(5)
     (sample,) = samples(*(run("a", seed, row(time)) for seed, time in enumerate(draws.normal(100.0, 10.0, 400))))
 
@@ -139,7 +139,7 @@ def test_the_interval_of_a_mean_is_what_the_seeds_give():
     assert estimate(FIGURES["mean_s"], sample) == found
 
 
-def test_a_ratio_is_of_the_same_seeds_so_that_what_they_share_cancels_out():
+def test_ratio_pairs_equal_seeds_so_that_shared_variation_cancels_out():
     times = np.random.default_rng(5).normal(100.0, 30.0, 50)
     ours = [run("a", seed, row(time)) for seed, time in enumerate(times)]
     theirs = [run("b", seed, row(2 * time)) for seed, time in enumerate(times)]
@@ -154,7 +154,7 @@ def test_a_ratio_is_of_the_same_seeds_so_that_what_they_share_cancels_out():
     ("events", "of", "low", "high"),
     [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)],
 )
-def test_the_interval_of_a_percentage_is_that_of_wilson(events, of, low, high):
+def test_interval_of_a_percentage_equals_published_wilson_intervals(events, of, low, high):
     counted = np.array([1.0] * events + [0.0] * (of - events)).reshape(-1, 1)
 
     assert wilson(counted)[1:] == pytest.approx((low, high), abs=1e-4)
@@ -166,7 +166,7 @@ def test_environments_of_a_seed_that_go_alike_count_as_one():
     assert wilson(alike) == pytest.approx(wilson(alike[:, :1]), rel=1e-9)
 
 
-def test_the_interval_of_a_paired_difference_holds_what_it_should():
+def test_interval_of_a_paired_difference_has_95_percent_coverage():
     draws, held = np.random.default_rng(11), 0
     (sample,) = samples(*(run("a", seed, row()) for seed in range(60)))
     for _ in range(1000):
@@ -187,7 +187,7 @@ def test_coverage_is_how_often_intervals_hold_the_figure_of_all_seeds():
     assert coverage(FIGURES["trapped"], sample, 50, draws=10) == 1
 
 
-def test_seeds_are_those_that_find_a_difference_in_four_of_five_studies():
+def test_seeds_for_a_difference_find_it_in_four_of_five_studies():
     draws = np.random.default_rng(3)
 
     def found(seeds: int) -> Estimate:
@@ -211,7 +211,7 @@ def test_conditions_are_compared_on_the_seeds_that_all_have():
     assert (ours.robot_s.tolist(), theirs.robot_s.tolist()) == ([[2.0]], [[4.0]])
 
 
-def test_the_table_has_a_line_for_each_condition():
+def test_table_has_a_line_for_each_condition():
     runs = [
         run(
             "a",
@@ -245,7 +245,7 @@ def test_the_table_has_a_line_for_each_condition():
         ({"at_least": 100, "at_most": 105}, "UNSURE "),
     ],
 )
-def test_a_goal_is_judged_by_the_whole_interval(bounds, verdict):
+def test_goal_is_judged_by_the_whole_interval(bounds, verdict):
     runs = [run("a", seed, row(time)) for seed, time in enumerate(np.random.default_rng(5).normal(100.0, 10.0, 200))]
 
     (judged,) = judge([Goal("mean_s", "a", **bounds)], samples(*runs))
@@ -254,7 +254,7 @@ def test_a_goal_is_judged_by_the_whole_interval(bounds, verdict):
     assert str(judged).startswith(f"{verdict}  mean_s of a: 99 s (98..100 s), wanted at ")
 
 
-def test_a_goal_can_be_a_ratio():
+def test_goal_can_be_a_ratio():
     (judged,) = judge([Goal("mean_s", "a", "b", at_most=0.4)], samples(*FOUR, run("b", 0, row(300.0))))
 
     assert judged.is_reached
@@ -272,7 +272,7 @@ def life(*tried: tuple[int, Side], **cells: Side) -> Life:
     return Life([*tried], [tuple(cells.get(f"cell{i}", Side.NOTHING) for i in range(8))], [True], [[]])
 
 
-def test_a_clock_is_the_part_of_the_trials_to_its_side_that_helped():
+def test_clock_is_the_part_of_the_trials_to_its_side_that_helped():
     lives = [life((2, L), (2, R), (2, L), cell2=L), life((2, R), (3, L), cell3=L), life((2, L), (2, R), cell2=R)]
 
     clocks = clocks_of(lives, 2)
@@ -285,7 +285,7 @@ def test_a_clock_is_the_part_of_the_trials_to_its_side_that_helped():
     assert first_helped(lives, 3) == [True]
 
 
-def test_a_side_that_was_never_tried_never_helps():
+def test_side_that_was_never_tried_never_helps():
     assert clocks_of([life((1, L), cell1=L)], 1) == (1, 0)
 
 
@@ -304,7 +304,7 @@ def cells_of(text: str) -> dict[str, list[list[float]]]:
     }
 
 
-def test_the_page_has_the_rows_of_the_command_and_few_seeds_agree(few):
+def test_learning_page_has_the_rows_of_clocks_and_few_seeds_agree(few):
     page = (ROOT / "docs/learning.md").read_text().partition("| " + " | ".join(HEADINGS))[2].partition("\n\n")[0]
 
     theirs, ours = cells_of(page), cells_of(table_of(few[:50], few[50:]))
@@ -314,7 +314,7 @@ def test_the_page_has_the_rows_of_the_command_and_few_seeds_agree(few):
             assert low - (high - low) / 2 - 1 <= value <= high + (high - low) / 2 + 1, cell
 
 
-def test_the_predictions_of_the_page_are_near_what_others_did():
+def test_predictions_of_the_page_are_near_the_figures_of_other_robots():
     """The chain is right about those that it was not made of; both halves are as large."""
     page = (ROOT / "docs/learning.md").read_text().partition("| " + " | ".join(HEADINGS))[2].partition("\n\n")[0]
 

@@ -33,7 +33,7 @@ def studied(folder: Path, mine: Path) -> int:
     return main(["study", str(folder / "a.toml"), "--out", str(folder / "out"), "--jobs", "1"])
 
 
-def test_a_fleet_with_the_template_goes_the_article_s_way(mine, tmp_path, capsys):
+def test_fleet_of_the_template_behaves_as_article(mine, tmp_path, capsys):
     tables = []
     for profile in ("article", str(mine)):
         words = ["--robots", "40", "--environments", "2", "--limit-s", "300", "--out", str(tmp_path / "out")]
@@ -45,7 +45,7 @@ def test_a_fleet_with_the_template_goes_the_article_s_way(mine, tmp_path, capsys
     assert f"profile {mine}" in capsys.readouterr().out
 
 
-def test_robots_of_one_s_own_that_share_what_they_know_go_the_article_s_way(mine):
+def test_sharing_fleet_of_the_template_behaves_as_article(mine):
     config = {"robots": 6, "worlds": "own", "environments": 1, "settings": {"share": 1}, "limit_s": 200.0}
 
     ours, theirs = (list(run_fleet(RunConfig(profile=it, **config))) for it in (str(mine), "article"))
@@ -54,7 +54,7 @@ def test_robots_of_one_s_own_that_share_what_they_know_go_the_article_s_way(mine
 
 
 @pytest.mark.parametrize("words", [["run", "--robots", "50", "--profile"], ["compare", "--seeds", "1", "article"]])
-def test_a_mistake_is_found_in_a_process_of_its_own_first(words, mine, tmp_path, capsys, monkeypatch):
+def test_mistake_is_found_first_in_a_separate_process(words, mine, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     mine.write_text(CRASH)
 
@@ -63,14 +63,14 @@ def test_a_mistake_is_found_in_a_process_of_its_own_first(words, mine, tmp_path,
     assert "mine.c:45: a place beside a variable is used, at tick 0" in capsys.readouterr().err
 
 
-def test_a_mistake_that_comes_late_ends_a_fleet(mine):
+def test_late_mistake_ends_a_fleet(mine):
     mine.write_text(LATE)
 
     with pytest.raises(BrainError, match=r"mine\.c:45:\d+: a division by zero, at tick [3-9]\d{3}, "):
         list(run_fleet(RunConfig(profile=str(mine), robots=30, worlds="own", environments=5)))
 
 
-def test_one_s_own_behaviour_is_compared_with_the_built_in_ones(mine, capsys):
+def test_c_file_is_compared_with_a_built_in_profile(mine, capsys):
     assert main(["compare", "article", str(mine), "--seeds", "2", "--environments", "1", "--jobs", "1"]) == 0
 
     lines = capsys.readouterr().out.splitlines()
@@ -80,7 +80,7 @@ def test_one_s_own_behaviour_is_compared_with_the_built_in_ones(mine, capsys):
     assert all(own[: len(theirs)] == theirs for theirs, own in zip(rows[::2], rows[1::2], strict=True))
 
 
-def test_the_runs_of_a_study_with_a_file_have_rows_and_its_sha256(mine, tmp_path):
+def test_study_with_a_c_file_has_its_rows_and_its_sha256(mine, tmp_path):
     assert studied(tmp_path, mine) == 0
 
     told = json.loads((tmp_path / "out/study.json").read_text())
@@ -91,7 +91,7 @@ def test_the_runs_of_a_study_with_a_file_have_rows_and_its_sha256(mine, tmp_path
         assert environments[column][is_own].tolist() == environments[column][~is_own].tolist()
 
 
-def test_a_study_is_not_resumed_with_another_source(mine, tmp_path, capsys):
+def test_study_is_not_resumed_with_another_source(mine, tmp_path, capsys):
     assert studied(tmp_path, mine) == 0
     mine.write_text(TEMPLATE + "/* changed */\n")
 
@@ -100,7 +100,7 @@ def test_a_study_is_not_resumed_with_another_source(mine, tmp_path, capsys):
     assert "has other sources; nothing was changed" in capsys.readouterr().err
 
 
-def test_a_comparison_goes_on_with_the_source_that_it_began_with(mine):
+def test_comparison_keeps_the_source_that_it_began_with(mine):
     config = RunConfig(profile=str(mine), fast=True, environments=1, limit_s=60.0)
     before = run_trial(Trial(config.with_seed(2)))
     begun = config.with_seed(2)
@@ -110,7 +110,7 @@ def test_a_comparison_goes_on_with_the_source_that_it_began_with(mine):
     assert run_trial(Trial(RunConfig(profile=str(mine), fast=True, environments=1, limit_s=60.0, seed=2))) != before
 
 
-def test_a_cluster_does_not_have_the_file(mine, capsys, monkeypatch):
+def test_c_file_is_refused_on_a_cluster(mine, capsys, monkeypatch):
     monkeypatch.setattr("host_sim.lab.study.compare_command.workers_of", lambda _: None)
 
     assert main(["compare", str(mine), "--cluster", "tcp://nowhere:1"]) == 2

@@ -21,7 +21,7 @@ def plan(tmp_path):
     return read
 
 
-def test_every_combination_is_a_condition_and_the_seeds_are_the_same(plan):
+def test_conditions_are_all_combinations_with_the_same_seeds(plan):
     found = plan(
         'profiles = ["article", "fixed"]\nchanges = ["none", "swap-motors@env2"]\nseeds = 2\nfirst_seed = 7\n'
         "[settings.plain]\n[settings.careful]\nfilter = 1\n"
@@ -34,12 +34,12 @@ def test_every_combination_is_a_condition_and_the_seeds_are_the_same(plan):
     assert found.conditions[2].config.settings == {"filter": 1}
 
 
-def test_robots_of_a_study_share_a_world_or_have_their_own(plan):
+def test_study_with_own_worlds_is_a_fleet(plan):
     assert not plan('profiles = ["article"]\nrobots = [4]').is_fleet
     assert plan('profiles = ["article"]\nrobots = [4]\nown_worlds = true').is_fleet
 
 
-def test_each_robot_of_a_fleet_has_a_seed_that_may_not_be_one_of_the_choice(plan):
+def test_seeds_of_all_robots_of_a_fleet_must_be_held_out(plan):
     text = 'profiles = ["article"]\nseeds = 10\nchosen_on = [20, 30]\nrobots = [1, 4]\nown_worlds = {}'
     assert plan(text.format("false")).chosen_on == (20, 30)
 
@@ -47,12 +47,12 @@ def test_each_robot_of_a_fleet_has_a_seed_that_may_not_be_one_of_the_choice(plan
         plan(text.format("true"))
 
 
-def test_brackets_without_end_are_refused(plan):
+def test_too_deeply_nested_brackets_are_refused(plan):
     with pytest.raises(UsageError, match="brackets are nested too deeply"):
         plan("profiles = " + "[" * 5000)
 
 
-def test_a_condition_is_named_by_what_varies(plan):
+def test_condition_is_named_by_what_varies(plan):
     several = plan('profiles = ["article"]\nrobots = [1, 4]')
     assert [it.condition for it in several.conditions] == ["1 robots", "4 robots"]
     assert [it.config.world for it in plan('profiles = ["article"]\nworlds = ["small", "posts"]').conditions] == [
@@ -112,7 +112,7 @@ def test_a_condition_is_named_by_what_varies(plan):
         ),
     ],
 )
-def test_a_mistake_is_one_line_with_its_place_and_what_was_meant(plan, text, said):
+def test_mistake_in_a_study_is_one_line_with_its_place_and_a_hint(plan, text, said):
     with pytest.raises(UsageError) as raised:
         plan(text)
 
@@ -120,7 +120,7 @@ def test_a_mistake_is_one_line_with_its_place_and_what_was_meant(plan, text, sai
     assert "\n" not in str(raised.value)
 
 
-def test_a_file_that_is_not_there_or_not_text_is_named(tmp_path):
+def test_missing_or_binary_study_file_is_reported(tmp_path):
     with pytest.raises(UsageError, match="there is no file"):
         read_plan(tmp_path / "a.toml")
     (tmp_path / "a.toml").write_bytes(b"\xff")
@@ -132,7 +132,7 @@ STUDIES = sorted({*(ROOT / "studies").glob("*.toml")} - {folder.USED_SEEDS})
 
 
 @pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
-def test_the_studies_that_come_with_the_project_can_be_read(path):
+def test_studies_of_the_project_can_be_read(path):
     found = read_plan(path)
 
     assert found.title != path.stem
@@ -140,13 +140,13 @@ def test_the_studies_that_come_with_the_project_can_be_read(path):
 
 
 @pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
-def test_the_seeds_of_every_study_of_the_project_are_noted_as_used(path):
+def test_seeds_of_the_project_s_studies_are_noted_as_used(path):
     first, last = read_plan(path).seeds_used
 
     assert any(it.first <= first and last <= it.last for it in folder.read_used())
 
 
-def test_a_range_of_used_seeds_is_said_where_it_meets_those_of_a_study(tmp_path):
+def test_used_seeds_that_overlap_those_of_a_study_are_reported(tmp_path):
     file = tmp_path / "used.toml"
     file.write_text('[[used]]\nfirst = 10\nlast = 20\nwhat = "a"\n[[used]]\nfirst = 30\nlast = 30\nwhat = "b"\n')
 
@@ -155,7 +155,7 @@ def test_a_range_of_used_seeds_is_said_where_it_meets_those_of_a_study(tmp_path)
 
 
 @pytest.mark.parametrize("text", ["first = 1", 'first = 2\nlast = 1\nwhat = ""', "first = 1\nlast = 2\nwhat = 3"])
-def test_a_range_of_used_seeds_that_is_none_is_named_with_its_line(tmp_path, text):
+def test_invalid_range_of_used_seeds_is_reported_with_its_line(tmp_path, text):
     (tmp_path / "used.toml").write_text(f"\n[[used]]\n{text}\n")
 
     with pytest.raises(UsageError, match=r"used\.toml:2: a range has first, last and what it was used for"):

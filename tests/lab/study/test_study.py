@@ -43,7 +43,7 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
-def test_a_study_has_a_row_for_each_run_environment_and_contact(plan, tmp_path, capsys):
+def test_study_has_a_row_for_each_run_environment_and_contact(plan, tmp_path, capsys):
     assert study(plan()) == 0
 
     assert f"wrote     {tmp_path / 'out'} (4 runs)" in capsys.readouterr().out
@@ -62,7 +62,7 @@ def test_a_study_has_a_row_for_each_run_environment_and_contact(plan, tmp_path, 
     assert contacts["number"][ours].tolist() == list(range(1, ours.sum() + 1))
 
 
-def test_other_programs_read_the_tables(plan, tmp_path):
+def test_pyarrow_reads_the_tables_of_a_study(plan, tmp_path):
     study(plan())
 
     parquet = library("pyarrow.parquet", "study")
@@ -84,7 +84,7 @@ def test_study_resumes_and_adds_seeds(plan, tmp_path, capsys):
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
-def test_a_study_that_was_stopped_goes_on_without_loss_or_repetition(plan, tmp_path, number):
+def test_stopped_study_resumes_without_loss_or_repetition(plan, tmp_path, number):
     path = plan(seeds=30, limit_s=60)
     words = ["study", path, "--out", tmp_path / "out", "--jobs", "1", "--chunk", "1"]
     process = subprocess.Popen([sys.executable, "-m", "host_sim", *words], cwd=ROOT, stderr=subprocess.DEVNULL)
@@ -105,7 +105,7 @@ def test_a_study_that_was_stopped_goes_on_without_loss_or_repetition(plan, tmp_p
     assert len(set(zip(runs["condition"], runs["seed"], strict=True))) == len(runs["seed"]) == 60
 
 
-def test_rows_of_a_part_that_was_cut_short_do_not_count(plan, tmp_path):
+def test_rows_of_a_part_without_its_runs_do_not_count(plan, tmp_path):
     study(plan())
     for part in (tmp_path / "out/runs").iterdir():
         part.unlink()
@@ -123,7 +123,7 @@ def test_rows_of_a_part_that_was_cut_short_do_not_count(plan, tmp_path):
         ({"conditions": {}}, "has other conditions; nothing was changed"),
     ],
 )
-def test_the_study_of_another_version_is_refused_and_stays(plan, tmp_path, capsys, change, said):
+def test_study_of_another_version_is_refused_and_left_unchanged(plan, tmp_path, capsys, change, said):
     study(plan())
     about = tmp_path / "out/study.json"
     about.write_text(json.dumps({**json.loads(about.read_text()), **change}))
@@ -136,7 +136,7 @@ def test_the_study_of_another_version_is_refused_and_stays(plan, tmp_path, capsy
     assert contents(tmp_path / "out") == before
 
 
-def test_a_folder_with_something_else_in_it_stays(plan, tmp_path, capsys):
+def test_folder_with_other_files_is_refused_and_left_unchanged(plan, tmp_path, capsys):
     (tmp_path / "out").mkdir()
     (tmp_path / "out/thesis.tex").write_text("precious")
 
@@ -146,13 +146,13 @@ def test_a_folder_with_something_else_in_it_stays(plan, tmp_path, capsys):
     assert contents(tmp_path / "out") == {"thesis.tex": b"precious"}
 
 
-def test_a_study_that_was_stopped_before_it_was_described_goes_on(plan, tmp_path):
+def test_study_stopped_before_it_was_described_resumes(plan, tmp_path):
     (tmp_path / "out/contacts").mkdir(parents=True)
 
     assert study(plan(seeds=1)) == 0
 
 
-def test_a_study_whose_runs_do_not_tell_their_world_goes_on(plan, tmp_path):
+def test_study_without_worlds_in_its_runs_resumes(plan, tmp_path):
     study(plan(seeds=1))
     parquet = library("pyarrow.parquet", "study")
     for part in (tmp_path / "out/runs").iterdir():
@@ -163,7 +163,7 @@ def test_a_study_whose_runs_do_not_tell_their_world_goes_on(plan, tmp_path):
     assert StudyFolder(tmp_path / "out").tables()["runs"]["world"].tolist() == [None] * 2 + ["random"] * 2
 
 
-def test_a_part_that_is_damaged_is_named(plan, tmp_path, capsys):
+def test_damaged_part_is_reported_in_one_line(plan, tmp_path, capsys):
     study(plan())
     part = next((tmp_path / "out/runs").iterdir())
     part.write_bytes(b"PAR1")
@@ -182,7 +182,7 @@ def die_once(trials):
     return [run_trial(trial) for trial in trials], workers.code_version()
 
 
-def test_the_runs_of_a_dead_worker_are_made_again(tmp_path, monkeypatch):
+def test_runs_of_a_dead_worker_are_made_again(tmp_path, monkeypatch):
     monkeypatch.setenv("OCTET_TEST_MARK", str(tmp_path / "mark"))
     monkeypatch.setattr(workers, "run_chunk", die_once)
     trials = [trial("article", seed, limit_s=5) for seed in range(4)]
@@ -197,7 +197,7 @@ def die(_trials):
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def test_workers_that_die_each_time_are_given_up(plan, capsys, monkeypatch):
+def test_study_gives_up_on_workers_that_die_each_time(plan, capsys, monkeypatch):
     monkeypatch.setattr(workers, "run_chunk", die)
 
     assert study(plan(seeds=1)) == 1
@@ -269,7 +269,7 @@ def cluster_plan(tmp_path) -> Path:
     return tmp_path / "a.toml"
 
 
-def test_two_workers_of_a_cluster_make_the_rows_that_are_made_here(cluster, cluster_plan, tmp_path):
+def test_two_workers_of_a_cluster_make_the_rows_of_a_local_run(cluster, cluster_plan, tmp_path):
     cluster.worker()
     cluster.worker()
 
@@ -294,7 +294,7 @@ def test_two_workers_of_a_cluster_make_the_rows_that_are_made_here(cluster, clus
     assert len(here) == 6
 
 
-def test_the_runs_of_a_worker_that_dies_are_made_by_another(cluster):
+def test_runs_of_a_dead_cluster_worker_are_made_by_another(cluster):
     first, _ = cluster.worker(), cluster.worker()
     trials = [trial("article", seed, limit_s=60) for seed in range(12)]
 
@@ -308,7 +308,7 @@ def test_the_runs_of_a_worker_that_dies_are_made_by_another(cluster):
     assert run_trial(trials[5]).log_sha256 in {run.log_sha256 for run in made}
 
 
-def test_a_scheduler_that_goes_away_is_said(cluster, monkeypatch):
+def test_lost_scheduler_is_reported(cluster, monkeypatch):
     monkeypatch.setattr("host_sim.lab.workers._CONNECT_S", 1)
     cluster.worker()
     trials = [trial("article", seed, limit_s=60) for seed in range(12)]

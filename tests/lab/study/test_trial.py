@@ -30,7 +30,7 @@ def test_equal_trials_give_equal_rows():
     assert run_trial(searching) == run_trial(searching)
 
 
-def test_the_command_of_a_run_repeats_it(tmp_path):
+def test_command_of_a_trial_repeats_its_run(tmp_path):
     settings = {"filter": 1, "turn_deg": 20}
     given = trial("adaptive", 5, 2, settings=settings, world="posts", limit_s=60.0, robots=2, changes=("plant@1s",))
     run = run_trial(given)
@@ -40,7 +40,7 @@ def test_the_command_of_a_run_repeats_it(tmp_path):
     assert json.loads((tmp_path / "summary.json").read_text())["log_sha256"] == run.log_sha256
 
 
-def test_the_command_of_a_long_run_has_its_limit_to_the_tick():
+def test_command_of_a_long_run_has_its_limit_to_the_tick():
     assert "--limit-s 86399.98" in trial("article", 1, limit_s=86_399.98).config.command()
 
 
@@ -48,7 +48,7 @@ def blocked_ticks(run) -> list[int]:
     return [contact.blocked_ticks for row in run.rows for contact in row.contacts[0]]
 
 
-def test_with_a_mirrored_ring_from_birth_the_path_is_the_same_and_the_cells_are_exchanged():
+def test_ring_mirrored_from_the_start_exchanges_cells_on_the_same_path():
     sound, mirrored = (run_trial(trial("article", 3, changes=change)) for change in ((), ("mirror@env1",)))
 
     assert mirrored.rows[0].robot_s == sound.rows[0].robot_s
@@ -59,19 +59,19 @@ def test_with_a_mirrored_ring_from_birth_the_path_is_the_same_and_the_cells_are_
 @pytest.mark.parametrize(
     ("change", "is_wrong"), [((), False), (("mirror@env1",), True), (("swap-motors@env1",), True)]
 )
-def test_wrong_turns_are_exchanged_for_a_mirrored_body(change, is_wrong):
+def test_fixed_turns_are_wrong_for_a_mirrored_or_swapped_body(change, is_wrong):
     (row,) = run_trial(trial("fixed", 3, changes=change, limit_s=5)).rows
 
     assert knows_wrong(row.sides[0], row.bodies[0]) == is_wrong
 
 
-def test_a_change_of_the_world_leaves_the_turns_as_they_are():
+def test_change_of_the_world_does_not_reverse_the_turns():
     (row,) = run_trial(trial("fixed", 3, changes=("plant@env1",), limit_s=5)).rows
 
     assert row.bodies == [BodyState(is_changed=True, is_reversed=False)]
 
 
-def test_a_change_can_come_later_and_between_two_contacts():
+def test_later_change_affects_only_the_contacts_after_it():
     sound, late = (run_trial(trial("article", 3, changes=change)).rows[0] for change in ((), ("mirror@60s",)))
 
     before = [contact for contact in late.contacts[0] if contact.tick < 3000]
@@ -84,7 +84,7 @@ FRONT_RIGHT = 0b00010
 LEARNED = (0, 1, 0, 0, 0, 0, 0, 0)
 
 
-def test_a_contact_is_from_the_first_turn_to_the_clear_way():
+def test_contact_lasts_from_the_first_turn_to_the_clear_way():
     ticks = [
         (0, Reason.WANDER, 1),
         *[(FRONT_RIGHT, Reason.TRIAL, 2)] * 3,
@@ -104,7 +104,7 @@ def test_a_contact_is_from_the_first_turn_to_the_clear_way():
 
 
 @pytest.mark.parametrize("native", [True, False])
-def test_what_the_last_turn_of_a_contact_taught_is_known_at_its_end(native):
+def test_sides_at_the_end_of_a_contact_include_its_last_lesson(native):
     watch = ContactWatch(0)
     with make(RunConfig(seed=4, environments=1, limit_s=40.0)) as simulation:
         simulation.native, simulation.watch = native, watch
@@ -115,7 +115,7 @@ def test_what_the_last_turn_of_a_contact_taught_is_known_at_its_end(native):
     assert first.sides == LEARNED
 
 
-def test_the_loop_in_c_and_the_readable_one_give_the_same_contacts():
+def test_c_loop_and_python_loop_give_equal_contacts():
     def contacts(native: bool):
         watch = ContactWatch(0)
         with make(RunConfig(seed=4, environments=1, limit_s=40.0)) as simulation:
@@ -129,7 +129,7 @@ def test_the_loop_in_c_and_the_readable_one_give_the_same_contacts():
     assert native
 
 
-def test_the_turns_of_the_contacts_are_those_that_the_robot_began():
+def test_turns_of_the_contacts_equal_those_that_the_robot_began():
     run = run_trial(trial("article", 2))
     with make(RunConfig(seed=2, environments=1)) as simulation:
         (episode,) = simulation.run()
@@ -144,7 +144,7 @@ LOGGED = {"blocked_at", "wrong_at", "recovery", "settled"}
 
 
 @pytest.mark.parametrize("body", ["ideal", "kit"])
-def test_a_fleet_has_the_figures_of_runs_of_their_own(body):
+def test_fleet_has_the_figures_of_separate_runs(body):
     plan = Plan("", [Trial(RunConfig(environments=2, limit_s=40.0, profile="never", body=body))], 3, 3)
 
     (one,), (other,) = samples_of_fleets(plan), samples_of(tables_of(map(run_trial, plan.trials())))
@@ -154,7 +154,7 @@ def test_a_fleet_has_the_figures_of_runs_of_their_own(body):
     assert one.contacts.sum() > 0
 
 
-def test_a_robot_of_a_fleet_knows_its_turns_as_soon_as_one_of_its_own():
+def test_robot_knows_its_turns_as_soon_in_a_fleet_as_alone():
     plan = Plan("", [Trial(RunConfig(environments=2, profile="adaptive"))], 3, 8)
 
     (one,), (other,) = samples_of_fleets(plan), samples_of(tables_of(map(run_trial, plan.trials())))
@@ -163,7 +163,7 @@ def test_a_robot_of_a_fleet_knows_its_turns_as_soon_as_one_of_its_own():
     assert np.array_equal(one.known_s, other.known_s)
 
 
-def test_robots_that_share_have_worlds_of_their_own_and_know_sooner():
+def test_robots_that_share_memories_in_own_worlds_know_sooner():
     alone, sharing = (
         Trial(RunConfig(environments=2, profile="adaptive", robots=8, worlds="own", settings={"share": share}))
         for share in (0, 1)
@@ -177,7 +177,7 @@ def test_robots_that_share_have_worlds_of_their_own_and_know_sooner():
 
 
 @pytest.mark.parametrize(("settings", "speed_mm_s"), [({}, 200), ({"speed_mm_s": 100}, 100)])
-def test_no_robot_is_quicker_than_the_shortest_tour_but_for_the_distance_from_which_it_eats(settings, speed_mm_s):
+def test_robots_are_no_quicker_than_the_tour_less_the_eating_distance(settings, speed_mm_s):
     searching = [run_trial(trial("searcher", seed, settings=settings)).rows[0] for seed in range(1, 13)]
 
     spared_s = 5 * SimParams().eat_reach_mm / speed_mm_s
@@ -185,7 +185,7 @@ def test_no_robot_is_quicker_than_the_shortest_tour_but_for_the_distance_from_wh
     assert min(it.robot_s / it.tour_s for it in searching) < 1.5
 
 
-def test_of_too_much_food_to_try_every_order_no_tour_is_known(tmp_path):
+def test_tour_is_unknown_for_too_much_food_to_try_all_orders(tmp_path):
     (tmp_path / "much.toml").write_text(f"food = {[[300 * i, 500] for i in range(2, 11)]}\n")
 
     assert math.isnan(tour_s(RunConfig(world=str(tmp_path / "much.toml")), 1))
@@ -195,11 +195,11 @@ def test_robots_that_share_an_environment_have_no_tour():
     assert math.isnan(run_trial(trial("searcher", 1, robots=2)).rows[0].tour_s)
 
 
-def test_a_contact_counts_as_far_as_in_a_study():
+def test_fleet_and_study_count_contacts_up_to_the_same_time():
     assert loaded()[1].FLEET_TRAPPED_TICKS * SimParams().tick_s == TRAPPED_S
 
 
-def test_option_that_a_fleet_lacks_is_refused():
+def test_fleet_refuses_a_change_during_the_run():
     plan = Plan("", [Trial(RunConfig(changes=("mirror@1s",)))])
 
     with pytest.raises(UsageError, match=r"nothing changes in a fleet: .* such as mirror@0s"):

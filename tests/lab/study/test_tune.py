@@ -66,7 +66,7 @@ def test_tuning_keeps_the_defaults_if_nothing_is_better(tmp_path):
     assert one.best == ()
 
 
-def test_a_search_that_was_stopped_goes_on_and_finds_the_same(tmp_path):
+def test_stopped_search_resumes_and_finds_the_same(tmp_path):
     whole, again = World(), World()
     one = search(tmp_path / "notes.jsonl", whole)
     one.go(60, lambda _: None)
@@ -81,7 +81,7 @@ def test_a_search_that_was_stopped_goes_on_and_finds_the_same(tmp_path):
     assert 0 < again.runs < whole.runs
 
 
-def test_notes_of_fewer_trials_are_of_use_to_more_only_where_the_seeds_are_the_same(tmp_path):
+def test_search_extended_from_fewer_trials_finds_the_same_values(tmp_path):
     def found(notes, *trials):
         for number in trials:
             one = Search(SearchTask(CONFIG, "time", ["filter"], 12), World(), notes)
@@ -96,14 +96,14 @@ def test_notes_of_fewer_trials_are_of_use_to_more_only_where_the_seeds_are_the_s
     assert apart == {key: together[key] for key in apart}
 
 
-def test_a_file_of_notes_that_is_empty_is_refused(tmp_path):
+def test_empty_file_of_notes_is_refused(tmp_path):
     (tmp_path / "notes.jsonl").touch()
 
     with pytest.raises(UsageError, match="of another search"):
         search(tmp_path / "notes.jsonl", World())
 
 
-def test_notes_stay_whole_while_a_search_reads_them(tmp_path, monkeypatch):
+def test_notes_stay_whole_if_a_search_is_killed_while_reading(tmp_path, monkeypatch):
     notes = tmp_path / "notes.jsonl"
     search(notes, World()).go(20, lambda _: None)
     before = notes.read_bytes()
@@ -128,7 +128,7 @@ def test_notes_of_another_search_are_refused_and_kept(tmp_path):
     assert (tmp_path / "notes.jsonl").read_bytes() == before
 
 
-def test_a_sample_is_what_its_robots_do_alone():
+def test_sample_equals_what_its_robots_do_alone():
     config = RunConfig(environments=1, limit_s=30)
     (sample,) = samples_of(config, [(("turn_deg", 20),)], 5, 30, lambda pieces: [run_pieces(pieces)])
 
@@ -137,7 +137,7 @@ def test_a_sample_is_what_its_robots_do_alone():
     assert sample.robot_s[28, 0] == alone.robot_s[0, 0]
 
 
-def test_the_command_prints_what_it_found_and_a_run_takes_it(tmp_path, capsys):
+def test_tune_prints_what_it_found_and_run_takes_a_file_of_settings(tmp_path, capsys):
     few = ["--only", "turn_deg", "--environments", "1", "--limit-s", "40", "--trials", "8", "--seeds", "4"]
     words = ["tune", *few, "--held-out", "4", "--set", "step_mm=12", "--out", str(tmp_path), "--jobs", "1"]
     assert main(words) == 0
@@ -170,7 +170,7 @@ def test_the_command_prints_what_it_found_and_a_run_takes_it(tmp_path, capsys):
     assert last_wins == log_of("--set", "turn_deg=20", "--set", "step_mm=16") != log_of("--set", f"@{preset}")
 
 
-def test_nothing_else_uses_the_held_out_seeds():
+def test_only_tune_uses_the_held_out_seeds():
     uses = [it.what for it in read_used() if it.last >= tune_command.HELD_OUT]
 
     assert uses == ["the settings that tools/octet tune finds"]
@@ -199,7 +199,7 @@ def test_held_out_seeds_begin_after_those_of_the_search(tmp_path, capsys, monkey
         (["--trials", "3"], "--trials"),
     ],
 )
-def test_wrong_usage_is_one_line(tmp_path, capsys, words, said):
+def test_wrong_usage_is_reported_in_one_line(tmp_path, capsys, words, said):
     assert main(["tune", "--out", str(tmp_path / "out"), *words]) == 2
 
     error = capsys.readouterr().err
@@ -207,7 +207,7 @@ def test_wrong_usage_is_one_line(tmp_path, capsys, words, said):
     assert error.count("\n") == 1
 
 
-def test_a_mistake_in_a_file_of_settings_has_its_line(tmp_path, capsys):
+def test_mistake_in_a_file_of_settings_is_reported_with_its_line(tmp_path, capsys):
     (tmp_path / "a.txt").write_text("turn_deg=20\n\nturn=3\n")
 
     assert main(["run", "--set", f"@{tmp_path}/a.txt", "--out", str(tmp_path / "run")]) == 2
