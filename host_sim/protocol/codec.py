@@ -38,7 +38,7 @@ __all__ = [
 
 DBC = ROOT / "hal" / "protocol" / "octet.dbc"
 COUNTERS = 15
-"""Alive counters go from 0 to one less, and round again."""
+"""Alive counters count from 0 to one less than this, and start again at 0."""
 MEMORY_IDS = range(MESSAGES["MEMORY"].id, MESSAGES["MEMORY"].id + NODE_MAX)
 """The identifiers by which robots hear what others have learned."""
 UNSAID = ("crc", "counter")
@@ -65,7 +65,7 @@ def _field(signal: Signal) -> _Field:
 
 
 class MessageLayout:
-    """Packs and unpacks one message, all signals that are in a frame together."""
+    """Packs and unpacks one message: all signals that are in one frame together."""
 
     def __init__(self, message: Message) -> None:
         """Determines the signals present for each value of the message's selector, if it has one."""
@@ -82,11 +82,11 @@ class MessageLayout:
         """The data of a frame.
 
         Args:
-            signals: Raw numbers, by the names of all signals that are there.
+            signals: The raw number of each signal in the frame, by its name.
 
         Raises:
-            KeyError: One is missing.
-            ValueError: One has no room for its number.
+            KeyError: A signal is missing.
+            ValueError: A number is out of the range of its signal.
         """
         word = 0
         selected = 0 if self._selector is None else signals[self._selector.name]
@@ -107,7 +107,7 @@ class MessageLayout:
 
 
 def _places(message: Message) -> list[tuple[int, int, int]]:
-    """Start, mask and sign bit of what `Senses` and `Drive` have of their messages, in the same order."""
+    """Start, mask and sign bit of each signal that `Senses` or `Drive` has, in the order of their fields."""
     return [_field(signal)[1:] for signal in message.signals if signal.name not in UNSAID]
 
 
@@ -136,7 +136,7 @@ _CRC_TABLE = _crc_table()
 
 
 def crc8(frame_id: int, data: bytes) -> int:
-    """The CRC of AUTOSAR's E2E profile 1, over an identifier, low byte first, and all data but byte 0, its place."""
+    """The CRC of AUTOSAR's E2E profile 1, over an identifier, low byte first, and all data but byte 0, the CRC."""
     crc = _CRC_TABLE[_CRC_TABLE[frame_id & 0xFF] ^ (frame_id >> 8)]
     for byte in data[1:]:
         crc = _CRC_TABLE[crc ^ byte]
@@ -167,7 +167,7 @@ class Protocol:
 
     @staticmethod
     def fits(layout: int) -> bool:
-        """Whether a robot or a log with this hash has the messages laid out as here."""
+        """Whether a robot or a log with this hash lays out its messages as this program does."""
         return layout in SAME_LAYOUT
 
     def id_of(self, name: str) -> int:
@@ -191,11 +191,11 @@ class Protocol:
 
         Args:
             name: The message.
-            signals: Raw numbers that the signals have room for, all that the message has but `crc`.
+            signals: The raw number of each signal of the message but `crc`, by its name.
 
         Raises:
             KeyError: A signal is missing.
-            ValueError: A signal has no room for its number.
+            ValueError: A number is out of the range of its signal.
         """
         frame_id, data = self.id_of(name), _LAYOUTS[name].pack({**signals, "crc": 0})
         return Frame(frame_id, bytes((crc8(frame_id, data),)) + data[1:])
@@ -205,7 +205,7 @@ class Protocol:
 
         Args:
             senses: The senses.
-            counter: Alive counter, 0..14; it goes on with the tick.
+            counter: Alive counter, 0..14; it advances with each tick.
         """
         word = counter << _COUNTER_START
         for value, (start, _, _) in zip(senses, _SENSES, strict=True):
@@ -235,7 +235,7 @@ class Protocol:
         return DecodedFrame(message.name, _LAYOUTS[message.name].unpack(data))
 
     def decode_drive(self, frame: Frame) -> Drive | None:
-        """The drive in a frame; None if it is not a whole DRIVE of this node, or for no reason that there is."""
+        """The drive in a frame; None if it is not a valid DRIVE of this node, or its reason is unknown."""
         data = frame.data
         if frame.id != self._drive_id or len(data) != _LENGTH:
             return None
@@ -265,12 +265,12 @@ def _signal(name: str, signal: str) -> Signal:
 
 
 def node_of(frame_id: int) -> int:
-    """The node that an identifier belongs to, 1..31; 0 for one of no node."""
+    """The node that an identifier belongs to, 1..31; 0 if it belongs to none."""
     return frame_id % (NODE_MAX + 1)
 
 
 def counter_of(frame: Frame) -> int:
-    """The alive counter in a frame with at least two bytes; a whole one has 0..14."""
+    """The alive counter in a frame with at least two bytes: 0..14 in a valid frame."""
     return frame.data[1] & _COUNTER_MASK
 
 

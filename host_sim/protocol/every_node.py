@@ -7,7 +7,7 @@ from host_sim.protocol.generated import MESSAGES
 
 
 class Heard(NamedTuple):
-    """One frame of a robot or for one.
+    """One frame from a robot or to one.
 
     Attributes:
         node: The robot's node number.

@@ -38,9 +38,10 @@ class Forger:
             self._heard[decoded.name] = decoded
 
     def forge(self, dice: Random) -> Frame:
-        """A frame with random content. A command has the last sender's number, the next counter, and is obeyed.
+        """A frame with random content.
 
-        Senses are those of the next tick, and are taken.
+        A command has the last sender's number and the next counter, so that the robot obeys it. Senses are those of
+        the next tick, so that it takes them.
         """
         name, fixed = dice.choice(self._names), self._fixed
         if name in self._heard:
@@ -61,7 +62,7 @@ def forgers(protocol: Protocol) -> Callable[[str], Forger]:
 
 
 def _content(dice: Random) -> dict[str, int]:
-    """Signal values that a robot with a turn per pattern does not refuse, for any command."""
+    """Signal values that a robot with a turn per pattern accepts in any command."""
     parameter, half = dice.choice(tuple(PARAMETERS.values())), dice.randrange(2)
     return {
         "profile": dice.randrange(len(PROFILES)),

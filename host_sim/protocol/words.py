@@ -35,7 +35,7 @@ NODE_MAX = int(_found(r"^node_max = (\d+)", _WORDS))
 _COMMAND = _found(r"^BO_ (\d+) COMMAND:", _DBC)
 *_BUILT_IN, OWN = re.findall(r'"(\w+)"', _found(rf"^VAL_ {_COMMAND} profile (.*);", _DBC))
 PROFILES: tuple[str, ...] = tuple(_BUILT_IN)
-"""The behaviours of each robot; a user's behaviour is the profile `OWN` instead."""
+"""The behaviours that every robot has; a user's own behaviour is the profile `OWN`."""
 
 SENSORS, BODY_FAULTS = (
     tuple(re.findall(r'"([\w-]+)"', _found(rf"^{name} = \[([^]]*)\]", _WORDS))) for name in ("feel", "body_faults")

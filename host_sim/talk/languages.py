@@ -36,12 +36,12 @@ def with_languages(page: str) -> str:
 
 
 def as_script(data: object) -> str:
-    r"""Data as the text of a script element, each `<` as `\u003c`. An object is what its attributes are."""
+    r"""Data as the text of a script element, each `<` as `\u003c`. An object is written as its attributes."""
     return json.dumps(data, separators=(",", ":"), ensure_ascii=False, default=vars).replace("<", "\\u003c")
 
 
 def template(name: str) -> str:
-    """A template, whole but for its words."""
+    """A template, complete but for its words."""
     return _COMMON.sub(lambda match: _read(match[1]), _read(name))
 
 

@@ -33,7 +33,7 @@ class LogIndex:
 
 
 def index_log(path: Path, node: int) -> LogIndex:
-    """Indexes a log. A SENSES that comes again is of the same tick.
+    """Indexes a log. A repeated SENSES belongs to the same tick.
 
     Raises:
         UsageError: The log cannot be read, or is damaged.

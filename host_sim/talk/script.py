@@ -276,7 +276,7 @@ class _Reader:
             return Tagged(tuple(self._listed(node)))
         if node.starts_with("*"):
             return AnyOf(tuple(self._listed(node)))
-        return AnyOf(())  # as in 1966, where a list without a sign stands for no word at all
+        return AnyOf(())  # as in 1966, when a list without a sign matched no word
 
     def _reassembly(self, node: Node, parts: int) -> Reassembly:
         if isinstance(node, Word):

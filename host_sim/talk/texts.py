@@ -27,7 +27,7 @@ class Texts:
         facts: A text with placeholders in braces for each fact, and for each case without anything to report.
         spoken: Phrases in questions for turns, and for the front sensors; longer phrases first.
         joined: Words before which a comma does not split a sentence; None for a script that is not the robot's, which
-            hears each sentence as it is.
+            gets each sentence unchanged.
     """
 
     words: Words
@@ -74,7 +74,7 @@ def read_texts(path: Path) -> Texts:
     """Reads the texts of a language.
 
     Raises:
-        OSError, ValueError, KeyError: The file is not a valid file of texts; those of the project are.
+        OSError, ValueError, KeyError: The file is not a valid file of texts.
     """
     read = parse_toml(path.read_text(encoding="utf-8"))
     own: dict[str, Any] = languages()[read["language"]]["robot"]

@@ -73,7 +73,7 @@ class Arena:
 
     Attributes:
         params: The dimensions of the world.
-        inside: All of it in C, of which the others are views.
+        inside: The arena in C, of which the other attributes are views.
         bodies: The robots' bodies, in the order of the layout's starts.
         food: The food, shared by all robots.
         obstacles: The obstacles; the bars' ids are at first 0, 1, ... as in the layout.

@@ -16,8 +16,9 @@ _POSE, _ODOMETER = ("x_mm", "y_mm", "heading_rad"), ("left_mm", "right_mm")
 class Body:
     """A disc with two wheels, five proximity cones and a beam that sees food: a view of a `struct body`.
 
-    Each tick is `sense`, optionally `eat`, then `move`, each as its faults make it. The wheels roll the body along an
-    arc. A body pressed into an obstacle, such as another robot, is pushed straight out of it, so it stops or slides.
+    Each tick is `sense`, optionally `eat`, then `move`, each affected by its faults. The wheels roll the body along
+    an arc. A body pressed into an obstacle, such as another robot, is pushed straight out of it, so it stops or
+    slides.
 
     Attributes:
         lifted: Whether a person holds it in the air: its wheels turn, but it does not move or sense anything.
@@ -89,7 +90,7 @@ class Body:
 
         Args:
             tick: Number of the control tick in the run.
-            light: Takes it, a `uint16_t[]`, 0..4095 each, in the order of feel's bits.
+            light: The result, a `uint16_t[]`, 0..4095 each, in the order of feel's bits.
         """
         self._library.kit_light(self.kit, self._world, self._body, tick, light)
 

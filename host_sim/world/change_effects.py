@@ -13,7 +13,7 @@ from host_sim.world.reach import Reach, clearance_mm
 
 _TRIES = 200
 _BESIDE_MM = 75.0
-"""No farther than this from a body beside a wall is a cell of the grid that it can be in."""
+"""Maximum distance from a body beside a wall to a cell of the grid that it can be in."""
 
 
 def edits_of(change: Change, arena: Arena, params: SimParams, seed: int) -> list[Edit]:

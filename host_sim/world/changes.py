@@ -99,7 +99,7 @@ def _problem(what: str) -> str | None:
 def read_changes(text: str) -> list[str]:
     """The changes in a command-line argument: one change, or a file with one per line.
 
-    A file is a word without an @, or after one: changes.txt, @changes.txt. In it, # begins a comment.
+    A file is a name without an @, or with one in front: changes.txt, @changes.txt. In it, # begins a comment.
 
     Raises:
         UsageError: The file cannot be read, or has an invalid change; the message names the line.

@@ -1,7 +1,7 @@
-"""Crates: bars that robots push, by pymunk. Plain geometry knows neither mass nor friction.
+"""Crates: bars that robots push, with pymunk, since plain geometry has neither mass nor friction.
 
-An arena holds its bars where they are, and robots are pushed out of them. After each tick this says where the robots
-have pushed them: as edits, so that a log is repeated, and its page drawn, without pymunk.
+An arena holds its bars where they are, and robots are pushed out of them. After each tick this module says where the
+robots have pushed them: as edits, so that a log is repeated, and its page drawn, without pymunk.
 """
 
 import math
@@ -26,14 +26,14 @@ _IN_THE_AIR_MM = -10_000.0
 
 
 class Crates:
-    """The crates of an arena as pymunk has them, among walls and plants that stay and robots that press."""
+    """The crates of an arena in pymunk, among fixed walls and plants, and robots that push them."""
 
     def __init__(self, arena: Arena, kind: CrateKind) -> None:
-        """Takes the crates where they are.
+        """Starts with the crates where they are.
 
         Args:
             arena: All of its bars are crates.
-            kind: What they are like.
+            kind: Their properties.
         """
         self._arena, self._params, self._kind = arena, arena.params, kind
         self._space = pymunk.Space()
@@ -53,7 +53,7 @@ class Crates:
             drives: Each robot's drive.
 
         Yields:
-            A `push_bar` for each crate that is elsewhere now, to be made before the next tick.
+            A `push_bar` for each crate that has moved, to be made before the next tick.
         """
         self._look()
         for robot, body, drive in zip(self._robots, self._arena.bodies, drives, strict=True):
@@ -103,7 +103,7 @@ class _Crate:
         shape = pymunk.Segment(self._body, *ends, radius_mm)
         shape.friction = kind.friction
         shape.filter = pymunk.ShapeFilter(categories=_CRATES)
-        # Seen from above: joints that pull it nowhere, and hold it with no more than friction's force and torque.
+        # Seen from above: joints that do not pull, and hold it with at most the force and torque of friction.
         slide = pymunk.PivotJoint(space.static_body, self._body, (0.0, 0.0), (0.0, 0.0))
         twist = pymunk.GearJoint(space.static_body, self._body, 0.0, 1.0)
         slide.max_bias = twist.max_bias = 0.0
@@ -113,7 +113,7 @@ class _Crate:
         space.add(*self._parts)
 
     def leave(self, space: pymunk.Space) -> None:
-        """Is taken away."""
+        """Removes it from its space."""
         space.remove(*self._parts)
 
     @property
@@ -136,7 +136,7 @@ def _add_robot(space: pymunk.Space, radius_mm: float) -> pymunk.Body:
 
 
 def _press(robot: pymunk.Body, body: Body, drive: Drive, params: SimParams) -> None:
-    """Puts a robot where its body is, as fast as it wants to be."""
+    """Puts a robot where its body is, with its commanded speed."""
     pose, most = body.pose, params.max_wheel_speed_mm_s
     left, right = (max(-most, min(most, speed)) for speed in (drive.left_mm_s, drive.right_mm_s))
     ahead: Point = (math.cos(pose.heading_rad), math.sin(pose.heading_rad))

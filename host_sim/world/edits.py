@@ -73,7 +73,7 @@ def edit_to(edit: Edit) -> dict[str, Any]:
 
 
 def edit_in_c(edit: Edit) -> Any:
-    """The same as a `struct edit *`."""
+    """An edit as a `struct edit *`."""
     ffi, library = world_library()
     fields = edit_to(edit)
     kind = getattr(library, f"EDIT_KIND_{fields.pop('do').upper()}")

@@ -27,7 +27,7 @@ class Obstacles:
 
 
 class ReachRoom:
-    """Room in which C code looks for ways.
+    """Working memory in which C code finds paths.
 
     Attributes:
         in_c: A `struct reach *`, as long as this object lives.
@@ -41,7 +41,7 @@ class ReachRoom:
 
 
 def layout_params(params: SimParams) -> tuple[object, ...]:
-    """What a `struct layout_params` is made of."""
+    """The members of a `struct layout_params`."""
     bands = params.food_bands_mm
     return (
         params.width_mm,
@@ -69,7 +69,7 @@ class WrittenLayout:
 
     Attributes:
         bars: The obstacles.
-        food: Centers of the pieces of food, at least one.
+        food: Centres of the pieces of food, at least one.
         start: The first robot's start, x and y in mm and the heading in degrees; None to draw one each time.
     """
 
@@ -78,7 +78,7 @@ class WrittenLayout:
     start: tuple[float, float, float] | None = None
 
     def content(self) -> dict[str, list[Any]]:
-        """The keys and values that it is written with."""
+        """The keys and values of its file."""
         start = {} if self.start is None else {"start": list(self.start)}
         return {**start, "food": [list(at) for at in self.food], "bars": [[*a, *b] for a, b in self.bars]}
 
@@ -88,7 +88,7 @@ class WrittenLayout:
 
 
 def written_in_c(content: Mapping[str, Any]) -> Any:
-    """A `struct written *` with what was written as these keys and values, right or wrong.
+    """A `struct written *` with these keys and values, right or wrong.
 
     Raises:
         OctetError: The C code is not built.
@@ -134,7 +134,7 @@ class Layout:
 
     Attributes:
         bars: The obstacles.
-        food: Centers of the pieces of food.
+        food: Centres of the pieces of food.
         start: The first robot's start pose.
         other_starts: The other robots' start poses.
     """
@@ -158,7 +158,7 @@ class NoRoomError(ValueError):
     """
 
     def __init__(self, number: int, fitting: int) -> None:
-        """Describes the environment of that number."""
+        """Takes the number of the environment, and that of the robots that fit."""
         super().__init__(f"there is room for {fitting} robots in environment {number}")
         self.fitting = fitting
 
@@ -275,7 +275,7 @@ _SEED_SPAN = 2**32
 
 
 def hall_of(world: World, seed: int, number: int, robots: int) -> tuple[Layout, SimParams]:
-    """Lays out a hall with at most sixteen robots in each arena, and its dimensions.
+    """The layout of a hall with at most sixteen robots in each arena, and its dimensions.
 
     Each arena is fair by itself: its robots can get to its food.
 

@@ -29,7 +29,7 @@ class MunkSpace:
         Args:
             ffi: Has the declarations.
             world: The world.
-            bodies: What owns its bodies; Chipmunk still ends their overlaps when the space goes.
+            bodies: The owner of its bodies, whose overlaps Chipmunk still ends when the space is freed.
             params: Its dimensions.
         """
         self.failures = failures = list[BaseException]()
@@ -45,7 +45,7 @@ class MunkSpace:
         world.space = self._in_c
 
     def lay_out(self, obstacles: Any) -> None:
-        """Takes these obstacles, a `struct capsule[]`; those that were there before are left as they are."""
+        """Takes these obstacles, a `struct capsule[]`; shapes of equal ones are kept, with their overlaps."""
         before, self._obstacles = self._obstacles, {}
         for thing in (Capsule((it.a.x, it.a.y), (it.b.x, it.b.y), it.radius_mm) for it in obstacles):
             shapes = before.get(thing)
@@ -62,7 +62,7 @@ class MunkSpace:
 
 
 class _Finder:
-    """Places the bodies in the space, and looks from them."""
+    """Places the bodies in the space, and finds what is in their line of sight."""
 
     def __init__(self, space: pymunk.Space, bodies: Any, params: SimParams) -> None:
         self._space, self._bodies, self._tick_s = space, bodies, params.tick_s
@@ -119,7 +119,7 @@ class _Touches:
 def _add_body(
     space: pymunk.Space, bodies: Any, index: int, params: SimParams
 ) -> tuple[pymunk.Body, list[pymunk.Shape]]:
-    """A body and its shapes: the disc, then the cones. What is of one body does not collide."""
+    """A body and its shapes: the disc, then the cones. Shapes of one body do not collide."""
     group, body = index + 1, bodies[index]
     in_space = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
     in_space.position, in_space.angle = (body.x_mm, body.y_mm), body.heading_rad  # where Chipmunk finds it first

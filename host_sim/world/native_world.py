@@ -23,7 +23,7 @@ class Space(Protocol):
     failures: list[BaseException]
 
     def lay_out(self, obstacles: Any) -> None:
-        """Takes these obstacles, a `struct capsule[]`, instead of others. What a body touches is not new to it."""
+        """Takes these obstacles, a `struct capsule[]`, instead of others. Present overlaps are no new collisions."""
 
 
 class NativeWorld:
@@ -40,13 +40,13 @@ class NativeWorld:
     """
 
     def __init__(self, layout: Layout, params: SimParams, physics: str = FAST, kind: BodyKind | None = None) -> None:
-        """Puts everything where it begins.
+        """Puts everything in its initial place.
 
         Args:
             layout: Obstacles, food, and a start for each body.
             params: The dimensions of the world.
             physics: One of `PHYSICS`.
-            kind: What the bodies are like; None: ideal.
+            kind: Properties of the bodies; None: ideal.
 
         Raises:
             NoNativeError: The library cannot be used.
@@ -84,7 +84,7 @@ class NativeWorld:
 
     @property
     def address(self) -> int:
-        """Where the `struct world` is, for another library."""
+        """Address of the `struct world`, for another library."""
         return int(self.ffi.cast("uintptr_t", self.world))
 
     def lay_out(self) -> None:
@@ -112,7 +112,7 @@ CONE_BEARINGS_DEG = {1: 90.0, 2: 45.0, 4: 0.0, 8: -45.0, 16: -90.0}
 """Bearing of each cone's axis, clockwise from the heading, by its bit of feel: -112.5..112.5 without a gap."""
 
 CONE_WIDTH_DEG = 45.0
-"""From edge to edge."""
+"""Angle of a cone, from edge to edge."""
 
 _FRONT = 4
 _ARC_STEPS = 4
@@ -207,7 +207,7 @@ class PlainSpace:
         """
         self.failures: list[BaseException] = []
         self._library, self._world = library, world
-        # cffi frees what no name holds any more.
+        # cffi frees memory to which no Python object refers.
         self._places = ffi.new("struct plain_place[]", world.body_count)
         self._cones = cones_in_c(ffi, library, params)
         bodies, most = world.body_count, library.FURNITURE_CAPSULES_MAX

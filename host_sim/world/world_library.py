@@ -86,11 +86,9 @@ HEADERS = (
 
 @cache
 def world_library() -> tuple[Any, Any]:
-    """The interface to it, and the library.
+    """The interface to the library of the world, and the library.
 
     Raises:
         NoNativeError: It cannot be used.
     """
-    # A command line is judged by the plain python3, which has no cffi.
-
     return load_native(LIBRARY, "world_", HEADERS, words=_WORDS)
