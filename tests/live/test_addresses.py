@@ -57,25 +57,25 @@ def adapters(*numbers: str) -> SimpleNamespace:
         (["127.0.0.1", "169.254.3.4"], ["127.0.0.1"]),
     ],
 )
-def test_the_addresses_are_those_of_this_machines_networks_by_number(monkeypatch, own, printed):
+def test_numbers_of_lists_reachable_ipv4_addresses_private_ones_first(monkeypatch, own, printed):
     monkeypatch.setattr(listener_module, "library", lambda *_: adapters(*own))
     with socket.create_server(("0.0.0.0", 0)) as listening:
         assert numbers_of(listening) == printed
 
 
-def test_this_machines_own_addresses_are_numbers():
+def test_numbers_of_finds_ipv4_addresses_of_this_machine():
     with socket.create_server(("0.0.0.0", 0)) as listening:
         assert all(ipaddress.ip_address(number).version == 4 for number in numbers_of(listening))
 
 
-def test_one_address_is_itself_however_it_was_named():
+def test_listener_on_localhost_prints_the_number_of_its_address():
     listener = Listener("localhost", 0)
     listener.socket.close()
 
     assert listener.urls == [f"http://127.0.0.1:{listener.port}/?token={listener.token}"]
 
 
-def test_the_board_has_a_secret_of_its_own_where_others_can_come():
+def test_board_token_opens_the_board_and_the_page_token_does_not():
     listener = Listener("127.0.0.1", 0)
     listener.socket.close()
 
@@ -86,7 +86,7 @@ def test_the_board_has_a_secret_of_its_own_where_others_can_come():
     assert listener.board_url == f"http://127.0.0.1:{listener.port}/board?token={listener.board_token}"
 
 
-def test_the_code_fits_a_terminal_with_the_lines_beside_it(terminal):
+def test_qr_code_fits_an_80_by_24_terminal_beside_other_lines(terminal):
     out = terminal(80, 24)
 
     lines = lines_for(URL, out)
@@ -97,7 +97,7 @@ def test_the_code_fits_a_terminal_with_the_lines_beside_it(terminal):
     assert {len(line) for line in drawn} == {len(modules_of(URL)) + 2 * BORDER}
 
 
-def test_the_code_in_the_terminal_is_that_on_the_board(terminal):
+def test_qr_code_in_the_terminal_equals_that_on_the_board(terminal):
     drawn = [re.sub(r"\x1b\[[\d;]*m", "", line) for line in lines_for(URL, terminal())]
     halves = {" ": "11", "▀": "01", "▄": "10", "█": "00"}
     rows = [half for line in drawn for half in ("".join(halves[sign][i] for sign in line) for i in (0, 1))]
@@ -108,11 +108,11 @@ def test_the_code_in_the_terminal_is_that_on_the_board(terminal):
 
 
 @pytest.mark.parametrize("size", [(30, 24), (80, 20)])
-def test_there_is_no_code_where_it_would_not_fit(terminal, size):
+def test_qr_code_is_omitted_where_the_terminal_is_too_small(terminal, size):
     assert lines_for(URL, terminal(*size)) == []
 
 
-def test_there_is_no_code_where_it_could_not_be_read(terminal, monkeypatch, tmp_path):
+def test_qr_code_is_omitted_where_the_output_cannot_draw_it(terminal, monkeypatch, tmp_path):
     assert lines_for(URL, terminal(encoding="latin-1")) == []
     with (tmp_path / "file").open("w") as file:
         assert lines_for(URL, file) == []
@@ -124,7 +124,7 @@ def test_there_is_no_code_where_it_could_not_be_read(terminal, monkeypatch, tmp_
 
 
 @pytest.mark.parametrize("listen", [None, "127.0.0.1"])
-def test_what_it_waits_for_is_said(tmp_path, listen):
+def test_announcement_names_the_address_and_how_the_run_begins_and_ends(tmp_path, listen):
     listener = Listener(listen, 0)
     listener.socket.close()
     with (tmp_path / "said").open("w+") as out:
@@ -138,13 +138,13 @@ def test_what_it_waits_for_is_said(tmp_path, listen):
     assert ("begins when the page is open" in said) == (listen is None)
 
 
-def test_a_library_that_is_missing_is_named_before_the_run(monkeypatch):
+def test_listener_names_missing_qr_library_before_the_run(monkeypatch):
     monkeypatch.setattr(qr_code, "library", lambda name, stage: library(f"{name}_that_is_missing", stage))
     with pytest.raises(UsageError, match="run tools/setup classroom"):
         Listener("127.0.0.1", 0)
 
 
 @pytest.mark.parametrize("name", ["a..b", "x" * 70, "nowhere.invalid"])
-def test_a_name_that_no_machine_can_have_is_no_address(name):
+def test_listener_refuses_host_name_that_does_not_resolve(name):
     with pytest.raises(UsageError, match=f"cannot listen on {name}, port 0: "):
         Listener(name, 0)

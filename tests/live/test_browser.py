@@ -9,7 +9,7 @@ from host_sim.live.browser import open_browser
 URL = "http://127.0.0.1:8000/?token=abc&x=1"
 
 
-def test_a_browser_is_told_of_a_private_file_that_leads_to_the_page(monkeypatch):
+def test_browser_gets_the_token_by_a_private_file_removed_afterwards(monkeypatch):
     opened: list[Path] = []
 
     def browse(address: str) -> bool:

@@ -50,11 +50,11 @@ def roster(tmp_path) -> Roster:
         ("", ""),
     ],
 )
-def test_a_name_is_short_and_printable(typed, name):
+def test_pupil_name_is_shortened_and_made_printable(typed, name):
     assert name_from(typed) == name
 
 
-def test_a_class_is_the_same_after_a_restart(tmp_path, roster):
+def test_saved_roster_is_the_same_after_a_restart(tmp_path, roster):
     roster.report(REPORT)
     roster.take_code("Ben", code_of("Ben", {"boredom": [0, 2]}))
     roster.save()
@@ -66,7 +66,7 @@ def test_a_class_is_the_same_after_a_restart(tmp_path, roster):
     assert not again.changed
 
 
-def test_a_goal_once_reached_stays_when_the_lesson_is_begun_again(roster):
+def test_goal_once_reached_stays_when_the_lesson_is_begun_again(roster):
     roster.report(REPORT)
     roster.report({**REPORT, "goals": {"watch": [2], "talk": []}})
 
@@ -98,14 +98,14 @@ def test_a_goal_once_reached_stays_when_the_lesson_is_begun_again(roster):
         {"link": 1},
     ],
 )
-def test_a_report_with_a_wrong_field_changes_nothing(roster, wrong):
+def test_report_with_a_wrong_field_is_refused_and_changes_nothing(roster, wrong):
     with pytest.raises(RosterError):
         roster.report({**REPORT, **wrong})
 
     assert roster.pupils == {}
 
 
-def test_a_full_class_takes_nobody_else(roster):
+def test_full_class_refuses_a_new_pupil_until_one_is_removed(roster):
     for i in range(PUPILS_MAX):
         roster.report({**REPORT, "key": f"{i:032x}"})
 
@@ -116,7 +116,7 @@ def test_a_full_class_takes_nobody_else(roster):
     roster.report({**REPORT, "key": B})
 
 
-def test_a_code_is_that_of_its_name_and_its_goals(roster):
+def test_code_holds_its_goals_and_is_valid_only_for_its_name(roster):
     goals = {"watch": [0, 1], "share": [2]}
     code = code_of("Ada", goals)
 
@@ -132,7 +132,7 @@ def test_a_code_is_that_of_its_name_and_its_goals(roster):
         roster.take_code("Ada", changed)
 
 
-def test_the_table_has_a_column_for_each_goal_and_no_formulas(roster):
+def test_class_table_has_a_column_for_each_goal_and_no_formulas(roster):
     roster.report({**REPORT, "name": "=1+2"})
     roster.report({**REPORT, "key": B, "name": 'Zoe, "Z"', "goals": {"watch": [0, 1, 2]}})
 
@@ -147,7 +147,7 @@ def test_the_table_has_a_column_for_each_goal_and_no_formulas(roster):
     "text",
     ["", "[]", "{}", '{"pupils": 1}', '{"pupils": {"x": {}}}', json.dumps({"pupils": {A: {**REPORT}}}), "\xff"],
 )
-def test_a_file_that_is_no_class_is_refused_and_stays(tmp_path, text):
+def test_roster_refuses_a_malformed_file_and_leaves_it_unchanged(tmp_path, text):
     path = tmp_path / "class.json"
     path.write_text(text, encoding="latin-1")
 
@@ -163,7 +163,7 @@ def is_refused(code: JoinCode, given: str, address: str) -> bool:
         return True
 
 
-def test_after_some_wrong_codes_an_address_has_to_wait_and_others_need_not():
+def test_address_must_wait_after_wrong_codes_and_others_need_not():
     now = [0.0]
     code = JoinCode(lambda: now[0])
     assert not any(code.opens("mint-", "a") for _ in range(EACH_MAX))
@@ -175,7 +175,7 @@ def test_after_some_wrong_codes_an_address_has_to_wait_and_others_need_not():
     assert code.opens(code.text, "a")
 
 
-def test_many_addresses_together_have_to_wait_too():
+def test_other_addresses_must_wait_too_after_many_wrong_codes():
     code = JoinCode(lambda: 0.0)
     for i in range(ALL_MAX):
         code.opens("mint-", f"{i}")
@@ -183,7 +183,7 @@ def test_many_addresses_together_have_to_wait_too():
     assert is_refused(code, code.text, "one that has not guessed")
 
 
-def test_a_code_is_a_word_that_is_easy_to_type_and_four_digits():
+def test_join_code_is_a_short_word_and_digits_typed_in_any_case():
     assert len(set(_WORDS)) == len(_WORDS) > 128
     assert all(word.isascii() and word.islower() and 4 <= len(word) <= 7 for word in _WORDS)
     assert all(code.opens(code.text.replace("-", "").upper(), "a") for code in (JoinCode() for _ in range(20)))

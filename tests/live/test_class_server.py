@@ -62,7 +62,7 @@ def at_desk(tmp_path) -> Callable[[Callable[[Desk], Awaitable[None]]], Roster]:
     return run
 
 
-def test_a_pupil_comes_reports_and_is_kept(at_desk):
+def test_pupil_opens_the_page_reports_and_is_saved(at_desk):
     async def visit(desk: Desk) -> None:
         status, page = await desk.come_as("pupil")
         assert (status, page) == (200, PAGE)
@@ -72,7 +72,7 @@ def test_a_pupil_comes_reports_and_is_kept(at_desk):
     assert at_desk(visit).pupils[A].goals == {"watch": [0]}
 
 
-def test_the_secret_stays_in_a_cookie_out_of_reach_of_scripts_and_of_other_sites(at_desk):
+def test_board_cookie_is_http_only_and_same_site_strict(at_desk):
     async def visit(desk: Desk) -> None:
         async with desk.session.get(f"{desk.home}/board?token={desk.listener.board_token}") as answer:
             assert re.search("HttpOnly.*SameSite=Strict", answer.headers["Set-Cookie"])
@@ -81,7 +81,7 @@ def test_the_secret_stays_in_a_cookie_out_of_reach_of_scripts_and_of_other_sites
 
 
 @pytest.mark.parametrize("path", ["/", "/board", "/pupils", "/class.csv"])
-def test_nobody_comes_without_a_secret(at_desk, path):
+def test_server_refuses_requests_without_a_valid_token(at_desk, path):
     async def visit(desk: Desk) -> None:
         for query in ("", "?token=", "?token=x"):
             assert (await desk.get(path + query))[0] == 403
@@ -89,7 +89,7 @@ def test_nobody_comes_without_a_secret(at_desk, path):
     at_desk(visit)
 
 
-def test_a_pupil_sees_no_board_and_changes_no_other_pupil(at_desk):
+def test_pupil_cannot_see_the_board_or_change_another_pupil(at_desk):
     async def visit(desk: Desk) -> None:
         await desk.come_as("pupil")
         for path in ("/board", "/pupils", "/class.csv", f"/board?token={desk.listener.token}"):
@@ -100,7 +100,7 @@ def test_a_pupil_sees_no_board_and_changes_no_other_pupil(at_desk):
     at_desk(visit)
 
 
-def test_a_teacher_sees_everybody_takes_codes_and_removes(at_desk):
+def test_teacher_sees_all_pupils_takes_codes_and_removes_pupils(at_desk):
     async def visit(desk: Desk) -> None:
         goals = sum(lesson_goals().values())
         desk.roster.report(REPORT)
@@ -121,7 +121,7 @@ def test_a_teacher_sees_everybody_takes_codes_and_removes(at_desk):
     assert [pupil.name for pupil in at_desk(visit).pupils.values()] == ["Ben"]
 
 
-def test_another_site_can_do_nothing_with_the_cookies(at_desk):
+def test_requests_from_another_site_are_refused_despite_cookies(at_desk):
     async def visit(desk: Desk) -> None:
         await desk.come_as("teacher")
         await desk.come_as("pupil")
@@ -136,7 +136,7 @@ WRONG = [("", 400), ("[]", 400), ("{", 400), ('{"key": 1}', 400), ("x" * 20_000,
 
 
 @pytest.mark.parametrize(("said", "status"), WRONG)
-def test_what_is_no_report_is_refused(at_desk, said, status):
+def test_malformed_report_is_refused(at_desk, said, status):
     async def visit(desk: Desk) -> None:
         await desk.come_as("pupil")
         assert await desk.post("/report", said) == status
@@ -144,7 +144,7 @@ def test_what_is_no_report_is_refused(at_desk, said, status):
     assert at_desk(visit).pupils == {}
 
 
-def test_the_code_leads_to_the_page_and_guesses_are_limited(at_desk):
+def test_join_code_opens_the_page_and_guesses_are_limited(at_desk):
     async def visit(desk: Desk) -> None:
         code = desk.listener.code.text
         assert (await desk.get(f"/{code.upper()}"))[0] == 200
@@ -154,7 +154,7 @@ def test_the_code_leads_to_the_page_and_guesses_are_limited(at_desk):
     at_desk(visit)
 
 
-def test_sixty_pupils_report_at_once(at_desk):
+def test_sixty_pupils_can_report_at_once(at_desk):
     async def visit(desk: Desk) -> None:
         await desk.come_as("pupil")
         reports = [{**REPORT, "key": f"{i:032x}", "name": f"Pupil {i}", "link": "#" + "x" * 3000} for i in range(60)]

@@ -19,7 +19,7 @@ from host_sim.world.edits import Edit
 from tests.live.support import order, play
 
 
-def test_a_page_is_told_what_is_new_and_only_that(live):
+def test_page_feed_sends_only_what_is_new(live):
     run = live(speed=FULL_SPEED)
     feed = PageFeed(run)
     assert feed.next() is not None
@@ -28,7 +28,7 @@ def test_a_page_is_told_what_is_new_and_only_that(live):
     assert "environment" not in json.loads(feed.next())
 
 
-def test_a_page_sees_crates_move():
+def test_page_feed_shows_a_pushed_crate():
     blind = tuple(f"stuck-off:{sensor}@0s" for sensor in ("front", "front-left", "front-right"))
     with make(RunConfig(environments=1, world="crates", changes=blind)) as simulation:
         run = PacedRun(simulation, RunRecorder.of(simulation, boredom_limit=10), lambda _: None, speed=FULL_SPEED)
@@ -42,7 +42,7 @@ def test_a_page_sees_crates_move():
     assert bars[last.id] == [*last.a, *last.b]
 
 
-def test_a_page_that_asks_seldom_gets_no_more_than_one_that_asks_often(live):
+def test_message_stays_below_50_kb_after_20000_unread_ticks(live):
     run = live(speed=FULL_SPEED)
     feed = PageFeed(run)
     while run.simulation.tick < 20_000:
@@ -52,7 +52,7 @@ def test_a_page_that_asks_seldom_gets_no_more_than_one_that_asks_often(live):
     assert len(feed.next()) < 50_000
 
 
-def test_a_page_is_told_each_lesson_once_though_earlier_ones_are_forgotten():
+def test_page_feed_sends_each_lesson_once_though_old_ones_are_forgotten():
     with make(RunConfig(environments=1)) as simulation:
         run = PacedRun(simulation, RunRecorder.of(simulation, boredom_limit=10), lambda _: None)
         run.begin()
@@ -75,7 +75,7 @@ def test_a_page_is_told_each_lesson_once_though_earlier_ones_are_forgotten():
         assert [lesson["cell"] for lesson in json.loads(feed.next())["lessons"]] == [6]
 
 
-def test_each_event_of_each_robot_is_told_once(live):
+def test_page_feed_sends_each_event_of_each_robot_once(live):
     run = live(robots=2, speed=FULL_SPEED)
     feed, late = PageFeed(run), PageFeed(run)
     trajectory = run.recorder.trajectory
@@ -117,34 +117,34 @@ def track_of(*reasons: int) -> RobotTrack:
     return track
 
 
-def test_each_tick_is_a_place_and_a_reason():
+def test_trail_has_position_and_reason_of_each_tick():
     assert points(track_of(WANDER, LOOK), range(FIRST, FIRST + 2)) == [0, 7, WANDER, 10, 7, LOOK]
 
 
-def test_with_a_step_the_next_tick_counts_that_is_no_look_around():
+def test_trail_with_a_step_skips_look_around_to_the_next_tick():
     track = track_of(WANDER, WANDER, LOOK, WANDER, WANDER, WANDER)
 
     assert points(track, range(FIRST, FIRST + 6, 2)) == [0, 7, WANDER, 30, 7, WANDER, 50, 7, WANDER]
 
 
-def test_no_trial_is_left_out_between_two_steps():
+def test_trail_with_a_step_keeps_trials_between_two_steps():
     track = track_of(WANDER, TRIAL, TRIAL, WANDER, TRIAL, WANDER)
 
     assert points(track, range(FIRST, FIRST + 6, 5)) == [0, 7, WANDER, 10, 7, TRIAL, 40, 7, TRIAL]
 
 
-def test_it_is_of_the_ticks_that_are_asked_for():
+def test_trail_covers_only_the_ticks_asked_for():
     track = track_of(WANDER, TRIAL, TRIAL, LOOK)
 
     assert points(track, range(FIRST + 2, FIRST + 4)) == [20, 7, TRIAL, 30, 7, LOOK]
     assert points(track, range(FIRST + 4, FIRST + 4)) == []
 
 
-def test_a_robot_that_has_not_begun_knows_nothing(live):
+def test_robot_answers_in_words_alone_before_its_first_tick(live):
     assert PageTalk(live()).answer(Question("robot", "What have you learned?"))["said"]["mark"] == "words"
 
 
-def test_each_robot_answers_for_itself(live):
+def test_answer_comes_from_the_robot_of_the_node_or_else_the_first(live):
     run = live(robots=2)
     for _ in range(20):
         run.simulation.step(1)
@@ -159,7 +159,7 @@ def test_each_robot_answers_for_itself(live):
     assert [it["places"] for it in said[:2]] == [[places[0]], [places[1]]]
 
 
-def test_an_answer_comes_with_the_next_message_and_only_once(live):
+def test_answer_comes_with_the_next_message_and_only_once(live):
     run = live()
     run.simulation.step(1)
     feed = PageFeed(run)
@@ -170,7 +170,7 @@ def test_an_answer_comes_with_the_next_message_and_only_once(live):
     assert '"answers"' not in feed.next()
 
 
-def test_a_question_in_a_message_is_checked():
+def test_question_in_a_message_is_parsed():
     asked = page_command_from('{"do": "ask", "who": "robot-de", "text": "Wo bist du?", "node": 2}')
 
     assert asked == Question("robot-de", "Wo bist du?", 2)
@@ -179,6 +179,6 @@ def test_a_question_in_a_message_is_checked():
 @pytest.mark.parametrize(
     "fields", ['"who": "../robot", "text": ""', '"who": "robot"', '"who": ["robot"], "text": "x"']
 )
-def test_a_question_to_nobody_or_without_words_is_refused(fields):
+def test_question_without_known_speaker_or_text_is_refused(fields):
     with pytest.raises(ValueError, match="who must be one of"):
         page_command_from(f'{{"do": "ask", {fields}}}')

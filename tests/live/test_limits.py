@@ -13,7 +13,7 @@ from tests.runs.support import DEADLINE_S
 PAGE = ""
 
 
-def test_a_request_for_a_websocket_that_does_not_become_one_is_not_exempt(live, monkeypatch):
+def test_live_request_without_websocket_upgrade_keeps_its_time_limit(live, monkeypatch):
     monkeypatch.setattr(connections, "LIFETIME_S", 0.2)
     monkeypatch.setattr(connections, "_KEEP_ALIVE_S", 2.0 * DEADLINE_S)
     listener = Listener(None, 0)
@@ -42,14 +42,14 @@ def frame(payload: bytes, mask: bytes) -> bytes:
 
 
 @pytest.mark.parametrize("step", [1, 2, 7, 1000])
-def test_masks_are_seen_however_the_bytes_come(step):
+def test_mask_check_finds_an_unmasked_frame_in_chunks_of_any_size(step):
     fine = b"".join(frame(b"x" * size, b"mask") for size in (0, 1, 125, 126, 1000))
     for data, masked in ((fine, True), (fine + frame(b"x", b""), False)):
         masks = connections._Masks()
         assert all(masks.are_in(data[at : at + step]) for at in range(0, len(data), step)) == masked
 
 
-def test_a_frame_without_a_mask_closes_the_websocket(live):
+def test_frame_without_a_mask_closes_the_websocket(live):
     listener = Listener(None, 0)
     host = f"127.0.0.1:{listener.port}"
     request = (
@@ -75,7 +75,7 @@ def test_a_frame_without_a_mask_closes_the_websocket(live):
     assert run.playing
 
 
-def test_where_no_place_is_left_the_page_that_has_been_idle_for_longest_goes(live, monkeypatch):
+def test_full_server_closes_the_longest_idle_page_for_a_new_one(live, monkeypatch):
     monkeypatch.setattr(server, "PAGES_MAX", 2)
     listener = Listener(None, 0)
     home = f"http://127.0.0.1:{listener.port}"
@@ -102,7 +102,7 @@ def test_where_no_place_is_left_the_page_that_has_been_idle_for_longest_goes(liv
 
 
 @pytest.mark.parametrize("origin", ["{home}0", "{home}.evil.example", "{home}/", "http://127.0.0.1", "", "null"])
-def test_an_origin_is_compared_whole(live, origin):
+def test_origin_that_does_not_match_exactly_is_refused(live, origin):
     listener = Listener(None, 0)
     home = f"http://127.0.0.1:{listener.port}"
 

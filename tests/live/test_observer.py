@@ -58,7 +58,7 @@ def spoken(recorded: list[Recorded], channel: str) -> Iterator[list[can.Message]
     thread.join()
 
 
-def test_it_tells_what_the_robot_does_without_a_word_and_its_log_is_that_of_the_run(recorded, tmp_path, capsys):
+def test_observer_describes_the_robot_sends_nothing_and_logs_each_frame(recorded, tmp_path, capsys):
     with spoken(recorded, "observed") as heard:
         words = ["watch", "--bus", "virtual:observed", "--robot", "observe", "--limit-s", "1.5"]
         assert main([*words, "--out", str(tmp_path)]) == 0
@@ -78,7 +78,7 @@ def test_it_tells_what_the_robot_does_without_a_word_and_its_log_is_that_of_the_
         *("--body kit", "--world small", "--physics fast", "--reconnect-s 3", "--late-max 9", "--json"),
     ],
 )
-def test_what_an_observer_does_not_heed_is_refused_in_one_line(words, capsys):
+def test_observer_refuses_an_option_that_it_does_not_use_in_one_line(words, capsys):
     command = ["watch", "--bus", "virtual:observed", "--robot", "observe", *words.split()]
 
     assert main(command) == 2
@@ -87,7 +87,7 @@ def test_what_an_observer_does_not_heed_is_refused_in_one_line(words, capsys):
     assert capsys.readouterr().err.endswith(f"leave {flag} out\n")
 
 
-def test_it_keeps_only_the_last_ticks_however_long_it_looks_on(recorded, monkeypatch):
+def test_observer_keeps_only_the_last_ticks(recorded, monkeypatch):
     monkeypatch.setattr(run_recorder, "TICKS_MAX", 60)
     monkeypatch.setattr(observer_module, "_PART_TICKS", 10)
     observer = Observer(1)
@@ -97,7 +97,7 @@ def test_it_keeps_only_the_last_ticks_however_long_it_looks_on(recorded, monkeyp
     assert 60 <= len(trail) <= 60 + 60 // 8 + 2 * 10
 
 
-def test_its_picture_has_the_robot_in_the_middle_and_its_way(recorded):
+def test_observer_view_has_the_robot_in_the_middle_and_its_trail(recorded):
     observer = Observer(1)
     *_, state = observer.follow(line.frame for line in recorded)
     view = observer.view(state)
@@ -107,7 +107,7 @@ def test_its_picture_has_the_robot_in_the_middle_and_its_way(recorded):
     assert any("Ctrl-C ends it" in line for line in draw_text(view, 80, 24))
 
 
-def test_on_a_terminal_it_draws_and_tidies_up(recorded):
+def test_observer_draws_on_a_terminal_and_restores_it(recorded):
     class Terminal(io.StringIO):
         def isatty(self) -> bool:
             return True
@@ -119,7 +119,7 @@ def test_on_a_terminal_it_draws_and_tidies_up(recorded):
     assert out.getvalue().endswith("\x1b[?25h\x1b[?1049l")
 
 
-def test_what_is_no_frame_on_a_serial_line_is_passed_over(recorded, monkeypatch):
+def test_observer_skips_a_malformed_frame_on_a_serial_line(recorded, monkeypatch):
     class SerialLine(contextlib.AbstractContextManager):
         def __init__(self) -> None:
             self.said = iter(recorded)
@@ -143,7 +143,7 @@ def test_what_is_no_frame_on_a_serial_line_is_passed_over(recorded, monkeypatch)
     assert "so I try turning" in out.getvalue()
 
 
-def test_a_robot_that_is_not_heard_is_told(recorded):
+def test_observer_fails_if_its_node_is_not_heard(recorded):
     end, line = time.monotonic() + 0.7, Line("virtual:other", 2, 500_000)
     why = pytest.raises(OctetError, match="node 2 was not heard on virtual:other")
     with spoken(recorded, "other"), contextlib.closing(NoLog()) as log, why:
@@ -158,7 +158,7 @@ def test_a_robot_that_is_not_heard_is_told(recorded):
         (["watch", "--robot", "observe", "--bus", "virtual:x", "--robots", "2"], "one robot"),
     ],
 )
-def test_what_cannot_be_observed_is_said_in_a_line(words: list[str], why: str, tmp_path: Path, capsys):
+def test_observer_refuses_no_bus_the_run_command_and_two_robots(words: list[str], why: str, tmp_path: Path, capsys):
     assert main([*words, "--out", str(tmp_path)]) == 2
     said = capsys.readouterr().err
     assert why in said

@@ -47,7 +47,7 @@ def test_paced_run_keeps_wall_clock_time(live):
     assert time.monotonic() - began > 0.9 * 100 * 0.02 / 4
 
 
-def test_the_ticks_that_are_due_run_in_blocks(live, monkeypatch):
+def test_ticks_that_are_due_run_in_blocks(live, monkeypatch):
     run, clock_ms, calls = live(speed=1000.0), count(), []
     step = run.simulation.step
     monkeypatch.setattr(paced_run.time, "monotonic", lambda: next(clock_ms) / 1000)
@@ -57,7 +57,7 @@ def test_the_ticks_that_are_due_run_in_blocks(live, monkeypatch):
     assert len(calls) < 1000 / 10
 
 
-def test_full_speed_waits_for_nothing(live, monkeypatch):
+def test_full_speed_never_sleeps(live, monkeypatch):
     run, sleep, waits = live(speed=FULL_SPEED), asyncio.sleep, set()
 
     async def note_wait(seconds: float) -> None:
@@ -69,7 +69,7 @@ def test_full_speed_waits_for_nothing(live, monkeypatch):
     assert waits == {0.0}
 
 
-def test_one_decision_is_one_turn_or_all_steps_of_a_way(live):
+def test_single_decision_plays_one_turn_or_all_steps_of_a_way(live):
     run = live(speed=FULL_SPEED)
     order(run, Play(False))
     for reason in (Reason.WANDER, Reason.TRIAL):
@@ -82,7 +82,7 @@ def test_one_decision_is_one_turn_or_all_steps_of_a_way(live):
     assert run.simulation.drives[0].action == (before.action + 1) % 128
 
 
-def test_cells_are_written_and_erased_at_once_while_it_stands(live):
+def test_cells_are_written_and_erased_at_once_while_the_run_is_paused(live):
     run = live()
     order(run, WriteCell(3, 1), WriteCell(6, 2))
     assert run.simulation.clients[0].memory == (0, 0, 0, 1, 0, 0, 2, 0)
@@ -92,7 +92,7 @@ def test_cells_are_written_and_erased_at_once_while_it_stands(live):
     assert run.simulation.clients[0].memory == (0,) * 8
 
 
-def test_a_frozen_robot_learns_nothing(live):
+def test_frozen_robot_learns_nothing(live):
     run = live(speed=FULL_SPEED)
     order(run, Freeze(True))
     run.offer(Play(True), print)
@@ -114,13 +114,13 @@ def test_paced_run_waits_for_a_viewer(live):
     play(run, lambda: run.simulation.tick > 10)
 
 
-def test_of_many_orders_to_start_over_only_the_last_is_obeyed(live):
+def test_last_of_many_orders_to_start_over_is_the_only_one_obeyed(live):
     run = live()
     order(run, *[NewSeed(seed) for seed in range(200)])
     assert [begun[:2] for begun in run.simulation.record.begun] == [(1, 1), (199, 1)]
 
 
-def test_many_slow_orders_do_not_hold_up_the_pages(live, monkeypatch):
+def test_slow_orders_run_in_batches_that_do_not_hold_up_pages(live, monkeypatch):
     run = live()
     obeyed = []
     monkeypatch.setattr(PacedRun, "_execute", lambda _, command: obeyed.append(command))
@@ -148,7 +148,7 @@ def test_more_orders_than_fit_are_refused_and_counted(live):
     assert run.refused == 3
 
 
-def test_each_robot_is_told_by_its_node(live):
+def test_order_acts_on_the_robot_of_its_node(live):
     run = live(robots=2)
     assert order(run, WriteCell(3, 1, node=2), MoveRobot(Edit("lift"), 2), Freeze(True, node=1)) == []
     assert [client.memory[3] for client in run.simulation.clients] == [0, 1]
@@ -164,7 +164,7 @@ class BabblingLink:
         return Frame(0, b"")
 
 
-def test_a_line_that_never_falls_silent_does_not_hold_up_a_pause(live):
+def test_link_that_never_falls_silent_does_not_hold_up_a_pause(live):
     run = live()
     client = run.simulation.clients[0]
     client.connection = replace(client.connection, link=BabblingLink())
@@ -182,14 +182,14 @@ def to_the_end(run: PacedRun) -> None:
     play(run, lambda: run.done)
 
 
-def test_the_next_environment_and_a_new_seed_are_recorded(live):
+def test_next_environment_and_new_seed_are_recorded(live):
     run = live(speed=FULL_SPEED)
     order(run, NextEnvironment(), NewSeed(9))
     assert [begun[:2] for begun in run.simulation.record.begun] == [(1, 1), (1, 2), (9, 1)]
     assert len(run.episodes) == 2
 
 
-def test_after_the_last_environment_it_waits_for_a_new_seed(live):
+def test_paced_run_waits_for_a_new_seed_after_its_last_environment(live):
     run = live(speed=FULL_SPEED)
     to_the_end(run)
     assert order(run, Edit("lift")) == ["the run is over: start over to see more"]
@@ -214,7 +214,7 @@ def over_soon(live: Live, monkeypatch: pytest.MonkeyPatch, pause_s: float) -> Pa
     return run
 
 
-def test_the_end_of_an_environment_stays_in_view_for_a_while(live, monkeypatch):
+def test_end_of_an_environment_stays_in_view_during_the_pause(live, monkeypatch):
     run = over_soon(live, monkeypatch, pause_s=1000.0)
     turns = iter(range(20))
     play(run, lambda: next(turns, None) is None)
@@ -225,7 +225,7 @@ def test_the_end_of_an_environment_stays_in_view_for_a_while(live, monkeypatch):
     assert order(run, Edit("lift")) == ["this environment is over: the next one begins in a moment"]
 
 
-def test_after_the_pause_the_next_environment_begins(live, monkeypatch):
+def test_next_environment_begins_after_the_pause(live, monkeypatch):
     run = over_soon(live, monkeypatch, pause_s=0.05)
     play(run, lambda: run.simulation.record.begun[-1].number == 2)
 
@@ -233,7 +233,7 @@ def test_after_the_pause_the_next_environment_begins(live, monkeypatch):
     assert json.loads(PageFeed(run).next())["play"]["ended"] is None
 
 
-def test_the_pause_can_be_cut_short(live, monkeypatch):
+def test_order_for_the_next_environment_cuts_the_pause_short(live, monkeypatch):
     run = over_soon(live, monkeypatch, pause_s=1000.0)
     run.simulation.record.limit_ticks = 1000
     order(run, NextEnvironment())
@@ -243,7 +243,7 @@ def test_the_pause_can_be_cut_short(live, monkeypatch):
 
 
 @pytest.mark.parametrize("keep", [False, True])
-def test_starting_over_begins_everything_anew(live, keep):
+def test_starting_over_resets_all_but_a_kept_memory(live, keep):
     run = live(speed=FULL_SPEED)
     play(run, lambda: run.recorder.histories[0].trials > 3 and any(run.simulation.clients[0].memory))
     order(run, WriteCell(7, 1), Freeze(True))
@@ -261,7 +261,7 @@ def test_starting_over_begins_everything_anew(live, keep):
     assert message["environment"]["start_tick"] == run.simulation.tick
 
 
-def test_next_does_not_end_the_run(live):
+def test_order_for_the_next_environment_does_not_end_the_run(live):
     run = live(speed=FULL_SPEED)
     complaints = order(run, *[NextEnvironment()] * 6)
     assert complaints == ["this is the last environment: start over to see more"] * 2
@@ -297,7 +297,7 @@ def test_equal_orders_at_equal_ticks_give_equal_runs(live):
     assert meddled_with(live("once"), *orders) == meddled_with(live("again"), *orders)
 
 
-def test_an_environment_that_ended_without_a_tick_began_all_the_same(live, tmp_path):
+def test_environment_that_ended_without_a_tick_is_replayed_from_the_log(live, tmp_path):
     run = live("skipped")
     meddled_with(run, [Edit("body", what="odometer:left:150%")], [NewSeed(4), NextEnvironment()], [])
 
@@ -305,14 +305,14 @@ def test_an_environment_that_ended_without_a_tick_began_all_the_same(live, tmp_p
     assert from_log(run, tmp_path / "skipped.log") == run_data(run.recorder.trajectory, "")
 
 
-def test_the_memory_that_a_robot_reports_with_its_start_is_the_one_it_starts_with(live, tmp_path):
+def test_memory_reported_at_the_start_is_replayed_from_the_log(live, tmp_path):
     run = live("fixed", fixed=True)
     meddled_with(run, [WriteCell(3, 2)], [NewSeed(4)], [NewSeed(5, keep=True), WriteCell(2, 2)], [])
 
     assert from_log(run, tmp_path / "fixed.log") == run_data(run.recorder.trajectory, "")
 
 
-def test_what_a_person_wrote_between_two_ticks_is_the_same_from_the_log(live, tmp_path):
+def test_cells_written_between_two_ticks_are_replayed_from_the_log(live, tmp_path):
     run = live("changed")
     meddled_with(
         run,

@@ -92,7 +92,7 @@ class Idle:
         pass
 
 
-def test_it_draws_ten_times_a_second_at_most(view, monkeypatch):
+def test_terminal_view_draws_at_most_ten_times_a_second(view, monkeypatch):
     monkeypatch.setattr(terminal_view, "_view", lambda _: view)
     monkeypatch.setattr(terminal_view, "on_ending_signals", lambda *_: nullcontext())
     screen = Screen()
@@ -169,7 +169,7 @@ def terminal(tmp_path):
 
 
 @pytest.mark.parametrize("leave", [b"q", b"\x03", "terminate"], ids=["q", "Ctrl-C", "terminate"])
-def test_the_terminal_is_as_before_when_it_ends(terminal, tmp_path, leave):
+def test_terminal_is_restored_when_the_run_ends(terminal, tmp_path, leave):
     terminal.read_until(b"environment 1 of 5", b"real time")
 
     if leave == "terminate":
@@ -184,7 +184,7 @@ def test_the_terminal_is_as_before_when_it_ends(terminal, tmp_path, leave):
     assert {"run.log", "summary.json", "replay.html"} <= {path.name for path in tmp_path.iterdir()}
 
 
-def test_keys_do_what_they_say(terminal, tmp_path):
+def test_keys_pause_begin_the_next_environment_and_quit(terminal, tmp_path):
     terminal.read_until(b"environment 1 of 5")
     terminal.press(b" ")
     terminal.read_until(b"paused")
@@ -197,7 +197,7 @@ def test_keys_do_what_they_say(terminal, tmp_path):
     assert [environment["number"] for environment in begun] == [1, 2]
 
 
-def test_keys_erase_freeze_and_lift_the_first_robot_and_put_it_down_again(live):
+def test_keys_erase_freeze_lift_and_put_down_the_first_robot(live):
     run = live()
 
     def state() -> State:
@@ -218,7 +218,7 @@ def test_keys_erase_freeze_and_lift_the_first_robot_and_put_it_down_again(live):
 
 
 @pytest.mark.parametrize("term", ["teletype-of-1930", "dumb"])
-def test_a_terminal_that_cannot_draw_is_one_line(tmp_path, term):
+def test_terminal_that_cannot_draw_is_refused_in_one_line(tmp_path, term):
     terminal = Terminal(tmp_path, "--quiet", term=term)
 
     code = terminal.end()
@@ -229,7 +229,7 @@ def test_a_terminal_that_cannot_draw_is_one_line(tmp_path, term):
     assert re.fullmatch(rb"octet: cannot draw in this terminal.*TERM.*\r\n", output)
 
 
-def test_without_a_terminal_it_is_wrong_usage(tmp_path):
+def test_terminal_option_is_refused_without_a_terminal(tmp_path):
     command = [*WATCH, "--quiet", "--out", os.fspath(tmp_path)]
 
     done = subprocess.run(command, input="", capture_output=True, text=True, check=False)
@@ -239,7 +239,7 @@ def test_without_a_terminal_it_is_wrong_usage(tmp_path):
 
 
 @pytest.mark.parametrize(("columns", "rows"), [(60, 20), (80, 24), (100, 20), (60, 50), (250, 80)])
-def test_the_picture_fits_any_screen(view, columns, rows):
+def test_text_picture_fits_a_screen_of_any_size(view, columns, rows):
     lines = draw_text(view, columns, rows)
 
     assert len(lines) <= rows
@@ -248,7 +248,7 @@ def test_the_picture_fits_any_screen(view, columns, rows):
 
 
 @pytest.mark.parametrize(("columns", "rows"), [(60, 20), (80, 24), (250, 80)])
-def test_the_picture_tells_all_there_is_to_know(view, columns, rows):
+def test_text_picture_shows_state_arena_legend_and_keys(view, columns, rows):
     lines = draw_text(view, columns, rows)
     text, arena = "\n".join(lines), "".join(line for line in lines if line.startswith("|"))
 
@@ -261,7 +261,7 @@ def test_the_picture_tells_all_there_is_to_know(view, columns, rows):
 
 
 @pytest.mark.parametrize(("columns", "rows"), [(59, 24), (80, 19), (1, 1), (7, 3)])
-def test_on_a_screen_too_small_it_says_how_large(view, columns, rows):
+def test_text_picture_names_the_least_size_on_a_screen_too_small(view, columns, rows):
     lines = draw_text(view, columns, rows)
 
     assert len(lines) <= rows
@@ -270,14 +270,14 @@ def test_on_a_screen_too_small_it_says_how_large(view, columns, rows):
 
 
 @pytest.mark.parametrize("columns", [60, 80])
-def test_all_keys_are_named_on_the_smallest_screen(view, columns):
+def test_smallest_screen_names_all_keys(view, columns):
     lines = draw_text(replace(view, keys=terminal_view._KEYS), columns, 20)
 
     assert lines[-2:] == terminal_view._KEYS.splitlines()
 
 
 @pytest.mark.parametrize(("helped", "said"), [(0, "It did not help, so I forgot it."), (1, "so I remembered it!")])
-def test_it_says_whether_a_try_helped(view, helped, said):
+def test_text_picture_says_whether_a_trial_helped(view, helped, said):
     trial = Trial(tick=160, cell=7, side=1, helped=helped, frozen=0)
     lines = draw_text(replace(view, states=[{**view.state, "trial": trial}]), 60, 20)
 
@@ -296,7 +296,7 @@ def test_it_says_whether_a_try_helped(view, helped, said):
         (3141, 0, -1, "-"),
     ],
 )
-def test_the_nose_is_where_the_robot_looks(view, heading, row, column, nose):
+def test_nose_is_drawn_in_the_direction_of_the_heading(view, heading, row, column, nose):
     state = {**view.state, "x": 2000.0, "y": 1500.0, "heading": heading, "eaten": []}
     lines = draw_text(replace(view, states=[state], scene={**view.scene, "bars": [], "food": []}, trails=[]), 80, 24)
 
@@ -304,14 +304,14 @@ def test_the_nose_is_where_the_robot_looks(view, heading, row, column, nose):
     assert lines[at_row + row][lines[at_row].index("@") + column] == nose
 
 
-def test_the_arena_is_as_wide_as_it_is_in_the_world(view):
+def test_text_arena_has_the_proportions_of_the_world(view):
     lines = draw_text(view, 200, 60)
 
     width, height = lines[1].count("-"), sum(line.startswith("|") for line in lines)
     assert width / (2 * height) == pytest.approx(4 / 3, rel=0.05)
 
 
-def test_it_shows_plants_and_says_what_happened(view):
+def test_text_picture_shows_plants_and_news(view):
     scene = EnvironmentScene(**view.scene, plants=[[0, 2000.0, 1500.0, 200.0]])
 
     lines = draw_text(replace(view, scene=scene, news="A plant was put down."), 100, 30)
