@@ -29,7 +29,7 @@ def colours(trajectory: Trajectory, tick: int) -> set[tuple[int, ...]]:
     return {colour for _, colour in arena.getcolors(1 << 24)}
 
 
-def test_a_clip_lasts_as_long_as_its_part_of_the_run_and_its_holds(short, tmp_path):
+def test_clip_lasts_as_long_as_its_part_of_the_run_and_its_holds(short, tmp_path):
     held = [event for event in short.trajectory.events() if 2.0 <= event.tick * 0.02 <= 8.6 and event.tick]
 
     write_gif(tmp_path / "clip.gif", short.trajectory, Clip(2.0, 8.6))
@@ -39,7 +39,7 @@ def test_a_clip_lasts_as_long_as_its_part_of_the_run_and_its_holds(short, tmp_pa
     assert 6.6 < sum(shown) / 1000 < 6.6 + 1.2 * len(held)
 
 
-def test_twice_the_speed_is_half_as_long(short, tmp_path):
+def test_clip_at_double_speed_is_half_as_long(short, tmp_path):
     for speed in (1.0, 2.0):
         write_gif(tmp_path / f"{speed:g}.gif", short.trajectory, Clip(0.0, 8.0, speed))
 
@@ -54,7 +54,7 @@ def test_equal_clips_are_equal_bytes(short, tmp_path):
     assert (tmp_path / "a").read_bytes() == (tmp_path / "b").read_bytes()
 
 
-def test_a_cone_is_lit_when_its_sensor_feels_something(short):
+def test_cone_is_lit_only_when_its_sensor_detects_something(short):
     lit = tuple(bytes.fromhex(CONE_LIT[1:]))
     feel = short.trajectory.tracks[0].column("feel")
 
@@ -62,7 +62,7 @@ def test_a_cone_is_lit_when_its_sensor_feels_something(short):
     assert lit not in colours(short.trajectory, feel.index(0))
 
 
-def test_a_frame_is_as_wide_as_asked(short):
+def test_frame_has_the_requested_width(short):
     assert draw_frame(short.trajectory, 10, 480).width == 480
 
 
@@ -94,7 +94,7 @@ def state(**fields: object) -> State:
         ({"reason": 4, "lifted": 1}, "Someone has picked me up: my wheels turn in the air."),
     ],
 )
-def test_every_reason_has_its_sentence(fields, words):
+def test_sentence_tells_reason_pattern_and_side(fields, words):
     assert sentence(state(**fields)) == words
 
 
@@ -106,11 +106,11 @@ def test_every_reason_has_its_sentence(fields, words):
         (0, 1, "Erased by hand: front."),
     ],
 )
-def test_every_lesson_has_its_sentence(side, by_hand, words):
+def test_lesson_sentence_tells_learned_told_or_erased(side, by_hand, words):
     assert lesson_sentence({"node": 1, "tick": 0, "cell": 2, "side": side, "by_hand": by_hand}) == words
 
 
-def test_the_still_is_the_picture_that_a_run_leaves(tmp_path):
+def test_picture_command_redraws_the_picture_that_a_run_leaves(tmp_path):
     words = ["--seed", "2", "--environments", "2", "--bus", "none", "--quiet", "--out", str(tmp_path)]
     assert main(["run", *words]) == 0
 
@@ -132,26 +132,26 @@ def test_the_still_is_the_picture_that_a_run_leaves(tmp_path):
         (["--gif", "x.gif", "--speed", "0"], "'0'"),
     ],
 )
-def test_a_clip_of_nothing_is_wrong_usage(short, capsys, words, named):
+def test_wrong_clip_options_are_refused_in_one_line(short, capsys, words, named):
     assert main(["picture", str(short.log), *words]) == 2
     message = capsys.readouterr().err
     assert re.fullmatch(r"octet: .*\n", message)
     assert named in message
 
 
-def test_a_clip_without_end_is_refused(kept, tmp_path, capsys):
+def test_clip_with_too_many_frames_is_refused(kept, tmp_path, capsys):
     assert main(["picture", str(kept.log), "--gif", str(tmp_path / "x.gif")]) == 2
     assert "more than 600: use --from" in capsys.readouterr().err
 
 
-def test_the_picture_of_the_readme_is_that_of_the_command(tmp_path):
+def test_readme_picture_is_that_of_the_command(tmp_path):
     assert octet_process("run", "--bus", "none", "--quiet", "--environments", "3", "--out", tmp_path).returncode == 0
 
     with Image.open(tmp_path / "arena.png") as new, Image.open(IMAGES / "arena.png") as old:
         assert ImageChops.difference(new.convert("RGB"), old.convert("RGB")).getbbox() is None
 
 
-def test_the_images_of_the_readme_are_small_and_whole():
+def test_readme_images_are_small_and_intact():
     assert (IMAGES / "octet.gif").stat().st_size < README_BYTES_MAX
     assert 8 <= sum(durations_ms(IMAGES / "octet.gif")) / 1000 <= 13
     with Image.open(IMAGES / "arena.png") as still:

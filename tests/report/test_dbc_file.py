@@ -45,7 +45,7 @@ def log(tmp_path_factory):
     return list(read_log(path))
 
 
-def test_a_log_of_several_robots_is_decoded_with_one_file(dbc, log):
+def test_dbc_file_decodes_a_log_of_several_robots(dbc, log):
     together: dict[str, int] = {}
     expected: dict[str, int] = {}
     for _, frame in log:
@@ -58,7 +58,7 @@ def test_a_log_of_several_robots_is_decoded_with_one_file(dbc, log):
     assert {name.split("_")[0] for name in together} == {"N1", "N2", "N3"}
 
 
-def test_no_two_signals_have_one_name(dbc):
+def test_signal_names_are_unique_and_valid(dbc):
     names = [signal.name for message in dbc.messages for signal in message.signals]
 
     assert len(names) == len(set(names)) == len(NODES) * sum(len(message.signals) for message in MESSAGES.values())
@@ -75,7 +75,7 @@ def test_identifiers_and_senders_are_those_of_the_node(dbc):
             assert receivers == {f"ROBOT_{node}" if message.sender == "SIM" else "SIM"}
 
 
-def test_cycle_times_send_types_and_start_values_are_there(dbc):
+def test_messages_have_cycle_times_send_types_and_start_values(dbc):
     senses, answer, memory = (dbc.get_message_by_name(f"N2_{name}") for name in ("SENSES", "ANSWER", "MEMORY"))
 
     assert (senses.cycle_time, senses.send_type) == (20, "Cyclic")
@@ -85,7 +85,7 @@ def test_cycle_times_send_types_and_start_values_are_there(dbc):
         assert all(signal.raw_initial == max(signal.minimum or 0, 0) for signal in message.signals)
 
 
-def test_the_attributes_tell_how_each_frame_is_protected(dbc, log):
+def test_attributes_give_crc_and_counter_of_each_frame(dbc, log):
     """The CRC by a library that knows nothing of the robots, and the counter, from nothing but the attributes."""
     counters: dict[int, list[int]] = {}
     for _, frame in log:
@@ -101,7 +101,7 @@ def test_the_attributes_tell_how_each_frame_is_protected(dbc, log):
     assert senses == [(senses[0] + i) % 15 for i in range(len(senses))]
 
 
-def test_one_node_is_the_same_as_its_part_of_many(dbc):
+def test_dbc_file_of_one_node_equals_its_part_of_many(dbc):
     alone = cantools.database.load_string(dbc_text([3]), "dbc")
 
     assert [contents(it) for it in alone.messages] == [contents(it) for it in dbc.messages if it.name[:3] == "N3_"]
@@ -130,14 +130,14 @@ def contents(message) -> dict[str, object]:
     ("words", "nodes"),
     [("--nodes 1-3", "123"), ("--nodes 3,1-2", "123"), ("--node 2", "2"), ("--nodes 2", "2")],
 )
-def test_nodes_are_named_on_the_command_line(capsys, words, nodes):
+def test_dbc_command_takes_nodes_and_ranges_of_nodes(capsys, words, nodes):
     assert main(["dbc", *words.split()]) == 0
 
     assert capsys.readouterr().out == dbc_text(map(int, nodes))
 
 
 @pytest.mark.parametrize("words", ["0-1", "2-1", f"1-{NODE_MAX + 1}", "1,", "one", ""])
-def test_nodes_that_do_not_exist_are_refused(capsys, words):
+def test_dbc_command_refuses_nodes_that_do_not_exist(capsys, words):
     assert main(["dbc", "--nodes", words]) == 2
 
     assert re.fullmatch(r"octet: argument --nodes: .*\n", capsys.readouterr().err)
@@ -147,11 +147,11 @@ UNASKED = ("COMMAND", "ANSWER", "CRASH", "RANGES", "EMERGENCY", "BOOT")
 """What a run without faults sends at its start, or never."""
 
 
-def test_the_crc_is_that_of_can():
+def test_crc15_has_the_check_value_of_can():
     assert crc15("".join(f"{byte:08b}" for byte in b"123456789")) == 0x059E  # the check value of CRC-15/CAN
 
 
-def test_no_frame_takes_more_than_the_worst_case():
+def test_frames_take_at_most_the_bits_of_the_worst_case():
     source = random.Random(1)
     for length in range(9):
         frames = [Frame(source.randrange(0x800), source.randbytes(length)) for _ in range(300)]
@@ -161,7 +161,7 @@ def test_no_frame_takes_more_than_the_worst_case():
     assert worst_bits(0) == 55
 
 
-def test_a_log_has_the_frames_a_second_of_the_table(tmp_path):
+def test_log_has_the_frame_rates_of_the_table(tmp_path):
     log = list(read_log(record_run(tmp_path, seed=4, limit_s=30.0).log))
     seconds = (log[-1].time_us - log[0].time_us) / 1e6
     frames = Counter(hear(it.frame).name for it in log)
@@ -173,7 +173,7 @@ def test_a_log_has_the_frames_a_second_of_the_table(tmp_path):
     assert set(frames) - set(UNASKED) == set(MESSAGES) - set(UNASKED)
 
 
-def test_the_table_has_a_message_at_its_worst():
+def test_load_table_gives_a_message_at_its_worst():
     (line,) = re.findall(r"^\| DRIVE .*$", load_tables(), re.MULTILINE)
 
     worst = worst_bits(8) * 50

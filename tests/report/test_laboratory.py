@@ -33,7 +33,7 @@ def laboratory_in(page: Path) -> dict:
     return {name: bool(part) if name in ("wasm", "worker") else part for name, part in parts.items()}
 
 
-def test_the_page_holds_the_firmware_and_what_the_robots_were_told(run_of, tmp_path):
+def test_page_holds_the_firmware_and_the_recorded_commands(run_of, tmp_path):
     log, page = run_of("--robots", "2", "--set", "turn_deg=20"), tmp_path / "page.html"
 
     done = octet("replay", log, "--html", page, "--what-if")
@@ -50,18 +50,18 @@ def test_the_page_holds_the_firmware_and_what_the_robots_were_told(run_of, tmp_p
     assert {tick for tick, *_ in run["commands"]} == {0, 200}
 
 
-def test_octet_html_is_small_enough_for_a_slow_line():
+def test_packed_octet_html_is_at_most_260_kb():
     assert len(packed_page(octet_page()).encode()) <= 260_000
 
 
-def test_the_page_of_a_class_may_reach_its_server_and_says_that_it_is_one():
+def test_class_page_may_reach_its_server_and_is_marked_as_one():
     text = unpacked(class_page())
 
     assert "default-src 'none'; connect-src 'self'; " in text
     assert '<meta name="octet-class"' in text
 
 
-def test_a_run_writes_into_its_page_what_its_log_says(tmp_path):
+def test_page_of_a_run_holds_the_same_as_one_made_of_its_log(tmp_path):
     words = ("--robots", "2", "--limit-s", "4", "--environments", "1", "--set", "turn_deg=20", "--change", "plant@2s")
 
     done = octet_process("run", "--bus", "none", "--quiet", "--out", tmp_path, *words)
@@ -74,7 +74,7 @@ def test_a_run_writes_into_its_page_what_its_log_says(tmp_path):
     assert own == replayed
 
 
-def test_a_page_is_without_it_where_the_firmware_was_not_built_for_pages(run_of, tmp_path, monkeypatch):
+def test_page_lacks_the_firmware_if_it_was_not_built_for_pages(run_of, tmp_path, monkeypatch):
     monkeypatch.setattr(replay_command, "PAGE_WASM", tmp_path / "missing.wasm")
     log, page = run_of(), tmp_path / "page.html"
 
@@ -100,7 +100,7 @@ def test_missing_build_for_what_if_is_named(run_of, tmp_path, monkeypatch):
     ("words", "why"),
     [(("--robots", "5"), "What if? supports only robots of nodes 1 to 4."), (("--node", "2"), "What if? supports")],
 )
-def test_a_run_that_it_cannot_repeat_says_so(run_of, tmp_path, words, why):
+def test_replay_says_why_what_if_cannot_repeat_a_run(run_of, tmp_path, words, why):
     log, page = run_of(*words), tmp_path / "page.html"
 
     done = octet("replay", log, "--html", page, "--what-if", *words[:2] if words[0] == "--node" else ())
@@ -110,7 +110,7 @@ def test_a_run_that_it_cannot_repeat_says_so(run_of, tmp_path, words, why):
     assert laboratory_in(page)["why"].startswith(why)
 
 
-def test_a_run_in_an_unknown_world_says_so(run_of, tmp_path):
+def test_replay_says_that_what_if_needs_the_world_of_the_run(run_of, tmp_path):
     page = tmp_path / "page.html"
 
     done = octet("replay", run_of(), "--html", page, "--no-world", "--what-if")
@@ -119,7 +119,7 @@ def test_a_run_in_an_unknown_world_says_so(run_of, tmp_path):
     assert laboratory_in(page)["why"] == "What if? needs the world of the run, which is not known here."
 
 
-def test_it_is_for_a_page(run_of):
+def test_replay_refuses_what_if_without_html(run_of):
     done = octet("replay", run_of(), "--what-if")
 
     assert (done.returncode, done.stderr) == (2, "octet: --what-if is for a page: name it with --html FILE\n")

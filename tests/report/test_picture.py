@@ -92,16 +92,16 @@ def count(pixels: NDArray[np.uint8], colour: tuple[int, int, int]) -> int:
     return int((abs(pixels.astype(int) - colour).max(axis=2) <= 3).sum())
 
 
-def test_the_same_run_gives_the_same_bytes() -> None:
+def test_run_picture_has_the_same_bytes_for_the_same_run() -> None:
     assert png(busy_panel(1), memory=LEARNED_MEMORY) == png(busy_panel(1), memory=LEARNED_MEMORY)
 
 
 @pytest.mark.parametrize("environments", [1, 10])
-def test_the_busiest_picture_stays_below_400_kb(environments: int) -> None:
+def test_busiest_picture_stays_below_400_kb(environments: int) -> None:
     assert len(png(*[busy_panel(1)] * environments, memory=LEARNED_MEMORY)) < 400_000
 
 
-def test_all_pictures_are_equally_wide_and_grow_by_the_row() -> None:
+def test_pictures_have_one_width_and_grow_by_the_row() -> None:
     shapes = {n: picture(*[panel()] * n).shape for n in (3, 4, 6, 7, 9, 10)}
 
     assert {width for _, width, _ in shapes.values()} == {1680}
@@ -123,7 +123,7 @@ def test_longer_runs_show_their_last_nine_environments() -> None:
 
 
 @pytest.mark.parametrize(("reason", "colour"), [(2, FOOD_GREEN), (5, TRIAL_ORANGE), (6, BORED_PINK)])
-def test_the_path_has_the_colour_of_its_reason(reason: int, colour: tuple[int, int, int]) -> None:
+def test_path_has_the_colour_of_its_reason(reason: int, colour: tuple[int, int, int]) -> None:
     still = picture(panel())
     acted = picture(panel(trail=((2600.0, 1500.0, 1), (2900.0, 1500.0, reason), (2900.0, 900.0, 1))))
 
@@ -137,7 +137,7 @@ def test_food_is_a_full_disc_until_it_is_eaten() -> None:
     assert count(left, FOOD_GREEN) > count(eaten, FOOD_GREEN) + 100
 
 
-def test_a_learned_memory_shows_arrows() -> None:
+def test_learned_memory_shows_arrows() -> None:
     empty = picture(panel())
     learned = picture(panel(), memory=LEARNED_MEMORY)
 
@@ -159,7 +159,7 @@ def test_left_and_right_arrows_mirror_each_other() -> None:
     assert sides[0] == pytest.approx(-sides[1], rel=0.15)
 
 
-def test_each_of_several_robots_has_its_path_and_its_memory() -> None:
+def test_picture_of_several_robots_shows_path_and_memory_of_each() -> None:
     alone = draw_run(run(panel()))
     trail = [(2600.0, 1500.0, 1), (2900.0, 1500.0, 1), (2900.0, 1500.0, 5), (2900.0, 900.0, 1)]
     two = Panel([STAY * len(trail), trail])
@@ -171,7 +171,7 @@ def test_each_of_several_robots_has_its_path_and_its_memory() -> None:
     assert orange[1] > orange[0]
 
 
-def test_a_plant_is_drawn_and_news_are_told_below_the_environments():
+def test_plant_is_drawn_and_news_is_told_below_the_environments():
     scene = EnvironmentScene(**SCENE, plants=[[0, 1000.0, 500.0, 300.0]])
     bare, planted = (draw_run(run(panel(scene=one))) for one in (SCENE, scene))
     changed = run(panel())
@@ -201,7 +201,7 @@ def pixels(picture: Image.Image, colour: tuple[int, int, int]) -> int:
     return sum(count for count, found in picture.getcolors(1 << 24) if found == colour)
 
 
-def test_a_short_run_has_seconds_on_its_axis(tmp_path, monkeypatch):
+def test_fleet_picture_of_a_short_run_has_seconds_on_its_axis(tmp_path, monkeypatch):
     said = []
     monkeypatch.setattr("host_sim.report.fleet_picture.write", lambda *given: said.append(given[2]))
 
@@ -210,7 +210,7 @@ def test_a_short_run_has_seconds_on_its_axis(tmp_path, monkeypatch):
     assert [text for text in said if text.endswith(" s")] == ["0 s", "1 s", "2 s"]
 
 
-def test_each_robot_that_did_not_finish_is_an_orange_square(tmp_path):
+def test_fleet_picture_shows_unfinished_robots_as_orange_squares(tmp_path):
     counts = [
         pixels(drawn(tmp_path, [result(robot, finished=robot > few) for robot in range(1, 1001)]), ORANGE)
         for few in (1, 2, 12)
@@ -221,24 +221,24 @@ def test_each_robot_that_did_not_finish_is_an_orange_square(tmp_path):
     assert counts[2] - counts[1] == pytest.approx(10 * square, rel=0.02)
 
 
-def test_ten_thousand_robots_fit_into_a_picture_of_moderate_size(tmp_path):
+def test_fleet_picture_of_ten_thousand_robots_has_a_moderate_size(tmp_path):
     picture = drawn(tmp_path, [result(robot, environment=n) for robot in range(1, 10_001) for n in range(1, 8)])
 
     assert picture.size[1] < 2000
     assert (tmp_path / "fleet.png").stat().st_size < 400_000
 
 
-def test_picture_is_drawn_if_no_robot_finished(tmp_path):
+def test_fleet_picture_is_drawn_if_no_robot_finished(tmp_path):
     assert pixels(drawn(tmp_path, [result(1, finished=False)]), ORANGE) > 1000
 
 
-def test_equal_runs_give_equal_bytes(tmp_path):
+def test_fleet_picture_is_the_same_for_results_in_any_order(tmp_path):
     results = [result(robot) for robot in range(1, 50)]
 
     assert drawn(tmp_path, results).tobytes() == drawn(tmp_path, results[::-1]).tobytes()
 
 
-def test_a_common_world_is_shown_with_all_its_robots(tmp_path):
+def test_common_world_is_drawn_with_all_its_robots(tmp_path):
     world = generate(1, 1, PARAMS), (True, True, False)
     few, many = [result(1)], [result(robot) for robot in range(1, 700, 7)]
 
@@ -250,7 +250,7 @@ IMAGES = Path(__file__).resolve().parents[2] / "docs/images"
 
 
 @pytest.mark.parametrize("name", WORLD_NAMES)
-def test_the_pictures_in_the_documents_are_those_of_the_command(name, tmp_path):
+def test_documented_world_pictures_are_those_of_the_command(name, tmp_path):
     drawn = tmp_path / "drawn.png"
 
     assert main(["world", name, "--width", "320", "--png", str(drawn)]) == 0
@@ -259,14 +259,14 @@ def test_the_pictures_in_the_documents_are_those_of_the_command(name, tmp_path):
         assert ImageChops.difference(new.convert("RGB"), old.convert("RGB")).getbbox() is None
 
 
-def test_the_command_says_what_an_environment_has(capsys):
+def test_world_command_says_what_an_environment_has(capsys):
     assert main(["world", "small"]) == 0
 
     said = "small: 2000 x 1500 mm, 2 obstacles, 3 pieces of food, all of which can be reached\n"
     assert capsys.readouterr().out == said
 
 
-def test_a_mistake_is_one_line(capsys):
+def test_world_command_refuses_an_unknown_world_in_one_line(capsys):
     assert main(["world", "smal"]) == 2
 
     assert capsys.readouterr().err == "octet: there is no world 'smal': did you mean small?\n"

@@ -57,7 +57,7 @@ def run_in(text: str) -> dict:
     return data_in(text, "run")
 
 
-def test_the_page_has_the_state_of_every_tick(kept, tmp_path):
+def test_page_holds_the_state_of_every_tick(kept, tmp_path):
     write_page(tmp_path / "page.html", kept.trajectory, "a run")
 
     run = run_in((tmp_path / "page.html").read_text())
@@ -91,7 +91,7 @@ def test_recording_is_packed_once_for_its_pages_and_its_file(tmp_path, monkeypat
     assert len(packed) == 2
 
 
-def test_ten_robot_minutes_are_less_than_a_megabyte(tmp_path):
+def test_page_of_ten_robot_minutes_is_below_a_megabyte(tmp_path):
     trajectory = record_run(tmp_path, seed=1, environments=5, limit_s=120.0).trajectory
     assert trajectory.ticks >= 25_000
 
@@ -100,7 +100,7 @@ def test_ten_robot_minutes_are_less_than_a_megabyte(tmp_path):
     assert len(text.encode()) * 30_000 / trajectory.ticks < 1_000_000
 
 
-def test_the_page_needs_nothing_from_anywhere(kept):
+def test_page_loads_nothing_from_outside(kept):
     text = page(run_data(kept.trajectory, "a run"))
 
     assert set(re.findall(r"\bhttps?://[^\s\"'`<)]*", text)) <= {SVG}
@@ -108,13 +108,13 @@ def test_the_page_needs_nothing_from_anywhere(kept):
     assert not re.search(r"^(import|export) ", text, re.MULTILINE)
 
 
-def test_the_same_run_gives_the_same_bytes(tmp_path):
+def test_page_has_the_same_bytes_for_the_same_run(tmp_path):
     texts = [page(run_data(record_run(tmp_path / name, seed=5, limit_s=20.0).trajectory, "x")) for name in "ab"]
 
     assert texts[0] == texts[1]
 
 
-def test_a_run_leaves_the_page_that_its_log_makes(tmp_path):
+def test_run_leaves_the_page_that_its_log_makes(tmp_path):
     words = ["--seed", "4", "--environments", "1", "--limit-s", "20", "--bus", "none", "--quiet"]
     assert main(["run", *words, "--out", str(tmp_path)]) == 0
     again = tmp_path / "again.html"
@@ -124,7 +124,7 @@ def test_a_run_leaves_the_page_that_its_log_makes(tmp_path):
     assert again.read_bytes() == (tmp_path / "replay.html").read_bytes()
 
 
-def test_nothing_in_a_run_ends_the_script_that_holds_it(kept):
+def test_title_cannot_end_the_script_that_holds_the_run(kept):
     title = "</script><script>alert(1)</script><!--"
 
     text = page(run_data(kept.trajectory, title))
@@ -133,7 +133,7 @@ def test_nothing_in_a_run_ends_the_script_that_holds_it(kept):
     assert run_in(text)["title"] == title
 
 
-def test_a_page_is_its_template_with_its_style_and_its_program(tmp_path, monkeypatch):
+def test_page_inlines_the_parts_styles_and_scripts_of_its_template(tmp_path, monkeypatch):
     for module in (languages, page_bundle):
         monkeypatch.setattr(module, "WEB", tmp_path)
     monkeypatch.setattr(page_bundle, "PAGE_SCRIPTS", tmp_path)
@@ -155,7 +155,7 @@ def no_scripts(tmp_path, monkeypatch):
 
 
 @pytest.mark.usefixtures("no_scripts")
-def test_a_run_without_the_program_of_its_page_leaves_the_page_out(tmp_path, capsys):
+def test_run_without_built_scripts_leaves_its_page_out(tmp_path, capsys):
     out = tmp_path / "out"
 
     assert main(["run", "--bus", "none", "--environments", "1", "--limit-s", "2", "--out", str(out)]) == 0
@@ -166,18 +166,18 @@ def test_a_run_without_the_program_of_its_page_leaves_the_page_out(tmp_path, cap
 
 
 @pytest.mark.usefixtures("no_scripts")
-def test_a_page_whose_program_is_not_built_says_how_to_get_it():
+def test_page_without_built_scripts_says_how_to_build_them():
 
     with pytest.raises(PageNotBuiltError, match=r"cannot read .*octet\.js: .*; build it with tools/setup$"):
         octet_page({"why": "nothing"})
 
 
 @given(st.lists(st.lists(st.integers(-(2**29), 2**29), min_size=3, max_size=3), min_size=1, max_size=5))
-def test_columns_come_out_as_they_went_in(columns):
+def test_packed_columns_are_unpacked_unchanged(columns):
     assert unpacked(pack(columns), len(columns)) == columns
 
 
-def test_a_reckoned_way_makes_a_page_as_well(kept):
+def test_page_is_made_of_dead_reckoning_without_the_world(kept):
     trajectory: Trajectory = resimulate(kept.log, ignore_world=True).trajectory
 
     run = run_in(page(run_data(trajectory, "somewhere")))
@@ -187,14 +187,14 @@ def test_a_reckoned_way_makes_a_page_as_well(kept):
 
 
 @pytest.mark.parametrize("name", ["nowhere/page.html", "."])
-def test_a_page_that_cannot_be_written_is_one_line(short, tmp_path, capsys, name):
+def test_unwritable_page_is_reported_in_one_line(short, tmp_path, capsys, name):
     before = set(tmp_path.rglob("*"))
     assert main(["replay", str(short.log), "--html", str(tmp_path / name)]) == 2
     assert set(tmp_path.rglob("*")) == before
     assert re.fullmatch(r"octet: cannot write .*\n", capsys.readouterr().err)
 
 
-def test_a_page_that_is_written_as_a_file_may_load_nothing():
+def test_page_file_may_load_nothing_by_its_security_policy():
     text = page_bundle.page_of(languages.template("octet.html"))
 
     policy = re.search(r'<meta http-equiv="Content-Security-Policy" content="([^"]*)">', text)
