@@ -22,7 +22,7 @@ def one_pupil(hold_class, open_page):
     return open_page(board, ready=READY), open_page(page, ready=PAGE_READY), page
 
 
-def test_a_pupil_appears_with_goals_that_survive_a_reload_and_the_teacher_sees_the_run(one_pupil):
+def test_pupil_on_the_board_keeps_goals_after_reload_and_links_to_the_run(one_pupil):
     board, page, _ = one_pupil
     assert "token" not in board.url + page.url
     name = "<b>Ada</b> & Ben"
@@ -47,7 +47,7 @@ def test_a_pupil_appears_with_goals_that_survive_a_reload_and_the_teacher_sees_t
     assert f"&seed={seed}&" in opened.value.url  # the link that was there when it was pressed: the pupil goes on
 
 
-def test_a_code_from_a_page_without_a_network_comes_to_the_board(one_pupil, tmp_path, open_page):
+def test_code_of_an_offline_page_brings_its_goals_to_the_board(one_pupil, tmp_path, open_page):
     board, _, _ = one_pupil
     page = open_page(page_file(tmp_path).as_uri(), ready=PAGE_READY)
     page.click("#tab-lessons")
@@ -70,7 +70,7 @@ def test_a_code_from_a_page_without_a_network_comes_to_the_board(one_pupil, tmp_
     wait_for(board, "octet.class.pupils.length === 0")
 
 
-def test_a_board_with_thirty_pupils_fits_a_projector_and_anyone_can_read_it(hold_class, open_page):
+def test_board_with_thirty_pupils_fits_a_projector_and_is_accessible(hold_class, open_page):
     page, board_url = hold_class()
     pupil = open_page(page, ready=PAGE_READY)
     goals = {lesson: list(range(count))[: i % 4] for i, (lesson, count) in enumerate(lesson_goals().items())}
@@ -99,7 +99,7 @@ def test_a_board_with_thirty_pupils_fits_a_projector_and_anyone_can_read_it(hold
         assert board.evaluate(TOO_SMALL) == [], size
 
 
-def test_the_page_says_when_the_board_does_not_answer_and_goes_on(one_pupil):
+def test_page_says_when_the_board_does_not_answer_and_tries_again(one_pupil):
     _, page, _ = one_pupil
     page.fill("#my-name", "Ada")
     page.press("#my-name", "Tab")
@@ -113,7 +113,7 @@ def test_the_page_says_when_the_board_does_not_answer_and_goes_on(one_pupil):
     wait_for_text(page, "#class-news", "1 goals are on the board")
 
 
-def test_the_short_address_leads_to_the_page(one_pupil, open_page):
+def test_short_address_opens_the_page(one_pupil, open_page):
     board, _, _ = one_pupil
 
     page = open_page("http://" + board.inner_text("#urls li:first-child").replace("\n", "").upper(), ready=PAGE_READY)

@@ -8,7 +8,7 @@ import aiohttp
 from host_sim.live.join_code import EACH_MAX
 
 
-def test_the_code_leads_to_the_page_and_guesses_are_limited(watch):
+def test_join_code_opens_the_page_and_guesses_are_limited(watch):
     watched = watch("--listen", "127.0.0.1", "--robots", "2")
     home = "/".join(watched.url.split("/")[:3])
     line = next(line for line in watched.process.stdout if line.startswith("to type"))
@@ -25,7 +25,7 @@ def test_the_code_leads_to_the_page_and_guesses_are_limited(watch):
     assert asyncio.run(ask(*wrong, code)) == [(403, "")] * EACH_MAX + [(429, "")]
 
 
-def test_nothing_moves_before_someone_watches(watch):
+def test_robot_does_not_move_before_someone_watches(watch):
     watched = watch("--listen", "127.0.0.1", "--limit-s", "600")
     next(line for line in watched.process.stdout if line.startswith("waits"))
     watched.end()

@@ -36,7 +36,7 @@ def page(module_watch: Watched, open_page: Callable[..., Page]) -> Page:
     return page
 
 
-def test_the_page_shows_how_the_robot_was_started(watch, open_page):
+def test_page_shows_behaviour_and_parameters_of_the_run(watch, open_page):
     page = open_page(watch("--profile", "adaptive", "--set", "turn_deg=20").url)
     wait_for(page, "octet.live")
 
@@ -45,7 +45,7 @@ def test_the_page_shows_how_the_robot_was_started(watch, open_page):
     assert page.input_value(".slider input[title=turn_deg]") == "20"
 
 
-def test_the_page_shows_the_run_as_it_goes_on(page):
+def test_page_shows_the_run_as_it_goes_on(page):
     first = state(page)["tick"]
     wait_for(page, "tick => octet.scene.state.tick > tick + 25", first)
     assert page.inner_text("#fact-environment") == "1 of 5"
@@ -53,26 +53,26 @@ def test_the_page_shows_the_run_as_it_goes_on(page):
     assert len(page.inner_text("#doing")) > 10
 
 
-def test_of_a_robot_on_its_pins_it_shows_what_is_on_them(page):
+def test_page_shows_the_pin_readings_of_a_robot_on_its_pins(page):
     assert not page.is_visible("#pins")
     draw = "octet.showLive({ ...octet.live.message, pins: [{ volts: 7.4, counts: [5, 6], duty: [30, -31] }] })"
     read = "(({ innerText, clientWidth }) => [innerText, clientWidth > 0])(document.getElementById('pins'))"
     assert page.evaluate(f"{draw}, {read}") == ["7.4 V, encoders 5, 6, duty 30, -31 %", True]
 
 
-def test_the_drawing_of_its_frames_can_be_timed(page):
+def test_drawing_of_frames_can_be_timed(page):
     page.evaluate(TIME_DRAWING)
     wait_for(page, "octet.times.length > 2")
 
 
-def test_the_token_leaves_the_address_and_a_reload_needs_none(page):
+def test_token_leaves_the_address_and_a_reload_needs_none(page):
     assert "token" not in page.url
     assert page.evaluate("document.cookie") == ""
     page.reload()
     wait_for(page, "window.octet?.scene && octet.scene.state.tick > octet.scene.environment.start_tick")
 
 
-def test_it_pauses_and_plays_again(page):
+def test_page_pauses_and_plays_again(page):
     pause(page)
     tick = state(page)["tick"]
     page.click("#freeze")
@@ -82,7 +82,7 @@ def test_it_pauses_and_plays_again(page):
     wait_for(page, "tick => octet.scene.state.tick > tick", tick)
 
 
-def test_a_single_decision_is_more_than_a_step(page):
+def test_single_decision_plays_more_than_a_step(page):
     pause(page)
     full_speed(page)
     before = state(page)
@@ -91,7 +91,7 @@ def test_a_single_decision_is_more_than_a_step(page):
     assert not {before["reason"], state(page)["reason"]} <= {1, 3}
 
 
-def test_next_environment_and_a_new_seed(watch, open_page):
+def test_next_environment_and_new_seed_are_started_from_the_page(watch, open_page):
     watched = watch("--seed", "5")
     page = open_page(watched.url)
     page.select_option("#kind", "environment")
@@ -105,7 +105,7 @@ def test_next_environment_and_a_new_seed(watch, open_page):
     assert begun == [(5, 1), (5, 2), (77, 1)]
 
 
-def test_a_pressed_cell_is_a_command_on_the_bus(watch, open_page):
+def test_cell_erase_and_freeze_buttons_send_commands_on_the_bus(watch, open_page):
     watched = watch()
     page = open_page(watched.url)
     pause(page)
@@ -124,7 +124,7 @@ def test_a_pressed_cell_is_a_command_on_the_bus(watch, open_page):
     assert freeze == {"opcode": Opcode.FREEZE, "freeze": 1}
 
 
-def test_an_obstacle_dragged_into_its_way_makes_it_learn_anew(watch, open_page):
+def test_obstacle_dragged_into_its_way_makes_an_erased_robot_learn(watch, open_page):
     watched = watch("--seed", "1")
     page = open_page(watched.url)
     pause(page)
@@ -144,7 +144,7 @@ def test_an_obstacle_dragged_into_its_way_makes_it_learn_anew(watch, open_page):
     assert {edit["do"] for edit in watched.params()["edits"]} == {"move_bar"}
 
 
-def test_the_robot_is_picked_up_and_put_down_elsewhere(watch, open_page):
+def test_dragged_robot_is_picked_up_and_put_down_elsewhere(watch, open_page):
     watched = watch("--seed", "1")
     page = open_page(watched.url)
     pause(page)
@@ -163,7 +163,7 @@ def test_food_is_dragged_elsewhere(page):
     wait_for(page, "octet.scene.environment.food[0][1] > 2680")
 
 
-def test_a_run_that_a_person_changed_replays(watch, open_page):
+def test_run_changed_by_a_person_replays(watch, open_page):
     watched = watch("--seed", "4")
     page = open_page(watched.url)
     page.select_option("#kind", "environment")
@@ -192,20 +192,20 @@ def test_a_run_that_a_person_changed_replays(watch, open_page):
     assert run_in(again) == run_in(watched.out / "replay.html")
 
 
-def test_a_lifted_robot_senses_nothing(page):
+def test_lifted_robot_senses_nothing(page):
     page.click("#lift")
     wait_for(page, "octet.scene.state.lifted === 1 && octet.scene.state.feel === 0 && octet.scene.state.beacon === 0")
     wait_for_text(page, "#doing", "picked me up")
 
 
-def test_what_cannot_be_done_is_said(page):
+def test_impossible_drag_is_reported(page):
     pause(page)
     now, bar = state(page), page.evaluate("octet.scene.environment.bars[0]")
     drag(page, ((bar[1] + bar[3]) / 2, (bar[2] + bar[4]) / 2), (now["x"], now["y"]))
     wait_for_text(page, "#note", "the robot stands there")
 
 
-def test_reloading_in_mid_run_goes_on_where_the_run_is(page):
+def test_reloaded_page_continues_at_the_current_tick(page):
     wait_for(page, "octet.scene.state.tick > octet.scene.environment.start_tick + 20")
     tick = state(page)["tick"]
     page.reload()
@@ -221,14 +221,14 @@ def test_two_pages_see_the_same_run(page, module_watch, open_page):
     assert state(page) == state(other)
 
 
-def test_a_closed_page_harms_nothing(page, module_watch, open_page):
+def test_closed_page_does_not_stop_the_run(page, module_watch, open_page):
     other = open_page(module_watch.url)
     page.close()
     tick = state(other)["tick"]
     wait_for(other, "tick => octet.scene.state.tick > tick + 10", tick)
 
 
-def test_keyboard_alone(page):
+def test_keyboard_alone_controls_the_live_page(page):
     page.keyboard.press("Space")
     wait_for(page, "!octet.play.playing")
     page.evaluate("octet.send({ do: 'speed', factor: 0 })")
@@ -267,7 +267,7 @@ def test_keyboard_alone(page):
     wait_for(page, "octet.scene.environment.number === 2")
 
 
-def test_all_controls_can_be_reached_by_tab(page):
+def test_tab_key_reaches_the_controls(page):
     pause(page)
     reached = set()
     for _ in range(60):
@@ -276,7 +276,7 @@ def test_all_controls_can_be_reached_by_tab(page):
     assert {"play", "scrub", "speed", "lift", "add-bar", "after", "seed", "freeze", "erase"} <= reached
 
 
-def test_the_end_of_the_run_is_said(watch, open_page):
+def test_status_reports_the_end_of_the_run(watch, open_page):
     watched = watch("--environments", "1")
     page = open_page(watched.url)
     full_speed(page)
@@ -286,14 +286,14 @@ def test_the_end_of_the_run_is_said(watch, open_page):
     wait_for_text(page, "#status", "The run has ended")
 
 
-def test_the_place_of_a_click_is_where_the_robot_is(page):
+def test_click_at_the_robots_position_selects_it(page):
     pause(page)
     now = state(page)
     page.mouse.click(*place_on_page(page, now["x"], now["y"]))
     assert page.evaluate("octet.scene.item.kind") == "robot"
 
 
-def test_a_robot_answers_while_it_runs(page):
+def test_robot_answers_while_it_runs(page):
     page.click("#tab-talk")
     page.fill("#talk-line", "Where are you?")
     page.press("#talk-line", "Enter")

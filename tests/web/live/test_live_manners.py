@@ -58,7 +58,7 @@ def commands(page: Page, run: FakeRun, count: int) -> list[dict]:
     return run.commands
 
 
-def test_a_robot_cannot_be_dragged_through_a_wall(page, run):
+def test_robot_cannot_be_dragged_through_a_wall(page, run):
     for end in ((-400, 700), (4300, 2900), (2000, 3300)):
         run.commands.clear()
         drag(page, (800, 700), end)
@@ -71,7 +71,7 @@ def test_a_robot_cannot_be_dragged_through_a_wall(page, run):
         wait_for(page, "octet.scene.ghosts.size === 0")
 
 
-def test_a_lifted_robot_cannot_be_moved_through_a_wall_by_keys(page, run):
+def test_lifted_robot_cannot_be_moved_through_a_wall_by_keys(page, run):
     page.locator(".lane canvas").focus()
     page.keyboard.press("p")
     run.states[0]["lifted"] = 1
@@ -82,14 +82,14 @@ def test_a_lifted_robot_cannot_be_moved_through_a_wall_by_keys(page, run):
     assert 100 < page.evaluate("octet.scene.ghosts.get(1).x") < 110
 
 
-def test_a_robot_that_could_not_be_lifted_is_drawn_where_it_is(page, run):
+def test_robot_that_could_not_be_lifted_is_drawn_where_it_is(page, run):
     drag(page, (800, 700), (2000, 1500))
     run.send(notes=["the run is over: start over to see more"])
 
     wait_for(page, "octet.scene.ghosts.size === 0")
 
 
-def test_a_refusal_is_said_beside_the_button(page, run):
+def test_refusal_is_shown_beside_the_pressed_button(page, run):
     for button in ("#add-bar", "#lift", "#erase"):
         page.click(button)
         run.send(notes=[f"there is no room for the robot, says {button}"])
@@ -101,7 +101,7 @@ def test_a_refusal_is_said_beside_the_button(page, run):
         assert note["y"] + note["height"] <= 900
 
 
-def test_a_refusal_is_said_where_a_thing_was_dropped(page, run):
+def test_refusal_is_shown_where_an_item_was_dropped(page, run):
     drag(page, (500, 2500), (3900, 2900))
     run.send(notes=["that is outside of the arena"])
     wait_for_text(page, "#note", "that is outside of the arena")
@@ -111,7 +111,7 @@ def test_a_refusal_is_said_where_a_thing_was_dropped(page, run):
     assert abs(note["x"] - dropped[0]) < 400
 
 
-def test_a_refusal_is_said_beside_what_the_keyboard_is_at(page, run):
+def test_refusal_is_shown_beside_the_focused_control(page, run):
     page.locator("#erase").focus()
     page.keyboard.press("Enter")
     run.send(notes=["the robot refused a command"])
@@ -131,23 +131,23 @@ def colours(page: Page, run: FakeRun, reasons: list[int]) -> list[str]:
     return seen
 
 
-def test_the_body_does_not_flicker_while_it_wanders(page, run):
+def test_body_colour_does_not_flicker_while_the_robot_wanders(page, run):
     assert len(set(colours(page, run, [1, 3] * 20))) == 1
 
 
-def test_the_body_does_not_flicker_between_turns_and_steps(page, run):
+def test_body_colour_does_not_flicker_between_turns_and_steps(page, run):
     seen = colours(page, run, [4, 1] * 10)
 
     assert sum(a != b for a, b in pairwise(seen)) <= 2
 
 
-def test_what_matters_more_is_seen_at_once(page, run):
+def test_more_important_reason_changes_the_body_colour_at_once(page, run):
     seen = colours(page, run, [1, 5])
 
     assert seen[0] != seen[1]
 
 
-def test_the_end_of_an_environment_is_said_in_large_letters(page, run):
+def test_banner_reports_the_end_of_an_environment_in_large_letters(page, run):
     run.states[0]["eaten"] = [1, 1, 1]
     run.send(play=PLAY | {"ended": ENDED})
     wait_for_text(page, "#banner", "All food eaten")
@@ -161,14 +161,14 @@ def test_the_end_of_an_environment_is_said_in_large_letters(page, run):
     wait_for(page, "document.querySelector('#banner').textContent === ''")
 
 
-def test_the_end_of_the_run_is_all_done(page, run):
+def test_banner_says_all_done_at_the_end_of_the_run(page, run):
     run.send(play=PLAY | {"done": True, "ended": ENDED | {"environments": 5, "environments_finished": 4}})
 
     wait_for_text(page, "#banner", "ALL DONE")
     assert "4 of 5 environments finished" in page.inner_text("#banner")
 
 
-def test_no_button_without_effect_lives_on_after_the_end(page, run):
+def test_buttons_without_effect_are_disabled_after_the_end(page, run):
     run.send(play=PLAY | {"done": True, "ended": ENDED})
     wait_for_text(page, "#banner", "ALL DONE")
 
@@ -180,7 +180,7 @@ def test_no_button_without_effect_lives_on_after_the_end(page, run):
     assert page.get_by_role("button", name="Start over").is_enabled()
 
 
-def test_starting_over_says_what_it_did_and_begins_its_clock_and_lessons_anew(page, run):
+def test_starting_over_is_reported_and_resets_clock_and_lessons(page, run):
     lesson = {"node": 1, "tick": 5, "cell": 2, "side": 1, "by_hand": 0}
     run.send(lessons=[lesson])
     wait_for_text(page, "#lessons", "Learned")
@@ -202,7 +202,7 @@ def test_starting_over_keeps_the_memory_only_if_asked_to(page, run):
     assert commands(page, run, 2) == [{"do": "seed", "seed": 5, "keep": 0}, {"do": "seed", "seed": 6, "keep": 1}]
 
 
-def test_freezing_does_not_rewrite_an_old_verdict(page, run):
+def test_freezing_does_not_change_the_verdict_of_an_earlier_trial(page, run):
     trial = {"tick": 1, "cell": 2, "side": 1, "helped": 1, "frozen": 0}
     run.states[0] |= {"trial": trial, "frozen": 1}
     run.send()
@@ -213,7 +213,7 @@ def test_freezing_does_not_rewrite_an_old_verdict(page, run):
     wait_for_text(page, "#why", "It helped, but my learning was frozen.")
 
 
-def test_the_verdict_is_that_of_the_terminal(page):
+def test_verdicts_are_those_of_the_terminal(page):
     trials = [
         None,
         *(
@@ -227,7 +227,7 @@ def test_the_verdict_is_that_of_the_terminal(page):
     assert page.evaluate(with_modules(say, "core/phrases.ts"), trials) == [phrases.verdict(trial) for trial in trials]
 
 
-def test_a_cell_says_who_filled_it_and_an_empty_one_says_nothing(page, run):
+def test_cell_says_whether_it_was_told_or_learned_unless_empty(page, run):
     resize(page, (1920, 1000))
     run.states[0] |= {
         "memory": [0, 1, 2, 0, 0, 0, 0, 0],
@@ -242,7 +242,7 @@ def test_a_cell_says_who_filled_it_and_an_empty_one_says_nothing(page, run):
     assert said[1:4] == ["told 0:01.0, used 4\u00d7", "learned 0:02.0, used 7\u00d7", ""]
 
 
-def test_an_end_of_an_obstacle_turns_it(page, run):
+def test_dragged_end_of_an_obstacle_turns_it(page, run):
     drag(page, (2600, 500), (2900, 1200))
 
     moved = commands(page, run, 1)[-1]
@@ -263,7 +263,7 @@ def marks(page: Page) -> list[int]:
     }""")
 
 
-def test_marks_appear_while_the_run_goes_on(page, run):
+def test_event_marks_appear_while_the_run_goes_on(page, run):
     run.states[0]["tick"] = 1000
     run.send(events=[[[0, "environment"], [250, "lesson"]]])
     wait_for(page, "octet.tick === 1000 && !octet.stale")
@@ -279,7 +279,7 @@ def test_marks_appear_while_the_run_goes_on(page, run):
     assert marks(page) == [50]
 
 
-def test_the_legend_names_all_that_is_drawn(page):
+def test_legend_names_all_that_is_drawn(page):
     assert page.inner_text("#legend-title") == "Legend"
     assert page.get_attribute("#legend", "aria-labelledby") == "legend-title"
     said = page.inner_text("#legend")
@@ -297,7 +297,7 @@ def test_printing_keeps_colours_and_whole_cells(page):
     assert not page.locator("#tabs").is_visible()
 
 
-def test_a_page_left_open_says_that_its_run_has_ended_and_the_next_run_is_closed_to_it(watch, open_page):
+def test_page_left_open_reports_its_run_ended_and_cannot_join_the_next(watch, open_page):
     first = watch("--seed", "1")
     page = open_page(first.url)
     assert first.end() == 0

@@ -39,7 +39,7 @@ def recorded(page: Page) -> None:
     wait_for(page, "!octet.live")
 
 
-def test_the_slider_leads_back_to_any_tick_and_a_button_to_the_present(page):
+def test_slider_goes_back_to_any_tick_and_a_button_to_the_present(page):
     look_back(page, 60)
 
     assert page.evaluate("octet.tick") == 60
@@ -54,7 +54,7 @@ def test_the_slider_leads_back_to_any_tick_and_a_button_to_the_present(page):
     assert not page.is_visible("#back")
 
 
-def test_the_slider_goes_along_until_a_person_has_it(page):
+def test_slider_follows_the_run_until_it_is_dragged(page):
     wait_for(page, "document.querySelector('#scrub').max > 100")
     pause(page)
     assert page.evaluate("(({ value, max }) => value === max)(document.querySelector('#scrub'))")
@@ -69,7 +69,7 @@ def test_the_slider_goes_along_until_a_person_has_it(page):
     wait_for_text(page, "#clock", "0:01.0")
 
 
-def test_whoever_looks_back_and_returns_sees_the_same_robot(watch, open_page):
+def test_selected_robot_stays_when_looking_back_and_returning(watch, open_page):
     page = open_page(watch("--robots", "2").url)
     wait_for(page, "octet.scene.state.tick > 50")
     page.keyboard.press("2")
@@ -82,7 +82,7 @@ def test_whoever_looks_back_and_returns_sees_the_same_robot(watch, open_page):
     assert page.evaluate("octet.scene.node") == 2
 
 
-def test_a_parameter_is_set_in_a_copy_and_the_live_run_goes_on(watched, page):
+def test_parameter_is_set_in_a_copy_and_not_in_the_live_run(watched, page):
     page.click("#tab-parameters")
     page.locator("#panel-parameters input").first.fill("90")
     page.locator("#panel-parameters input").first.dispatch_event("change")
@@ -93,7 +93,7 @@ def test_a_parameter_is_set_in_a_copy_and_the_live_run_goes_on(watched, page):
     assert [it for it in watched.commands() if it["opcode"] == Opcode.SET] == []
 
 
-def test_what_if_lays_a_copy_of_the_run_so_far_beside_it(page):
+def test_key_w_lays_a_copy_of_the_run_so_far_beside_it(page):
     pause(page)
     tick = page.evaluate("octet.scene.state.tick")
     page.keyboard.press("w")
@@ -104,7 +104,7 @@ def test_what_if_lays_a_copy_of_the_run_so_far_beside_it(page):
     assert page.evaluate("[octet.tick, octet.lanes[0].last, octet.lanes[1].last > octet.tick]") == [tick, tick, True]
 
 
-def test_once_the_run_has_ended_the_page_is_the_recorded_run_and_its_buttons_work(watched, page):
+def test_page_of_an_ended_run_is_its_recording_with_working_buttons(watched, page):
     assert watched.end() == 0
 
     recorded(page)
@@ -119,7 +119,7 @@ def test_once_the_run_has_ended_the_page_is_the_recorded_run_and_its_buttons_wor
     wait_for_text(page, "#parting", SAME)
 
 
-def test_end_of_the_run_is_said_beside_its_copy(watched, page):
+def test_end_of_the_run_is_reported_beside_its_copy(watched, page):
     page.keyboard.press("w")
     wait_for(page, COPIED)
     before = page.evaluate("[octet.tick, octet.lanes[0].last]")
@@ -135,7 +135,7 @@ def test_end_of_the_run_is_said_beside_its_copy(watched, page):
     assert page.is_visible("#status")
 
 
-def test_end_of_the_run_is_said_in_another_run_and_a_button_leads_to_its_recording(watched, page):
+def test_end_of_the_run_is_reported_in_another_run_with_a_back_button(watched, page):
     page.evaluate("octet.begin({ ...octet.lane.experiment, seed: 9 })")
     wait_for(page, "!octet.live && octet.lane.data && !octet.lane.isRunning")
 
@@ -149,7 +149,7 @@ def test_end_of_the_run_is_said_in_another_run_and_a_button_leads_to_its_recordi
     wait_for_text(page, "#parting", SAME)
 
 
-def test_what_it_becomes_is_the_page_in_the_folder_of_the_run(watched, page):
+def test_recording_shown_after_the_run_is_that_made_of_its_log(watched, page):
     assert watched.end() == 0
     recorded(page)
     again = watched.out / "again.html"
@@ -160,7 +160,7 @@ def test_what_it_becomes_is_the_page_in_the_folder_of_the_run(watched, page):
     assert shown == run_in(again)
 
 
-def test_a_page_that_fetches_no_recording_ends_a_run_late_and_is_no_part_of_its_time(watch, open_page):
+def test_page_that_fetches_no_recording_delays_the_end_not_the_run_time(watch, open_page):
     began = time.monotonic()
     watched = watch("--seed", "2")
     page = open_page(watched.url)
@@ -174,7 +174,7 @@ def test_a_page_that_fetches_no_recording_ends_a_run_late_and_is_no_part_of_its_
     assert watched.summary()["wall_s"] < passed_s + HAND_OVER_S / 2
 
 
-def test_the_recording_is_for_those_who_may_watch(watched):
+def test_recording_is_refused_without_the_token(watched):
     host, port = watched.url.split("/")[2].split(":")
     address = (host, int(port), "")
 

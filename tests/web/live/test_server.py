@@ -34,7 +34,7 @@ def ask(address: tuple[str, int, str], path: str, host: str | None = None) -> ht
     return response
 
 
-def test_idle_slow_and_malformed_connections_keep_no_page_out(watch):
+def test_idle_slow_and_malformed_connections_do_not_block_pages(watch):
     outcome = flood(watch(), 900)
 
     assert outcome.served == outcome.asked
@@ -58,19 +58,19 @@ def test_idle_slow_and_malformed_connections_keep_no_page_out(watch):
         ("", 403),
     ],
 )
-def test_a_page_of_another_site_cannot_come_by_its_own_name(address, host, status):
+def test_request_with_a_foreign_host_header_is_refused(address, host, status):
     assert ask(address, f"/?{address[2]}", host).status == status
     assert ask(address, "/octet.js", host).status == status
 
 
 @pytest.mark.parametrize("path", ["/", "/nothing.js", "/?token=guess", "/live", "/../x", "/octet.js", "/%zz"])
-def test_every_answer_has_the_security_headers(address, path):
+def test_answers_have_the_security_headers(address, path):
     response = ask(address, path)
 
     assert [name for name in SECURITY if response.getheader(name) is None] == []
 
 
-def test_no_script_runs_on_the_page_but_those_of_its_server(address):
+def test_security_policy_allows_only_scripts_of_the_server(address):
     policy = ask(address, f"/?{address[2]}").getheader("Content-Security-Policy")
     scripts, styles = "script-src 'self' 'wasm-unsafe-eval'; worker-src blob:", "style-src 'self'; connect-src 'self'"
 
@@ -78,7 +78,7 @@ def test_no_script_runs_on_the_page_but_those_of_its_server(address):
     assert policy.startswith("default-src 'none'; ")
 
 
-def test_even_the_answer_to_what_is_no_request_has_them(address):
+def test_answer_to_a_malformed_request_has_the_security_headers(address):
     connection = http.client.HTTPConnection(address[0], address[1], timeout=DEADLINE_S)
     connection.putrequest("GET", "/", skip_host=True)
     connection.putheader("Content-Length", "-1")
@@ -91,7 +91,7 @@ def test_even_the_answer_to_what_is_no_request_has_them(address):
     connection.close()
 
 
-def test_an_error_is_one_line_and_many_are_a_number():
+def test_errors_are_one_line_each_and_further_ones_are_counted():
     out = StringIO()
     logger = one_line_logger(out)
     for i in range(100):
@@ -108,12 +108,12 @@ def test_an_error_is_one_line_and_many_are_a_number():
     assert isinstance(logger, logging.Logger)
 
 
-def test_other_machines_are_not_listened_to():
+def test_listener_binds_to_the_loopback_interface_by_default():
     with Listener(None, 0).socket as listening:
         assert listening.getsockname()[0] == "127.0.0.1"
 
 
-def test_the_address_always_has_a_token():
+def test_page_address_always_has_a_token():
     for listen in (None, "127.0.0.1"):
         listener = Listener(listen, 0)
         listener.socket.close()
@@ -121,7 +121,7 @@ def test_the_address_always_has_a_token():
         assert [url.rpartition("/")[2] for url in listener.urls] == [f"?token={listener.token}"]
 
 
-def test_each_run_has_a_token_of_its_own():
+def test_token_is_new_for_each_run():
     tokens = set()
     for _ in range(2):
         listener = Listener(None, 0)
@@ -131,7 +131,7 @@ def test_each_run_has_a_token_of_its_own():
     assert len(tokens) == 2
 
 
-def test_the_cookie_of_a_page_opens_it_again_and_is_out_of_reach_of_scripts_and_other_sites(module_watch):
+def test_page_cookie_reopens_the_page_and_is_http_only_and_same_site(module_watch):
     home = module_watch.url.partition("?")[0]
 
     async def statuses() -> list[int]:

@@ -87,7 +87,7 @@ def speed(factor: int) -> Callable[[Socket], Awaitable[None]]:
     return order
 
 
-def test_the_run_begins_when_someone_watches(watch):
+def test_run_begins_when_someone_watches(watch):
     assert talk(watch(), tick) <= 2
 
 
@@ -129,7 +129,7 @@ JUNK = [
 ]
 
 
-def test_junk_is_refused_and_counted(watched, refused_before):
+def test_malformed_messages_are_refused_and_counted(watched, refused_before):
     async def send_all(ws: Socket) -> None:
         for junk in JUNK:
             await ws.send_str(junk)
@@ -140,7 +140,7 @@ def test_junk_is_refused_and_counted(watched, refused_before):
     assert talk(watched, refused) == refused_before + len(JUNK) + 1
 
 
-def test_ten_megabytes_are_not_even_read(watched, refused_before):
+def test_message_of_ten_megabytes_closes_the_connection_and_is_counted(watched, refused_before):
     async def flood(ws: Socket) -> int | None:
         with contextlib.suppress(ConnectionError):
             await ws.send_bytes(b"x" * 10_000_000)
@@ -152,7 +152,7 @@ def test_ten_megabytes_are_not_even_read(watched, refused_before):
     assert talk(watched, refused) == refused_before + 1
 
 
-def test_a_page_that_talks_nonsense_for_ever_is_hung_up_on(watched):
+def test_connection_is_closed_after_many_malformed_messages(watched):
     async def babble(ws: Socket) -> int | None:
         for _ in range(200):
             with contextlib.suppress(ConnectionError):
@@ -164,7 +164,7 @@ def test_a_page_that_talks_nonsense_for_ever_is_hung_up_on(watched):
     assert talk(watched, babble) == 1008
 
 
-def test_what_is_in_order_but_impossible_is_answered_in_words(watched):
+def test_impossible_order_is_answered_in_words(watched):
     async def ask(ws: Socket) -> list[str]:
         await ws.send_str('{"do": "remove_bar", "id": 999}')
         while True:
@@ -175,7 +175,7 @@ def test_what_is_in_order_but_impossible_is_answered_in_words(watched):
     assert talk(watched, ask) == ["there is no such number"]
 
 
-def test_orders_beyond_what_may_wait_are_refused(watched):
+def test_flood_of_orders_does_not_stop_the_run(watched):
     async def hurry(ws: Socket) -> None:
         for _ in range(5000):
             await ws.send_str('{"do": "play"}')
@@ -183,7 +183,7 @@ def test_orders_beyond_what_may_wait_are_refused(watched):
     talk(watched, hurry)
 
 
-def test_a_foreign_origin_is_refused(watched, refused_before):
+def test_foreign_origin_is_refused_and_counted(watched, refused_before):
     origins = ("http://evil.example", "null", "https://127.0.0.1", "")
     for origin in origins:
         with pytest.raises(aiohttp.WSServerHandshakeError) as refusal:
@@ -192,7 +192,7 @@ def test_a_foreign_origin_is_refused(watched, refused_before):
     assert talk(watched, refused) == refused_before + len(origins)
 
 
-def test_a_page_that_stops_reading_holds_nothing_up(watched):
+def test_page_that_stops_reading_does_not_hold_up_the_run(watched):
     host, port = watched.url.split("/")[2].split(":")
     query = watched.url.partition("?")[2]
     handshake = (
@@ -212,7 +212,7 @@ def test_a_page_that_stops_reading_holds_nothing_up(watched):
     talk(watched, speed(1))
 
 
-def test_no_more_pages_than_fit(watch):
+def test_page_beyond_the_limit_is_refused_and_the_run_goes_on(watch):
     watched = watch()
     home, query = watched.url.split("?")
     headers = {"Origin": home.rstrip("/")}
@@ -230,7 +230,7 @@ def test_no_more_pages_than_fit(watch):
     ends_well(watched)
 
 
-def test_only_the_page_and_its_parts_are_served(watched):
+def test_server_serves_only_the_page_and_its_parts(watched):
     home = watched.url.split("?")[0]
 
     async def get(path: str) -> int:
@@ -243,7 +243,7 @@ def test_only_the_page_and_its_parts_are_served(watched):
 
 
 @pytest.mark.parametrize("words", [(), ("--listen", "127.0.0.1")], ids=["this machine", "other machines"])
-def test_a_page_needs_the_token(watch, words):
+def test_page_needs_the_token(watch, words):
     watched = watch(*words)
     home, _ = watched.url.split("?")
 
@@ -259,7 +259,7 @@ def test_a_page_needs_the_token(watch, words):
     assert talk(watched, tick) >= 0
 
 
-def test_a_port_in_use_is_one_clear_line(tmp_path):
+def test_port_in_use_is_reported_in_one_line(tmp_path):
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()

@@ -27,7 +27,7 @@ def tick(page: Page) -> int:
     return page.evaluate("octet.tick")
 
 
-def test_it_plays_and_pauses(page):
+def test_replay_plays_and_pauses(page):
     page.select_option("#speed", "16")
     page.click("#play")
     wait_for(page, "octet.tick > 100")
@@ -37,7 +37,7 @@ def test_it_plays_and_pauses(page):
     assert tick(page) == now
 
 
-def test_scrubbing_shows_any_tick_and_the_way_there(page):
+def test_scrubbing_shows_the_state_that_playing_reaches(page):
     middle = page.evaluate("Math.floor(octet.last / 2)")
     page.locator("#scrub").fill(str(middle))
     assert tick(page) == middle
@@ -48,7 +48,7 @@ def test_scrubbing_shows_any_tick_and_the_way_there(page):
 
 
 @pytest.mark.parametrize("kind", ["trial", "lesson", "eat", "environment"])
-def test_it_jumps_to_the_next_event_and_back(page, kind):
+def test_buttons_jump_to_the_next_event_and_back(page, kind):
     page.select_option("#kind", kind)
     page.evaluate("octet.go(10)")
     page.click("#after")
@@ -60,7 +60,7 @@ def test_it_jumps_to_the_next_event_and_back(page, kind):
     assert tick(page) == at
 
 
-def test_it_compares_the_memory_at_two_times(page):
+def test_pin_button_compares_the_memory_at_two_times(page):
     page.click("#pin")
     page.evaluate("octet.go(octet.last)")
     wait_for(page, "document.querySelectorAll('.cell.changed').length > 0")
@@ -69,7 +69,7 @@ def test_it_compares_the_memory_at_two_times(page):
     wait_for(page, "document.querySelectorAll('.cell.changed').length === 0")
 
 
-def test_keyboard_alone(page):
+def test_keyboard_alone_controls_the_replay(page):
     page.select_option("#kind", "trial")
     page.focus("#scrub")
     page.keyboard.press("ArrowRight")
@@ -94,7 +94,7 @@ def say(page: Page, sentence: str, who: str = "robot") -> str:
     return page.inner_text("#talk-said > li:last-child > p:last-child")
 
 
-def test_the_robot_answers_from_the_run_and_what_it_means_lights_up(page):
+def test_robot_answers_from_the_log_and_its_cells_are_highlighted(page):
     page.evaluate("octet.go(octet.last)")
 
     assert say(page, "What have you learned?").startswith("[log]")
@@ -106,7 +106,7 @@ def test_the_robot_answers_from_the_run_and_what_it_means_lights_up(page):
     assert page.evaluate(lit) == []
 
 
-def test_a_time_in_an_answer_shows_that_time_and_the_place_is_marked(page):
+def test_time_in_an_answer_shows_its_tick_and_marks_the_place(page):
     page.evaluate("octet.go(octet.last)")
     say(page, "When was your last meal?")
     at = page.evaluate("octet.talk.history.at(-1).said.ticks.at(-1)")
@@ -119,7 +119,7 @@ def test_a_time_in_an_answer_shows_that_time_and_the_place_is_marked(page):
     assert len(page.evaluate("octet.scene.meant.food")) == 3
 
 
-def test_keys_in_the_line_are_no_keys_of_the_page(page):
+def test_keys_typed_into_the_talk_line_do_not_control_the_page(page):
     page.click("#tab-talk")
     page.click("#talk-line")
     page.keyboard.type("n w p end")
@@ -128,13 +128,13 @@ def test_keys_in_the_line_are_no_keys_of_the_page(page):
     assert page.input_value("#talk-line") == "n w p end"
 
 
-def test_eliza_answers_in_german_and_any_text_is_answered(page):
+def test_eliza_answers_in_german_and_the_robot_answers_any_text(page):
     assert say(page, "Ich bin traurig.", "eliza-de") == "[words] ES TUT MIR LEID , DASS DU TRAURIG BIST"
     assert say(page, "\u0007 <b>\U0001f600 my \U0001f600", "robot").startswith("[words]")
     assert page.locator("#talk-said b").count() == 0
 
 
-def test_the_debugger_stops_by_the_command_that_is_copied_where_the_page_shows_it(recorded, page):
+def test_copied_debugger_command_stops_at_the_shown_tick(recorded, page):
     page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     page.evaluate("octet.go(octet.last)")
     page.click("#tab-listing")
@@ -163,7 +163,7 @@ return states;
 """
 
 
-def test_the_states_of_the_retained_ticks_are_those_of_the_run(tmp_path, monkeypatch):
+def test_states_of_the_retained_ticks_are_those_of_the_run(tmp_path, monkeypatch):
     monkeypatch.setattr(run_recorder_module, "TICKS_MAX", 1000)
     with make(RunConfig(seed=5, environments=30, limit_s=4.0)) as simulation:
         trajectory = RunRecorder.of(simulation, boredom_limit=10).trajectory

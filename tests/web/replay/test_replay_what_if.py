@@ -47,7 +47,7 @@ def simulated(page: Page) -> None:
     wait_for(page, COPIED)
 
 
-def test_the_run_is_repeated_and_a_changed_cell_makes_another_future(plain, open_page):
+def test_copy_repeats_the_run_until_a_changed_cell_makes_another_future(plain, open_page):
     page = open_page(plain.as_uri())
     ask(page, 800)
     wait_for_text(page, "#parting", SAME)
@@ -65,7 +65,7 @@ def test_the_run_is_repeated_and_a_changed_cell_makes_another_future(plain, open
 
 
 @pytest.mark.parametrize("change", ["cell", "behaviour", "parameter", "from the start", "obstacle"])
-def test_a_change_of_the_recorded_run_itself_is_made_in_a_copy(plain, open_page, change):
+def test_change_of_the_recorded_run_is_made_in_a_copy(plain, open_page, change):
     page = open_page(plain.as_uri())
     page.evaluate("octet.go(500)")
 
@@ -86,7 +86,7 @@ def test_a_change_of_the_recorded_run_itself_is_made_in_a_copy(plain, open_page,
     assert page.evaluate("octet.lanes.map(({ isRecorded }) => isRecorded)") == [True, False]
 
 
-def test_a_future_goes_on_where_the_recorded_run_was_ended_early(page_of, open_page):
+def test_copy_of_a_run_with_a_time_limit_ends_at_the_same_tick(page_of, open_page):
     page = open_page(page_of("--environments", "1", "--limit-s", "6").as_uri())
     ask(page, 100)
     wait_for_text(page, "#parting", SAME)
@@ -110,7 +110,7 @@ def test_several_robots_and_their_memories_are_repeated(page_of, open_page, tmp_
     assert page.evaluate("octet.scene.node") == 2
 
 
-def test_a_run_that_it_repeats_otherwise_is_told(plain, page_of, open_page, tmp_path):
+def test_copy_that_differs_from_the_recorded_run_is_reported(plain, page_of, open_page, tmp_path):
     other = RECORDED.search(unpacked(page_of("--environments", "1", "--seed", "4").read_text()))[0]
     mixed = tmp_path / "mixed.html"
     mixed.write_text(RECORDED.sub(lambda _: other, unpacked(plain.read_text())))
@@ -125,7 +125,7 @@ def test_a_run_that_it_repeats_otherwise_is_told(plain, page_of, open_page, tmp_
     ("damage", "why"),
     [((r'"world":".*?[^\\]"', '"world":"nothing"'), "not a world file"), ((r'"wasm":"[^"]{1000}', '"wasm":"'), "")],
 )
-def test_a_run_that_it_cannot_repeat_is_told_on_the_page(plain, open_page, tmp_path, damage, why):
+def test_damaged_page_says_why_its_run_cannot_be_repeated(plain, open_page, tmp_path, damage, why):
     broken = tmp_path / "broken.html"
     broken.write_text(re.sub(*damage, unpacked(plain.read_text())))
     page = open_page(broken.as_uri())
@@ -136,7 +136,7 @@ def test_a_run_that_it_cannot_repeat_is_told_on_the_page(plain, open_page, tmp_p
     assert page.evaluate("octet.lanes.length") == 1
 
 
-def test_a_new_run_takes_the_place_of_the_recorded_one_until_that_is_asked_back(plain, open_page):
+def test_new_run_replaces_the_recorded_one_until_the_back_button(plain, open_page):
     page = open_page(plain.as_uri())
     assert not page.is_visible("#back")
 
@@ -148,7 +148,7 @@ def test_a_new_run_takes_the_place_of_the_recorded_one_until_that_is_asked_back(
     wait_for(page, "window.octet?.lane.isRecorded")
 
 
-def test_a_page_without_it_says_how_to_get_it(recorded, open_page):
+def test_page_without_the_firmware_says_how_to_add_it(recorded, open_page):
     page = open_page(recorded.as_uri())
     command = "tools/octet replay out/run.log --html out/replay.html --what-if"
 
@@ -161,7 +161,7 @@ def test_a_page_without_it_says_how_to_get_it(recorded, open_page):
     assert page.evaluate("octet.lanes.length") == 1
 
 
-def test_axe_finds_nothing_and_fingers_hit_everything(plain, open_page):
+def test_axe_finds_nothing_and_controls_are_large_enough_for_touch(plain, open_page):
     def serve(page: Page) -> None:
         page.route(HOME, lambda route: route.fulfill(body=plain.read_text(), content_type="text/html"))
 
