@@ -56,7 +56,7 @@ def choose_corridors(page: Page) -> None:
     settle(page)
 
 
-def test_a_square_has_the_mean_time_that_the_study_has_measured(atlas):
+def test_square_shows_the_mean_time_measured_by_the_study(atlas):
     with (ROOT / "docs/tables/atlas-map.csv").open(newline="") as file:
         row = [*csv.DictReader(file)][TIME]
     x, y = square_of(atlas, row["memory"])
@@ -67,7 +67,7 @@ def test_a_square_has_the_mean_time_that_the_study_has_measured(atlas):
     assert atlas.inner_text("#atlas-square") == f"{row['memory']}: {round(float(row['mean_s']))} s"
 
 
-def test_a_robot_with_the_memory_of_a_square_drives_and_learns_no_more(atlas):
+def test_robot_of_a_pressed_square_has_its_memory_and_learns_nothing(atlas):
     press(atlas, "01021020")
     go(atlas, 10**6)
 
@@ -77,7 +77,7 @@ def test_a_robot_with_the_memory_of_a_square_drives_and_learns_no_more(atlas):
     assert atlas.evaluate("octet.lanes.map(({ scene }) => scene.state.memory.join(''))")[1:] == ["02010010"]
 
 
-def test_the_way_of_the_robot_that_learns_ends_at_what_it_knows(atlas):
+def test_trail_on_the_map_ends_at_the_memory_of_the_learner(atlas):
     go(atlas, 10**6)
 
     way, memory = atlas.evaluate("[octet.atlas.wayOf(octet.lane), octet.scene.state.memory]")
@@ -88,7 +88,7 @@ def test_the_way_of_the_robot_that_learns_ends_at_what_it_knows(atlas):
     assert way[-1] == [int(x * 81 / box["width"]), int(y * 27 / box["height"])]
 
 
-def test_the_keys_choose_a_square_and_let_its_robot_drive(atlas):
+def test_keys_choose_a_square_and_start_its_robot(atlas):
     atlas.locator(MAP).focus()
     x, y = square_of(atlas, "00000000")
     atlas.locator(MAP).hover(position={"x": x, "y": y})
@@ -101,7 +101,7 @@ def test_the_keys_choose_a_square_and_let_its_robot_drive(atlas):
     assert atlas.evaluate("octet.lanes[1].experiment.robots[0].memory.join('')") == "00000102"
 
 
-def test_a_map_that_is_computed_has_the_times_of_the_fleet(atlas):
+def test_computed_map_has_the_times_of_the_fleet(atlas):
     choose_corridors(atlas)
     assert atlas.inner_text("#atlas-square").endswith("not yet known")
     memories = [memory for memory in MEMORIES if not (memory[2] or memory[5] or memory[7])]
@@ -120,7 +120,7 @@ def test_a_map_that_is_computed_has_the_times_of_the_fleet(atlas):
     assert [total for total, _ in once] == pytest.approx([second for _, second in once])
 
 
-def test_a_fifth_run_does_not_fit(atlas):
+def test_fifth_run_is_refused(atlas):
     for _ in range(3):
         atlas.click("#what-if")
         simulated(atlas)

@@ -22,7 +22,7 @@ def page(page: Page) -> Page:
     return page
 
 
-def test_a_changed_cell_makes_another_future_beside_the_first(page):
+def test_changed_cell_makes_another_future_beside_the_first(page):
     page.evaluate("octet.go(2200)")
     page.click("#what-if")
     page.click("#cells li:nth-child(2) button")
@@ -36,7 +36,7 @@ def test_a_changed_cell_makes_another_future_beside_the_first(page):
     assert one == other
 
 
-def test_a_pressed_cell_shows_its_turn_at_once_and_the_next_one_when_it_is_pressed_again(page):
+def test_cell_shows_its_turn_when_pressed_and_the_next_when_pressed_again(page):
     cell = "#cells li:nth-child(5)"
 
     page.click(f"{cell} button")
@@ -46,7 +46,7 @@ def test_a_pressed_cell_shows_its_turn_at_once_and_the_next_one_when_it_is_press
     wait_for_text(page, f"{cell} .cell-side", "right")
 
 
-def test_a_cell_that_is_pressed_twice_before_anything_is_shown_takes_the_second_turn(page):
+def test_cell_pressed_twice_before_it_is_drawn_takes_the_second_turn(page):
     page.evaluate("octet.simulator.run = () => {}")  # as on a slow machine
 
     page.dblclick("#cells li:nth-child(5) button")
@@ -54,7 +54,7 @@ def test_a_cell_that_is_pressed_twice_before_anything_is_shown_takes_the_second_
     assert page.evaluate("octet.lane.experiment.changes.map((change) => change.side)") == [1, 2]
 
 
-def test_a_change_is_made_at_the_tick_that_is_shown_even_where_its_run_is_not_yet_simulated_so_far(page):
+def test_change_is_made_at_the_shown_tick_even_if_not_yet_simulated(page):
     page.evaluate("octet.go(2200)")
     page.evaluate("octet.simulator.run = () => {}")  # as on a slow machine
     page.click("#what-if")
@@ -65,7 +65,7 @@ def test_a_change_is_made_at_the_tick_that_is_shown_even_where_its_run_is_not_ye
 
 
 @pytest.mark.parametrize("change", ["behaviour", "parameter", "obstacle", "seed"])
-def test_a_changed_behaviour_parameter_or_obstacle_makes_another_future(page, change):
+def test_changed_behaviour_parameter_obstacle_or_seed_makes_another_future(page, change):
     page.evaluate("octet.go(1000)")
     page.click("#what-if")
     if change == "behaviour":
@@ -84,7 +84,7 @@ def test_a_changed_behaviour_parameter_or_obstacle_makes_another_future(page, ch
     wait_for_text(page, "#parting", "They diverge at")
 
 
-def test_a_run_that_starts_otherwise_leaves_its_own_trail_and_nothing_of_the_old_one(page):
+def test_run_with_another_seed_shows_only_its_own_trail(page):
     page.evaluate("octet.go(600)")
     old = page.evaluate(TRAIL)
 
@@ -98,7 +98,7 @@ def test_a_run_that_starts_otherwise_leaves_its_own_trail_and_nothing_of_the_old
     assert trail == page.evaluate(f"(octet.go(0), octet.go(600), {TRAIL})")
 
 
-def test_what_was_changed_is_replayed_by_the_host(page, tmp_path):
+def test_changes_made_on_the_page_are_replayed_by_the_host(page, tmp_path):
     page.evaluate("octet.go(400)")
     page.click("#add-plant")
     simulated(page)
@@ -121,7 +121,7 @@ def test_what_was_changed_is_replayed_by_the_host(page, tmp_path):
     assert [edit["do"] for edit in edits] == ["plant", "grow_plant", "lift", "put"]
 
 
-def test_a_change_that_cannot_be_made_is_told_and_dropped(page):
+def test_impossible_change_is_reported_and_dropped(page):
     page.evaluate("octet.go(300)")
     page.evaluate(
         "(() => { const { x, y } = octet.scene.state; const at = [Math.round(x), Math.round(y)];"
@@ -132,7 +132,7 @@ def test_a_change_that_cannot_be_made_is_told_and_dropped(page):
     wait_for(page, "octet.lane.experiment.changes.length === 0")
 
 
-def test_undo_takes_back_what_was_changed_last_even_where_an_older_change_is_later_in_the_run(page):
+def test_undo_takes_back_the_newest_change_even_if_an_older_one_is_later(page):
     page.evaluate("octet.go(700)")
     page.click("#cells li:nth-child(3) button")
     page.evaluate("octet.go(400)")
@@ -146,7 +146,7 @@ def test_undo_takes_back_what_was_changed_last_even_where_an_older_change_is_lat
     assert page.evaluate("octet.lanes[0].experiment.changes.length") == 2
 
 
-def test_the_list_of_what_was_learned_is_that_of_the_run_that_is_selected(page):
+def test_list_of_lessons_is_that_of_the_selected_run(page):
     lists = []
     page.click("#what-if")
     for lane in (1, 0):
@@ -161,7 +161,7 @@ def test_the_list_of_what_was_learned_is_that_of_the_run_that_is_selected(page):
     assert page.inner_text("#lessons") == lists[0]
 
 
-def test_boredom_is_shown_with_the_limit_that_the_robot_has_at_that_time(page):
+def test_boredom_is_shown_with_the_limit_at_the_shown_tick(page):
     page.evaluate("octet.go(400)")
     page.evaluate("octet.change({ do: 'set', robot: 0, parameter: 'boredom_limit', value: 20 })")
     settle(page)
@@ -172,7 +172,7 @@ def test_boredom_is_shown_with_the_limit_that_the_robot_has_at_that_time(page):
     assert page.inner_text("#boredom-count").endswith(" of 10")
 
 
-def test_a_run_that_cannot_be_is_told_and_nothing_goes_on(page):
+def test_impossible_run_is_reported_and_not_simulated(page):
     page.evaluate(
         "() => { const world = { name: 'tight', size: [600, 600], food: [[300, 300]], bars: [] };"
         " octet.begin({ ...octet.lane.experiment, world, robots: Array(4).fill(octet.lane.setup) });"
@@ -183,7 +183,7 @@ def test_a_run_that_cannot_be_is_told_and_nothing_goes_on(page):
     assert page.inner_text("#status") == "the real firmware, in this page"
 
 
-def test_the_table_has_the_behaviour_that_a_robot_has_at_that_time(page):
+def test_results_table_shows_the_behaviour_at_the_shown_tick(page):
     page.evaluate("octet.go(400)")
     page.select_option("#behaviour", "never")
     page.click("#tab-curves")
@@ -195,7 +195,7 @@ def test_the_table_has_the_behaviour_that_a_robot_has_at_that_time(page):
     assert page.inner_text("#results tr td:nth-child(3)") == "article"
 
 
-def test_the_button_to_remove_something_is_for_what_is_selected_in_the_selected_run(page):
+def test_remove_button_needs_a_selection_in_the_selected_run(page):
     page.evaluate("octet.editor.select({ kind: 'bar', id: 0, part: 'whole' })")
     settle(page)
     assert page.is_enabled("#remove-bar")
@@ -206,7 +206,7 @@ def test_the_button_to_remove_something_is_for_what_is_selected_in_the_selected_
     assert page.is_disabled("#remove-bar")
 
 
-def test_a_run_that_is_closed_is_simulated_no_more(page):
+def test_closed_run_is_no_longer_simulated(page):
     waiting = page.evaluate(
         "(() => { octet.whatIf(), octet.whatIf(), octet.begin(octet.lane.experiment);"
         " return [...octet.simulator.queued.keys()].map((lane) => lane === octet.lane); })()"
@@ -219,7 +219,7 @@ PICTURES = """() => [...document.querySelectorAll("#worlds canvas")].map((canvas
 DRAWN = "octet.desk.pictures.pictures.every(({ drawn }) => drawn)"
 
 
-def test_a_world_is_chosen_by_its_picture_which_is_that_of_the_seed(page):
+def test_world_pictures_show_the_seed_and_choose_the_world(page):
     simulated(page)
     wait_for(page, DRAWN)
     pictures = page.evaluate(PICTURES)
@@ -236,7 +236,7 @@ def test_a_world_is_chosen_by_its_picture_which_is_that_of_the_seed(page):
     wait_for(page, "octet.lane.experiment.seed === 8 && octet.lane.experiment.world === 'corridors'")
 
 
-def test_a_run_in_another_world_with_plants_and_a_broken_body_can_be_repeated_from_its_files(page, tmp_path):
+def test_run_with_plants_and_a_broken_body_is_replayed_from_its_files(page, tmp_path):
     page.check("#worlds [value=posts]")
     page.click("#new-run button")
     wait_for(page, "octet.lane.data")

@@ -7,7 +7,7 @@ from tests.web.lab.support import saved, simulated
 from tests.web.support import wait_for, wait_for_text
 
 
-def test_its_log_is_that_of_tools_run(page, tmp_path):
+def test_saved_log_is_that_of_tools_run(page, tmp_path):
     assert octet("run", "--bus", "none", "--seed", "1", "--quiet", "--out", tmp_path).returncode == 0
 
     log = saved(page, "#save-log")
@@ -15,7 +15,7 @@ def test_its_log_is_that_of_tools_run(page, tmp_path):
     assert hashlib.sha256(log).hexdigest() == hashlib.sha256((tmp_path / "run.log").read_bytes()).hexdigest()
 
 
-def test_a_recorded_log_is_opened_and_is_the_same_run(page, tmp_path):
+def test_opened_log_gives_the_same_run(page, tmp_path):
     words = ("--profile", "adaptive", "--environments", "2", "--seed", "9", "--set", "turn_deg=20")
     assert octet("run", "--bus", "none", "--quiet", "--out", tmp_path, *words).returncode == 0
     page.click("#tab-files")
@@ -27,7 +27,7 @@ def test_a_recorded_log_is_opened_and_is_the_same_run(page, tmp_path):
     assert saved(page, "#save-log") == (tmp_path / "run.log").read_bytes()
 
 
-def test_a_file_that_is_no_log_is_told(page, tmp_path):
+def test_malformed_log_is_reported(page, tmp_path):
     (tmp_path / "run.log").write_text("hello\n")
     page.click("#tab-files")
 
@@ -36,7 +36,7 @@ def test_a_file_that_is_no_log_is_told(page, tmp_path):
     wait_for_text(page, "#file-news", "line 1 is not a frame of a log")
 
 
-def test_what_cannot_be_saved_is_told(page):
+def test_failed_save_is_reported(page):
     page.evaluate("void (octet.simulator.ask = () => Promise.reject(new Error('no memory left')))")
     page.click("#tab-files")
 
@@ -45,7 +45,7 @@ def test_what_cannot_be_saved_is_told(page):
     wait_for_text(page, "#file-news", "no memory left")
 
 
-def test_a_memory_goes_out_and_comes_back(page, tmp_path):
+def test_memory_is_saved_and_opened_again(page, tmp_path):
     page.evaluate("octet.go(octet.last)")
     memory = saved(page, "#save-memory")
     (tmp_path / "robot.mem").write_bytes(memory)
@@ -59,7 +59,7 @@ def test_a_memory_goes_out_and_comes_back(page, tmp_path):
     assert bytes(page.evaluate("octet.scene.state.memory")) == memory
 
 
-def test_a_memory_is_saved_with_its_confidence(page, tmp_path):
+def test_memory_is_saved_with_its_confidence(page, tmp_path):
     page.select_option("#behaviour", "adaptive")
     page.fill("#environments", "1")
     page.click("#new-run button")
@@ -75,7 +75,7 @@ def test_a_memory_is_saved_with_its_confidence(page, tmp_path):
     assert max(memory) > 2
 
 
-def test_a_file_that_is_no_memory_is_told(page, tmp_path):
+def test_malformed_memory_is_reported_and_not_used(page, tmp_path):
     (tmp_path / "robot.mem").write_bytes(bytes([0, 99, 0, 0, 0, 0, 0, 0]))
     page.click("#tab-files")
 
@@ -85,7 +85,7 @@ def test_a_file_that_is_no_memory_is_told(page, tmp_path):
     assert page.evaluate("octet.lane.experiment.robots[0].memory") is None
 
 
-def test_a_world_file_begins_a_run_in_it(page, tmp_path):
+def test_world_file_begins_a_run_in_it(page, tmp_path):
     world = ROOT / "docs/worlds/two_walls.toml"
     assert octet("run", "--bus", "none", "--world", world, "--quiet", "--out", tmp_path).returncode == 0
     page.click("#tab-files")
@@ -97,7 +97,7 @@ def test_a_world_file_begins_a_run_in_it(page, tmp_path):
     assert page.evaluate("document.querySelector('#worlds input:checked').value") == "two_walls.toml"
 
 
-def test_an_opened_log_shows_the_behaviour_that_its_robot_has_at_that_time(page, tmp_path):
+def test_opened_log_shows_the_behaviour_at_the_shown_tick(page, tmp_path):
     page.evaluate("octet.go(400)")
     page.select_option("#behaviour", "never")
     simulated(page)
@@ -115,7 +115,7 @@ def test_an_opened_log_shows_the_behaviour_that_its_robot_has_at_that_time(page,
     wait_for_text(page, "figcaption", "original: never, seed 1")
 
 
-def test_what_was_told_of_a_file_is_told_in_the_language_that_is_chosen_then(page, tmp_path):
+def test_message_about_a_file_follows_the_chosen_language(page, tmp_path):
     (tmp_path / "robot.mem").write_bytes(bytes(8))
     page.click("#tab-files")
     page.set_input_files("#open", tmp_path / "robot.mem")
@@ -126,7 +126,7 @@ def test_what_was_told_of_a_file_is_told_in_the_language_that_is_chosen_then(pag
     assert page.inner_text("#file-news") == "Der Roboter beginnt mit robot.mem."
 
 
-def test_a_field_that_was_emptied_does_not_matter_to_a_world_file(page):
+def test_world_file_opens_though_a_field_was_emptied(page):
     page.fill("#robot-count", "")
     page.click("#tab-files")
 

@@ -12,7 +12,7 @@ from tests.web.support import next_frame, wait_for
 IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#what-if", "#tabs", "#lesson", "#begin-lesson", "#cells")
 
 
-def test_the_language_is_the_browsers_until_another_is_chosen_which_stays(file, open_page):
+def test_language_is_the_browsers_until_another_is_chosen_and_kept(file, open_page):
     page = open_page(f"{file.as_uri()}?#program", ready=READY, locale="de-AT")
     assert page.inner_text("#begin-lesson") == "Lektion starten"
     assert page.get_attribute("html", "lang") == "de"
@@ -26,7 +26,7 @@ def test_the_language_is_the_browsers_until_another_is_chosen_which_stays(file, 
     assert page.input_value("#lesson") == "program"
 
 
-def test_the_name_of_a_lesson_in_the_address_scrolls_nothing(file, open_page):
+def test_lesson_name_in_the_address_scrolls_nothing(file, open_page):
     for name in LESSONS:
         page = open_page(f"{file.as_uri()}?#{name}", ready=READY, viewport={"width": 1366, "height": 657})
         next_frame(page)
@@ -37,7 +37,7 @@ def test_the_name_of_a_lesson_in_the_address_scrolls_nothing(file, open_page):
         page.context.close()
 
 
-def test_a_language_that_is_not_there_is_english(file, open_page):
+def test_unknown_language_falls_back_to_english(file, open_page):
     page = open_page(f"{file.as_uri()}?#watch", ready=READY, locale="fi-FI")
 
     assert page.inner_text("#begin-lesson") == "Start this lesson"
@@ -65,7 +65,7 @@ def test_goals_steps_and_the_lesson_survive_a_reload(page):
     assert seen() == before
 
 
-def test_what_is_done_in_another_tab_is_kept(file, page):
+def test_progress_made_in_another_tab_is_kept(file, page):
     other = page.context.new_page()
     other.goto(file.as_uri())
     wait_for(other, READY)
@@ -81,7 +81,7 @@ def test_what_is_done_in_another_tab_is_kept(file, page):
     assert dict(page.evaluate(steps)) == {"watch": [0, 1], "plant": [1]}
 
 
-def test_all_that_matters_is_in_view_while_a_lesson_is_open(lesson):
+def test_controls_are_in_view_at_every_size_while_a_lesson_is_open(lesson):
     page = lesson("program")
     for size in SIZES:
         resize(page, size)
@@ -92,7 +92,7 @@ def test_all_that_matters_is_in_view_while_a_lesson_is_open(lesson):
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), size
 
 
-def test_each_lesson_can_be_used_by_fingers_and_by_screen_readers(lesson):
+def test_lessons_have_touch_targets_and_no_axe_violations(lesson):
     page = lesson("watch")
     for name in LESSONS:
         page.select_option("#lesson", name)
@@ -111,7 +111,7 @@ def test_axe_finds_nothing_at_three_sizes_light_and_dark(lesson):
     assert violations_at(page, (PHONES[0], SIZES[0], SIZES[-1])) == []
 
 
-def test_screens(lesson):
+def test_lesson_screens_are_readable_and_fit_the_width(lesson):
     looks = (("program", "light", SIZES[2]), ("sensor", "dark", SIZES[0]), ("boredom", "dark", PHONES[0]))
     for name, scheme, size in looks:
         page = lesson(name)
@@ -134,7 +134,7 @@ def pages_printed(page: Page, landscape: bool) -> int:
     return len(re.findall(rb"/Type\s*/Page\b", page.pdf(format="A4", landscape=landscape)))
 
 
-def test_who_prints_an_open_lesson_gets_its_worksheet(tmp_path, lesson):
+def test_printing_an_open_lesson_gives_its_worksheet(tmp_path, lesson):
     for name in LESSONS:
         page = lesson(name)
         words = page.evaluate("octet.course.texts.lessons[octet.course.plan.id]")
@@ -147,7 +147,7 @@ def test_who_prints_an_open_lesson_gets_its_worksheet(tmp_path, lesson):
         assert page.evaluate("document.querySelector('#sheet').childElementCount") == 0
 
 
-def test_who_prints_another_tab_gets_the_page(tmp_path, lesson):
+def test_printing_another_tab_gives_the_page(tmp_path, lesson):
     page = lesson("watch")
     page.click("#tab-run")
 
@@ -157,7 +157,7 @@ def test_who_prints_another_tab_gets_the_page(tmp_path, lesson):
     page.click("#tab-lessons")
 
 
-def test_the_buttons_print_the_worksheet_and_the_notes(lesson):
+def test_buttons_print_the_worksheet_and_the_notes(lesson):
     page = lesson("share")
     page.evaluate("window.print = () => { window.printed = document.querySelector('#sheet').innerText; }")
 

@@ -18,7 +18,7 @@ def play_to_the_end(page: Page) -> None:
     settle(page)
 
 
-def test_watch(lesson):
+def test_watch_lesson_is_done_by_watching_the_robot_learn(lesson):
     page = lesson("watch")
     assert reached(page) == [False, False, False]
 
@@ -33,7 +33,7 @@ def test_watch(lesson):
     wait_for_text(page, "#step #lesson-news.all", "Well done: all goals of this lesson are reached")
 
 
-def test_watch_is_not_done_by_a_robot_that_is_frozen_and_told(lesson):
+def test_watch_lesson_is_not_done_by_a_frozen_robot_with_written_cells(lesson):
     page = lesson("watch")
     page.click("#tab-run")
     page.click("#freeze")
@@ -45,7 +45,7 @@ def test_watch_is_not_done_by_a_robot_that_is_frozen_and_told(lesson):
     assert reached(page) == [False, False, False]
 
 
-def test_program(lesson):
+def test_program_lesson_is_done_by_a_good_program(lesson):
     page = lesson("program")
     go_to_step(page, 2)
     for box, presses in enumerate([1, 1, 1, 2, 1, 2, 1], 1):
@@ -65,7 +65,7 @@ def test_program(lesson):
 SENSIBLE = [[1, a, 1, 2, b, 2, c] for a in (1, 2) for b in (1, 2) for c in (1, 2)]
 
 
-def test_each_sensible_program_gets_clear_sooner_and_finishes_first(lesson):
+def test_sensible_programs_get_clear_sooner_and_finish_first(lesson):
     page = lesson("program")
     for program in SENSIBLE:
         page.evaluate(
@@ -80,7 +80,7 @@ def test_each_sensible_program_gets_clear_sooner_and_finishes_first(lesson):
 
 
 @pytest.mark.parametrize("program", [[], [1, 1, 1, 1, 1, 2, 1]], ids=["nothing", "one wrong turn"])
-def test_program_is_not_done_by_less_than_a_good_one(lesson, program):
+def test_program_lesson_is_not_done_by_an_empty_or_wrong_program(lesson, program):
     page = lesson("program")
     write(page, program)
 
@@ -95,7 +95,7 @@ def set_patience(page: Page, turns: int) -> None:
     settle(page)
 
 
-def test_boredom(lesson):
+def test_boredom_lesson_is_done_by_the_right_patience(lesson):
     page = lesson("boredom")
     go(page, 1000)
     assert reached(page) == [True, False, False]
@@ -110,7 +110,7 @@ def test_boredom(lesson):
     assert (reached(page), ticked(page)) == ([True, True, True], [1, 2, 3, 4])
 
 
-def test_boredom_is_not_done_by_a_patient_robot_or_by_one_that_is_bored_too_soon(lesson):
+def test_boredom_lesson_is_not_done_by_a_robot_bored_never_or_too_soon(lesson):
     page = lesson("boredom")
     go_to_the_end(page)
     assert reached(page) == [True, False, False]
@@ -129,7 +129,7 @@ def pass_a_plant(page: Page) -> None:
     go_on(page, 150)
 
 
-def test_plant(lesson):
+def test_plant_lesson_is_done_by_passing_plants(lesson):
     page = lesson("plant")
     pass_a_plant(page)
     assert reached(page) == [True, False, False]
@@ -146,7 +146,7 @@ def test_plant(lesson):
     assert (reached(page), ticked(page)) == ([True, True, True], [1, 2, 3, 4])
 
 
-def test_plant_is_not_done_without_a_plant(lesson):
+def test_plant_lesson_is_not_done_without_a_plant(lesson):
     page = lesson("plant")
     page.click("#erase")
 
@@ -166,7 +166,7 @@ def distrust(page: Page) -> None:
     settle(page)
 
 
-def test_sensor(lesson):
+def test_sensor_lesson_is_done_with_broken_sensors(lesson):
     page = lesson("sensor")
     go(page, 100)
     break_sensor(page, "front", "stuck-on")
@@ -185,7 +185,7 @@ def test_sensor(lesson):
     assert (reached(page), ticked(page)) == ([True, True, True], [1, 2, 3, 4])
 
 
-def test_sensor_is_not_done_by_a_sound_robot(lesson):
+def test_sensor_lesson_is_not_done_by_a_sound_robot(lesson):
     page = lesson("sensor")
     distrust(page)
 
@@ -194,7 +194,7 @@ def test_sensor_is_not_done_by_a_sound_robot(lesson):
     assert reached(page) == [False, False, False]
 
 
-def test_sensor_is_not_done_by_one_that_was_repaired(lesson):
+def test_sensor_lesson_is_not_done_by_a_repaired_robot(lesson):
     page = lesson("sensor")
     go(page, 100)
     for state in ("stuck-on", "stuck-off", "sound"):
@@ -206,7 +206,7 @@ def test_sensor_is_not_done_by_one_that_was_repaired(lesson):
     assert reached(page) == [False, False, False]
 
 
-def test_share(lesson):
+def test_share_lesson_is_done_by_robots_that_talk(lesson):
     page = lesson("share")
     go_to_step(page, 2)
     page.click("#step .held button")
@@ -222,7 +222,7 @@ def test_share(lesson):
     assert reached(page) == [True, True, True]
 
 
-def test_share_is_not_done_by_robots_that_do_not_talk_nor_by_a_person_who_does(lesson):
+def test_share_lesson_is_not_done_by_silent_robots_or_written_cells(lesson):
     page = lesson("share")
     page.click("#what-if")
     write(page, [1, 0, 0, 2])
@@ -239,7 +239,7 @@ def say(page: Page, who: str, sentence: str) -> None:
     settle(page)
 
 
-def test_talk(lesson):
+def test_talk_lesson_is_done_by_questions_and_a_taught_answer(lesson):
     page = lesson("talk")
     go_to_step(page, 2)
     go(page, 1500)
@@ -263,7 +263,7 @@ def test_talk(lesson):
     assert (reached(page), ticked(page)) == ([True, True, True], [1, 2, 3, 4, 5])
 
 
-def test_talk_is_not_done_by_words_nor_by_a_log_that_only_goes_on(lesson):
+def test_talk_lesson_is_not_done_by_word_answers_or_passing_time(lesson):
     page = lesson("talk")
     go_to_step(page, 2)
     for tick in (0, 1500):
@@ -275,7 +275,7 @@ def test_talk_is_not_done_by_words_nor_by_a_log_that_only_goes_on(lesson):
     assert reached(page) == [False, False, False]
 
 
-def test_unlearn(lesson):
+def test_unlearn_lesson_is_done_with_swapped_motors(lesson):
     page = lesson("unlearn")
     go(page, 499)
     go_to_step(page, 2)
@@ -299,7 +299,7 @@ def test_unlearn(lesson):
     assert page.evaluate("octet.lanes.map((lane) => Math.round(lane.last * 0.02))") == [999, 245]
 
 
-def test_unlearn_is_not_done_with_sound_motors(lesson):
+def test_unlearn_lesson_is_not_done_with_sound_motors(lesson):
     page = lesson("unlearn")
 
     go_to_the_end(page)
@@ -314,7 +314,7 @@ def run_samples(page: Page, count: int) -> str:
     return page.inner_text("#step .samples p")
 
 
-def test_chance(lesson):
+def test_chance_lesson_is_done_by_samples_of_many_runs(lesson):
     page = lesson("chance")
     go_to_the_end(page)
     assert page.evaluate("octet.lanes.map((lane) => Math.round(lane.last * 0.02))") == [59, 74]
@@ -338,7 +338,7 @@ def test_chance(lesson):
     assert ticked(page) == [1, 2, 3, 4]
 
 
-def test_matchboxes(lesson):
+def test_matchboxes_lesson_is_done_by_learning_and_swapped_motors(lesson):
     page = lesson("matchboxes")
     assert (reached(page), ticked(page)) == ([False, False, False], [])
     for _ in range(3):
@@ -358,7 +358,7 @@ def test_matchboxes(lesson):
     assert (reached(page), ticked(page)) == ([True, True, True], [1, 2, 3, 4, 5])
 
 
-def test_a_step_that_a_person_is_in_keeps_what_they_hold_while_it_is_ticked(lesson):
+def test_lesson_step_keeps_the_focus_when_it_is_ticked(lesson):
     page = lesson("program")
     go_to_step(page, 2)
     for box, presses in enumerate([1, 1, 1, 2, 1, 2, 1], 1):
@@ -373,7 +373,7 @@ def test_a_step_that_a_person_is_in_keeps_what_they_hold_while_it_is_ticked(less
     assert page.locator("#step .foot").inner_text().startswith("✓ The page has seen it: done.")
 
 
-def test_a_lesson_that_is_started_again_has_no_goal_reached(lesson):
+def test_restarted_lesson_has_no_goal_reached(lesson):
     page = lesson("watch")
     go(page, 500)
     assert any(reached(page))
@@ -385,7 +385,7 @@ def test_a_lesson_that_is_started_again_has_no_goal_reached(lesson):
     assert reached(page) == [False, False, False]
 
 
-def test_nothing_is_reached_before_a_lesson_is_started(file, open_page):
+def test_goals_are_not_reached_before_a_lesson_is_started(file, open_page):
     page = open_page(f"{file.as_uri()}?#watch", ready=READY)
     wait_for(page, DONE)
 

@@ -16,31 +16,31 @@ SIZE_MAX = 380_000
 IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#what-if", "#tabs", "#cells")
 
 
-def test_the_page_is_one_small_file(file):
+def test_octet_html_is_one_file_below_380_kb(file):
     assert file.stat().st_size < SIZE_MAX
 
 
-def test_a_browser_that_cannot_unpack_the_page_is_told_so(file, open_page):
+def test_browser_that_cannot_unpack_the_page_is_told_so(file, open_page):
     without = "delete window.DecompressionStream"
     page = open_page(file.as_uri(), ready="document.body", prepare=lambda page: page.add_init_script(without))
 
     wait_for(page, "document.body.innerText.startsWith('This page needs a newer browser')")
 
 
-def test_the_page_is_the_same_from_the_same_sources(file, tmp_path):
+def test_page_has_the_same_bytes_from_the_same_sources(file, tmp_path):
     assert octet("page", tmp_path / "again.html").returncode == 0
 
     assert (tmp_path / "again.html").read_bytes() == file.read_bytes()
 
 
-def test_a_page_that_cannot_be_written_is_told_in_one_line(tmp_path):
+def test_unwritable_page_is_reported_in_one_line(tmp_path):
     done = octet("page", tmp_path / "no" / "such" / "octet.html")
 
     assert done.returncode != 0
     assert len(done.stderr.splitlines()) == 1
 
 
-def test_the_table_is_saved_for_a_spreadsheet(shared):
+def test_results_table_is_saved_as_csv(shared):
     shared.click("#tab-curves")
 
     lines = saved(shared, "#save-csv").decode().splitlines()
@@ -49,7 +49,7 @@ def test_the_table_is_saved_for_a_spreadsheet(shared):
     assert len(lines) == 6
 
 
-def test_the_debugger_takes_the_log_that_the_page_saves(page, tmp_path):
+def test_debugger_takes_the_log_that_the_page_saves(page, tmp_path):
     page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     go(page, 371)
     page.click("#tab-listing")
@@ -65,7 +65,7 @@ def test_the_debugger_takes_the_log_that_the_page_saves(page, tmp_path):
     assert shown.endswith(f"{sensed}")
 
 
-def test_a_program_is_no_c_to_debug(page):
+def test_debugger_command_is_refused_for_a_program(page):
     page.click("#tab-program")
     page.click("#program-run")
     settle(page)
@@ -76,14 +76,14 @@ def test_a_program_is_no_c_to_debug(page):
     wait_for_text(page, "#note", "Your program is not C")
 
 
-def test_each_parameter_has_a_slider_with_its_range(shared):
+def test_parameters_have_sliders_with_their_ranges(shared):
     sliders = "[...document.querySelectorAll('.slider input')]"
     ranges = shared.evaluate(f"{sliders}.map(({{ title, min, max }}) => [title, Number(min), Number(max)])")
 
     assert ranges == [[name, it.minimum, it.maximum] for name, it in PARAMETERS.items()]
 
 
-def test_the_arena_is_what_the_page_shows_first(shared):
+def test_arena_is_large_enough_with_one_run_and_with_two(shared):
     assert too_small(shared, ARENA, "#floors canvas") == []
     shared.click("#what-if")
     settle(shared)
@@ -91,7 +91,7 @@ def test_the_arena_is_what_the_page_shows_first(shared):
     shared.evaluate("octet.removeLane(octet.lane)")
 
 
-def test_it_plays_on_from_where_it_is_scrubbed_to(shared):
+def test_playback_continues_from_the_scrubbed_tick(shared):
     shared.evaluate("octet.go(0)")
     shared.click("#play")
     go(shared, 1000)
@@ -103,7 +103,7 @@ def test_it_plays_on_from_where_it_is_scrubbed_to(shared):
 
 
 @pytest.mark.parametrize("kind", ["obstacle", "decision", "lesson"])
-def test_it_goes_to_the_next_one(shared, kind):
+def test_next_button_goes_to_the_next_event_of_the_chosen_kind(shared, kind):
     shared.select_option("#kind", kind)
     shared.evaluate("octet.go(60)")
     shared.click("#after")
@@ -124,7 +124,7 @@ def test_it_goes_to_the_next_one(shared, kind):
 @pytest.mark.parametrize(
     ("reason", "line"), [(5, "if r=Turn"), (4, "if Mem[Senses] = Turn"), (1, "rForward Dist"), (7, "FoodCnt--")]
 )
-def test_the_line_is_lit_that_the_robot_executes(shared, reason, line):
+def test_listing_highlights_the_line_that_the_robot_executes(shared, reason, line):
     shared.click("#tab-listing")
     shared.evaluate("reason => octet.go(octet.lane.data.robots[0].columns.reason.indexOf(reason))", reason)
 
@@ -136,7 +136,7 @@ def test_the_line_is_lit_that_the_robot_executes(shared, reason, line):
     )
 
 
-def test_all_that_matters_is_in_view(shared):
+def test_controls_are_in_view_at_every_size(shared):
     for size in SIZES:
         resize(shared, size)
         assert out_of_view(shared, IN_VIEW, size) == [], size
@@ -145,14 +145,14 @@ def test_all_that_matters_is_in_view(shared):
         assert shared.evaluate("document.documentElement.scrollWidth <= innerWidth"), size
 
 
-def test_fingers_can_hit_everything_on_a_phone(shared):
+def test_controls_are_large_enough_for_touch_on_a_phone(shared):
     for size, tab in itertools.product(PHONES, ("run", "parameters", "curves", "files")):
         resize(shared, size)
         shared.click(f"#tab-{tab}")
         assert shared.evaluate(TOO_SMALL) == [], (size, tab)
 
 
-def test_runs_that_are_gone_take_no_memory(page):
+def test_replaced_runs_take_no_memory(page):
     for _ in range(3):
         page.evaluate("octet.begin(octet.lane.experiment)")
         simulated(page)
@@ -172,7 +172,7 @@ def alive(page: Page, one: str) -> int:
     return debugger.send("Runtime.callFunctionOn", count)["result"]["value"]
 
 
-def test_what_it_says_of_two_runs_is_of_those_that_are_there(page):
+def test_comparison_of_two_runs_follows_the_runs_that_are_shown(page):
     page.click("#what-if")
     simulated(page)
     page.select_option("#behaviour", "never")
@@ -189,7 +189,7 @@ def test_what_it_says_of_two_runs_is_of_those_that_are_there(page):
     assert said == "They do the same until the end."
 
 
-def test_a_new_run_plays_like_the_first_one_unless_less_motion_is_wanted(file, open_page):
+def test_new_run_plays_at_once_unless_reduced_motion_is_wanted(file, open_page):
     playing = []
     for motion in ("no-preference", "reduce"):
         page = open_page(file.as_uri(), ready=READY, reduced_motion=motion)
@@ -218,7 +218,7 @@ def test_sentence_cells_and_meter_are_of_the_same_tick(page):
     ]
 
 
-def test_a_field_for_a_number_says_so_in_the_page_s_language(page):
+def test_number_field_reports_wrong_input_in_the_pages_language(page):
     page.select_option("#language", "de")
     page.locator("#seed").press_sequentially("7a")
 
@@ -237,7 +237,7 @@ def test_axe_finds_nothing(page):
         assert violations_at(page, (SIZES[-1],)) == [], tab
 
 
-def test_screens(shared):
+def test_page_screens_are_readable_and_fit_the_width(shared):
     shared.evaluate("octet.go(3000)")
     for scheme, size in itertools.product(("light", "dark"), (*SIZES[:1], *SIZES[2:3], PHONES[0])):
         shared.emulate_media(color_scheme=scheme)

@@ -38,7 +38,7 @@ def open_pico(tmp_path: Path, open_page: Callable[..., Page]) -> Callable[..., P
     return opened
 
 
-def test_a_pico_says_the_same_in_400_ticks_until_it_is_stopped_and_again(open_pico):
+def test_pico_sends_the_same_frames_for_400_ticks_and_when_run_again(open_pico):
     page = open_pico(image())
     for _ in range(2):
         wait_for(page, "ticks => pico.progress?.ticks >= ticks || pico.progress?.differs", TICKS)
@@ -53,7 +53,7 @@ def test_a_pico_says_the_same_in_400_ticks_until_it_is_stopped_and_again(open_pi
         page.click("#run-pico")
 
 
-def test_an_image_with_another_constant_differs_in_a_tick_that_is_named(open_pico):
+def test_image_with_another_constant_differs_in_a_named_tick(open_pico):
     assert image().count(MULTIPLIER) == 1
     page = open_pico(image().replace(MULTIPLIER, bytes([MULTIPLIER[0] ^ 2]) + MULTIPLIER[1:]))
 
@@ -66,13 +66,13 @@ def test_an_image_with_another_constant_differs_in_a_tick_that_is_named(open_pic
     assert page.inner_text("#pico-verdict").startswith(f"The Pico differs in tick {found['ticks'] - 1}. ")
 
 
-def test_an_image_that_does_not_start_is_told(open_pico):
+def test_image_that_does_not_start_is_reported(open_pico):
     page = open_pico(bytes([image()[0] ^ 1]) + image()[1:])
 
     wait_for(page, "document.querySelector('#pico-verdict').innerText.includes('the second stage has a wrong sum')")
 
 
-def test_a_program_of_one_s_own_is_not_in_the_image(open_pico):
+def test_pico_does_not_run_for_a_robot_with_a_program(open_pico):
     page = open_pico(image(), locale="de")
     page.click("#run-pico")
     page.evaluate("octet.setUp({ program: '10 END' })")
@@ -83,7 +83,7 @@ def test_a_program_of_one_s_own_is_not_in_the_image(open_pico):
     )
 
 
-def test_the_page_grows_by_less_than_100_kb_and_only_with_the_option(file, tmp_path):
+def test_pico_adds_less_than_100_kb_and_only_with_its_option(file, tmp_path):
     done = octet("page", "--pico", tmp_path / "pico.html")
 
     assert (done.returncode, done.stderr) == (0, "")
@@ -91,7 +91,7 @@ def test_the_page_grows_by_less_than_100_kb_and_only_with_the_option(file, tmp_p
     assert "pico-verdict" not in octet_page()
 
 
-def test_it_has_the_licence_of_rp2040js_and_no_address_of_a_network():
+def test_pico_scripts_have_the_rp2040js_licence_and_no_network_address():
     scripts = [(PAGE_SCRIPTS / name).read_text() for name in ("octet_pico.js", "pico_worker.js")]
 
     for text in scripts:
@@ -100,7 +100,7 @@ def test_it_has_the_licence_of_rp2040js_and_no_address_of_a_network():
         assert re.findall(r"\b(?:https?|wss?)://\w+", text.replace("http://www.w3.org/", "")) == []
 
 
-def test_without_rp2040js_it_says_what_is_missing(monkeypatch, tmp_path):
+def test_pico_page_names_missing_rp2040js(monkeypatch, tmp_path):
     monkeypatch.setattr(octet_page_module, "PAGE_SCRIPTS", tmp_path)
 
     with pytest.raises(OctetError, match="needs rp2040js, which is not installed: run tools/setup pico"):

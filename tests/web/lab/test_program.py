@@ -52,7 +52,7 @@ def step(page: Page) -> int:
     return lit(page)
 
 
-def test_the_article_s_program_parts_from_octet_where_it_waits_two_seconds(tab):
+def test_article_program_diverges_from_octet_where_it_waits_two_seconds(tab):
     run(tab)
 
     assert tab.inner_text("#program-parting") == "Your robot and Octet diverge at 1:28.3."
@@ -60,13 +60,13 @@ def test_the_article_s_program_parts_from_octet_where_it_waits_two_seconds(tab):
     assert first == second
 
 
-def test_without_its_pause_it_goes_octet_s_way_to_the_end(tab):
+def test_article_program_without_its_pause_goes_the_same_way_as_octet(tab):
     run(tab, ARTICLE.replace("delay 2000", ""))
 
     assert tab.inner_text("#program-parting") == "Your robot and Octet go the same way to the end."
 
 
-def test_step_by_step_one_line_is_lit_and_its_variables_stand_beside_it(tab):
+def test_stepping_highlights_one_line_and_shows_its_variables(tab):
     run(tab, "x = 1\nwhile x\nx = x + 1\nrForward x\nwend\n")
 
     assert [step(tab) for _ in range(6)] == [1, 2, 3, 4, 2, 3]
@@ -84,7 +84,7 @@ def test_next_decision_goes_to_the_next_command(tab):
     assert lit(tab) == 2
 
 
-def test_a_mistake_is_told_and_marked_at_its_line(tab):
+def test_program_error_is_reported_and_marked_at_its_line(tab):
     run(tab, "x = 1\n  rTrun 5\n")
 
     assert tab.inner_text("#program-news") == (
@@ -93,7 +93,7 @@ def test_a_mistake_is_told_and_marked_at_its_line(tab):
     assert tab.evaluate("octet.programTab.editor.lines") == {"lit": 0, "wrong": 2}
 
 
-def test_a_loop_without_end_is_stopped_and_told(tab):
+def test_endless_loop_is_stopped_and_reported(tab):
     run(tab, "while true\nwend")
 
     assert tab.inner_text("#program-news").startswith(
@@ -101,13 +101,13 @@ def test_a_loop_without_end_is_stopped_and_told(tab):
     )
 
 
-def test_a_program_that_has_ended_and_what_it_shows_are_told(tab):
+def test_ended_program_and_its_output_are_reported(tab):
     run(tab, 'xyString 1,1,"Grüße"')
 
     assert tab.inner_text("#program-news") == "The program has ended: the robot rests. It shows: Grüße"
 
 
-def test_a_program_that_has_changed_is_to_be_run_again(tab):
+def test_edited_program_pauses_and_asks_to_be_run_again(tab):
     run(tab)
     tab.locator("#program-text").press_sequentially("x")
 
@@ -115,7 +115,7 @@ def test_a_program_that_has_changed_is_to_be_run_again(tab):
     assert tab.evaluate("octet.playing") is False
 
 
-def test_digits_and_brackets_can_be_typed_where_they_choose_one_of_several_robots_elsewhere(page):
+def test_digits_and_brackets_are_typed_into_the_program_with_two_robots(page):
     page.evaluate("octet.begin({ ...octet.lane.experiment, robots: Array(2).fill(octet.lane.setup) })")
     settle(page)
     page.click("#tab-program")
@@ -125,13 +125,13 @@ def test_digits_and_brackets_can_be_typed_where_they_choose_one_of_several_robot
     assert page.input_value("#program-text") == "x[1] = 2"
 
 
-def test_each_program_can_be_begun_with(tab):
+def test_example_programs_can_be_chosen(tab):
     for name, text in programs().items():
         tab.select_option("#program-choice", name)
         assert tab.input_value("#program-text") == text
 
 
-def test_a_behaviour_takes_the_place_of_a_program(tab):
+def test_chosen_behaviour_replaces_the_program(tab):
     run(tab)
     tab.click("#tab-run")
     tab.select_option("#behaviour", "never")
@@ -140,7 +140,7 @@ def test_a_behaviour_takes_the_place_of_a_program(tab):
     assert tab.inner_text("figure:nth-child(2) figcaption") == "copy: never, seed 1"
 
 
-def test_the_page_sends_the_frames_of_the_command_line(page, tmp_path):
+def test_program_in_the_page_sends_the_frames_of_the_command_line(page, tmp_path):
     wanted = experiment("article", seed=6)
     wanted["robots"] = [{**wanted["robots"][0], "program": ARTICLE}]
     options = ("--seed", "6", "--environments", "2", "--limit-s", "20", "--bus", "none", "--out", tmp_path)
@@ -156,7 +156,7 @@ def without_boot(log: str) -> list[str]:
     return [line for line in log.splitlines() if " 101#" in line or " 041#" in line]
 
 
-def test_a_link_brings_the_experiment_back(tab, open_page):
+def test_link_restores_the_experiment(tab, open_page):
     run(tab, "rForward 10\nrTurn 90 // größer & mehr\n")
     tab.click("#program-link")
     address = tab.evaluate("location.href")
@@ -170,7 +170,7 @@ def test_a_link_brings_the_experiment_back(tab, open_page):
     )
 
 
-def test_a_link_holds_parameters_changes_robots_time_and_lesson(open_page, file):
+def test_link_holds_parameters_changes_robots_time_and_lesson(open_page, file):
     page = open_page(file.as_uri() + "#share", ready=READY)
     page.click("#begin-lesson")
     settle(page)
@@ -191,7 +191,7 @@ def test_a_link_holds_parameters_changes_robots_time_and_lesson(open_page, file)
     assert "Loaded" not in again.inner_text("#program-news")
 
 
-def test_zbar_reads_the_link_from_its_code(page, tmp_path):
+def test_zbar_reads_the_link_from_its_qr_code(page, tmp_path):
     page.evaluate("octet.seek(371)")
     page.click("#show-link-code")
     page.locator("#link-code canvas").screenshot(path=tmp_path / "code.png")
@@ -206,7 +206,7 @@ def test_zbar_reads_the_link_from_its_code(page, tmp_path):
     assert "tick=371" in read
 
 
-def test_a_link_that_is_too_long_for_a_code_is_no_code(page):
+def test_link_too_long_for_a_qr_code_is_reported(page):
     page.evaluate("octet.lane.setUp({ program: 'rem ' + 'x'.repeat(4000) })")
     page.click("#show-link-code")
 
@@ -219,7 +219,7 @@ FOUND = (
 )
 
 
-def test_a_link_has_seed_world_behaviour_memory_program_and_language(open_page, file):
+def test_link_sets_seed_world_behaviour_memory_program_and_language(open_page, file):
     page = open_page(file.as_uri() + FOUND, ready=READY)
     settle(page)
     first, second = page.evaluate("octet.lanes.map(({ experiment }) => experiment)")
@@ -253,7 +253,7 @@ def test_a_link_has_seed_world_behaviour_memory_program_and_language(open_page, 
         ('#v=1&changes=[{"do":"lift","tick":2},{"do":"lift","tick":1}]&end', "Not loaded: changes."),
     ],
 )
-def test_what_of_a_link_was_taken_and_what_not_is_told(link, told, open_page, file):
+def test_faulty_link_is_reported_with_what_was_loaded_and_what_not(link, told, open_page, file):
     page = open_page(file.as_uri() + link.replace("&language=de", ""), ready=READY)
     settle(page)
     page.click("#tab-program")
@@ -261,34 +261,34 @@ def test_what_of_a_link_was_taken_and_what_not_is_told(link, told, open_page, fi
     assert told in page.inner_text("#program-news")
 
 
-def test_what_every_object_has_is_no_program_of_a_link(open_page, file):
+def test_link_cannot_name_an_inherited_property_as_its_program(open_page, file):
     page = open_page(f"{file.as_uri()}#v=1&program=@constructor&end", ready=READY)
     page.click("#tab-program")
 
     assert "Not loaded: program." in page.inner_text("#program-news")
 
 
-def test_a_link_that_is_pasted_into_the_address_of_the_open_page_is_followed(page, file):
+def test_link_pasted_into_the_address_of_the_open_page_is_followed(page, file):
     with page.expect_event("load"):
         page.goto(f"{file.as_uri()}#v=1&seed=7&end")
 
     wait_for(page, "window.octet?.lane.experiment.seed === 7")
 
 
-def test_what_was_told_of_a_link_is_told_in_the_language_that_is_chosen_then(tab):
+def test_message_about_a_link_follows_the_chosen_language(tab):
     tab.click("#program-link")
     tab.select_option("#language", "de")
 
     assert "Der Link" in tab.inner_text("#program-news")
 
 
-def test_the_tab_is_accessible(tab):
+def test_axe_finds_nothing_on_the_program_tab(tab):
     run(tab, "x = 1\nrTrun 5")
 
     assert violations_at(tab) == []
 
 
-def test_both_languages_have_the_same_words():
+def test_english_and_german_have_the_same_program_texts():
     english, german = (languages()[code]["program"] for code in ("en", "de"))
     expected = Path(ROOT / "host_sim/program/native/program.h").read_text().partition("EXPECTED_NOTHING,")[2]
 

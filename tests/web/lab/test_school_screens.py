@@ -80,7 +80,7 @@ def shown_steps(page: Page) -> Iterator[int]:
         yield step
 
 
-def test_the_step_of_every_lesson_is_in_view_with_arena_and_memory(page):
+def test_lesson_steps_are_in_view_with_arena_and_memory(page):
     page.click("#tab-lessons")
     for lesson in LESSONS:
         page.select_option("#lesson", lesson)
@@ -98,7 +98,7 @@ def test_the_step_of_every_lesson_is_in_view_with_arena_and_memory(page):
                 assert faults(page) == [], (lesson, size, language)
 
 
-def test_what_a_step_needs_is_in_view_on_a_phone_below_the_arena(page):
+def test_controls_of_a_step_are_in_view_on_a_phone_and_not_covered(page):
     page.click("#tab-lessons")
     needed = ("#floors", "#play", "#step .head", "#step .held")
     resize(page, PHONE)
@@ -114,7 +114,7 @@ def test_what_a_step_needs_is_in_view_on_a_phone_below_the_arena(page):
 
 
 @pytest.mark.parametrize("tab", ["run", "parameters", "listing", "program", "curves", "files", "talk"])
-def test_nothing_is_cut_and_no_card_is_half_empty(tab, page):
+def test_tabs_have_nothing_cut_and_no_card_half_empty(tab, page):
     page.evaluate("octet.begin({ ...octet.lane.experiment, changes: [] })")
     settle(page)
     page.click(f"#tab-{tab}")
@@ -130,7 +130,7 @@ def test_nothing_is_cut_and_no_card_is_half_empty(tab, page):
             assert faults(page) == [], (lanes, size)
 
 
-def test_the_name_of_each_world_fits_when_it_is_chosen_in_bold(page):
+def test_world_names_fit_when_chosen_in_bold(page):
     page.click("#tab-run")
     for language in ("en", "de"):
         page.select_option("#language", language)
@@ -139,7 +139,7 @@ def test_the_name_of_each_world_fits_when_it_is_chosen_in_bold(page):
             assert faults(page) == []
 
 
-def test_what_is_cut_what_overlaps_and_what_is_empty_is_found(page):
+def test_layout_check_finds_cut_overlapping_and_empty_elements(page):
     page.evaluate(
         "document.body.insertAdjacentHTML('beforeend', '<style id=planted>#doing { width: 20px; white-space: pre; }"
         "#desk { margin-top: -20px; } #reference { padding-bottom: 400px; }</style>')"
