@@ -115,13 +115,13 @@ def source(replay: Path, watch, open_page, tmp_path) -> Callable[[str], Page]:
     return show
 
 
-def test_the_table_has_every_ability_and_says_how_each_is_reached():
+def test_table_lists_all_abilities_and_how_each_is_reached():
     assert set(table()) == set(ABILITIES)
     assert {cell for row in table().values() for cell in row.values()} <= {DIRECT, WHAT_IF}
 
 
 @pytest.mark.parametrize("name", SOURCES)
-def test_what_the_table_has_can_be_done_on_the_page_and_where_it_says(source, name):
+def test_abilities_in_the_table_work_on_the_page_of_each_source(source, name):
     page = source(name)
 
     for ability, cells in table().items():

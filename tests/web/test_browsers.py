@@ -26,7 +26,7 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return page_file(tmp_path_factory.mktemp("page"))
 
 
-def test_the_robot_in_the_page_runs_and_its_logs_are_those_of_tools_run(file, open_page, tmp_path):
+def test_page_runs_by_itself_and_its_logs_are_those_of_tools_run(file, open_page, tmp_path):
     page = open_page(file.as_uri(), ready="window.octet?.scene?.state && octet.last > 200")
     wait_for(page, "octet.tick > 100")  # it begins by itself
 
@@ -37,7 +37,7 @@ def test_the_robot_in_the_page_runs_and_its_logs_are_those_of_tools_run(file, op
         assert log == (tmp_path / "run.log").read_text()
 
 
-def test_a_recorded_run_plays(recorded: Path, open_page: Callable[..., Page]):
+def test_recorded_run_plays(recorded: Path, open_page: Callable[..., Page]):
     page = open_page(recorded.as_uri())
 
     page.select_option("#speed", "16")
@@ -46,7 +46,7 @@ def test_a_recorded_run_plays(recorded: Path, open_page: Callable[..., Page]):
     wait_for(page, "octet.tick > 100")
 
 
-def test_a_live_run_goes_on_and_can_be_changed(watch, open_page):
+def test_live_run_goes_on_and_can_be_changed(watch, open_page):
     page = open_page(watch("--seed", "1").url)
     wait_for(page, "octet.scene.state.tick > 25")
 

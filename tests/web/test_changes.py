@@ -35,7 +35,7 @@ def surprised(tmp_path_factory):
     return out / "replay.html"
 
 
-def test_the_page_of_a_run_goes_from_change_to_change_and_says_what_happened(surprised, open_page):
+def test_replay_goes_from_change_to_change_and_says_what_happened(surprised, open_page):
     page = open_page(surprised.as_uri())
     page.select_option("#kind", "change")
     assert page.inner_text("#news") == ""
@@ -51,7 +51,7 @@ def test_the_page_of_a_run_goes_from_change_to_change_and_says_what_happened(sur
     wait_for(page, GREEN)
 
 
-def test_the_live_page_shows_what_happens_when_it_does(watch, open_page):
+def test_live_page_shows_changes_when_they_happen(watch, open_page):
     page = open_page(watch("--environments", "1", "--limit-s", "20", *CHANGES[:4]).url)
     assert page.inner_text("#news") == ""
     full_speed(page)
@@ -60,7 +60,7 @@ def test_the_live_page_shows_what_happens_when_it_does(watch, open_page):
     wait_for(page, GREEN)
 
 
-def test_a_page_that_joins_late_is_told_what_happened(watch, open_page):
+def test_page_that_joins_late_is_told_of_the_changes(watch, open_page):
     watched = watch("--environments", "1", "--limit-s", "30", *CHANGES[:4])
     full_speed(open_page(watched.url))
     page = open_page(watched.url)
@@ -92,13 +92,13 @@ LESSONS = [
 IN_TERMINAL = [[phrases.sentence(it) for it in STATES], [phrases.lesson_sentence(it) for it in LESSONS]]
 
 
-def test_the_sentences_are_those_of_the_terminal(open_page):
+def test_sentences_are_those_of_the_terminal(open_page):
     page = open_page(HOME, prepare=FakeRun([robot_state(1, 800, 700)]).serve)
 
     assert page.evaluate(with_modules(SAY, "core/phrases.ts"), [STATES, LESSONS]) == IN_TERMINAL
 
 
-def test_every_reason_has_its_colours_its_name_and_its_width(open_page):
+def test_reasons_have_colours_names_and_widths(open_page):
     page = open_page(HOME, prepare=FakeRun([robot_state(1, 800, 700)]).serve)
 
     assert page.evaluate("octet.lane.renderer.palette.reasons.every((colour) => /^#/.test(colour))")

@@ -83,7 +83,7 @@ def without_comments(source: str) -> str:
 
 
 @pytest.mark.parametrize("code", [code for code in TEXTS if code != "en"])
-def test_every_language_has_every_text(code):
+def test_languages_have_all_texts_of_english(code):
     english, other = (copy.deepcopy(own(TEXTS[it])) for it in ("en", code))
     for words in (english, other):
         del words["program"]["expected"]  # in English they are the program's own
@@ -95,7 +95,7 @@ def test_every_language_has_every_text(code):
     assert [it for it in SENTENCES if it not in TEXTS[code]["robot"]["sentences"] and "plant" not in it] == []
 
 
-def test_no_text_is_left_in_english():
+def test_german_texts_are_not_left_in_english():
     english, german = dict(places(own(TEXTS["en"]))), dict(places(own(TEXTS["de"])))
     words = {place: text for place, text in german.items() if re.search("[a-z]{3}", GAPS.sub("", text))}
     same = {text for place, text in words.items() if english.get(place) == text}
@@ -104,7 +104,7 @@ def test_no_text_is_left_in_english():
 
 
 @pytest.mark.parametrize("code", [code for code in TEXTS if code != "en"])
-def test_a_lesson_calls_what_is_on_the_page_as_the_page_does(code):
+def test_lessons_name_controls_as_the_page_does(code):
     english, shown = {*TEXTS["en"]["page"].values(), *SIDES}, set(TEXTS[code]["page"].values())
     quoted = {it for _, text in places(TEXTS[code]["lessons"]) for it in re.findall("„([^“]+)“", text)}
 
@@ -130,14 +130,14 @@ def unknown_in_steps(code: str, words: dict[str, Any]) -> set[str]:
 
 
 @pytest.mark.parametrize("code", TEXTS)
-def test_a_step_names_what_is_on_the_page_and_has_its_tool_in_it(code):
+def test_lesson_steps_name_only_what_the_page_shows(code):
     assert unknown_in_steps(code, TEXTS[code]) == set()
 
 
 @pytest.mark.parametrize(
     ("said", "instead"), [("“Play”", "“Begin now”"), ("with the slider here", "with the slider above")]
 )
-def test_a_step_that_names_what_is_not_there_is_found(said, instead):
+def test_lesson_step_that_names_something_not_shown_is_found(said, instead):
     words = copy.deepcopy(TEXTS["en"])
     for lesson in words["lessons"]["lessons"].values():
         lesson["steps"] = [step.replace(said, instead) for step in lesson["steps"]]
@@ -187,7 +187,7 @@ MEANT_OTHERWISE = {
 }
 
 
-def test_german_names_the_sides_numbers_and_buttons_that_english_names():
+def test_german_texts_name_the_sides_numbers_and_buttons_of_english():
     assert contradictions(dict(places(own(TEXTS["en"]))), dict(places(own(TEXTS["de"])))) == set()
 
 
@@ -197,7 +197,7 @@ def told_otherwise(words: dict[str, str]) -> set[str]:
 
 
 @pytest.mark.parametrize("section", ["heard", "refused", "columns"])
-def test_what_is_heard_in_english_is_said_in_german_with_its_sides_and_numbers(section):
+def test_german_replies_keep_the_sides_and_numbers_of_english(section):
     assert told_otherwise(TEXTS["de"][section]) == set()
 
 
@@ -205,11 +205,11 @@ def test_what_is_heard_in_english_is_said_in_german_with_its_sides_and_numbers(s
     ("told", "said"),
     [("left", "rechts"), ("front-left", "vorne rechts"), ("there are 40 obstacles", "es gibt schon 20")],
 )
-def test_what_is_said_with_another_side_or_number_is_found(told, said):
+def test_translation_with_another_side_or_number_is_found(told, said):
     assert told_otherwise({told: said, "right": "rechts"}) == {told}
 
 
-def test_a_german_robot_names_the_sides_and_numbers_that_an_english_one_names():
+def test_german_robot_names_the_sides_and_numbers_of_the_english_one():
     words = TEXTS["de"]["robot"]
     english, german = (SCRIPTS[code]["facts"] for code in ("en", "de"))
 
@@ -220,7 +220,7 @@ def test_a_german_robot_names_the_sides_and_numbers_that_an_english_one_names():
 
 
 @pytest.mark.parametrize("code", ["en", "de"])
-def test_a_robot_hears_each_side_by_its_own_names(code):
+def test_robot_recognizes_each_side_by_its_own_names(code):
     spoken = SCRIPTS[code]["spoken"]
 
     heard = {(side, *sides(name)) for side in ("left", "right", "front") for name in spoken[side]}
@@ -229,14 +229,14 @@ def test_a_robot_hears_each_side_by_its_own_names(code):
 
 
 @pytest.mark.parametrize("place", MEANT_OTHERWISE)
-def test_a_german_text_that_says_something_else_is_found(place):
+def test_german_text_with_another_meaning_is_found(place):
     german = dict(places(own(TEXTS["de"])))
     german[place] = german[place].replace(*MEANT_OTHERWISE[place])
 
     assert contradictions(dict(places(own(TEXTS["en"]))), german) == {place}
 
 
-def test_every_text_is_used():
+def test_texts_are_all_used():
     words = {part: TEXTS["en"][part] for part in ("page", "wall", "lessons")}
 
     assert unused(words, code()) == set()
@@ -259,7 +259,7 @@ def numbered(text: str) -> str:
 
 
 @pytest.mark.parametrize("code", [code for code in TEXTS if code != "en"])
-def test_what_is_heard_in_english_is_said_in_every_language(code):
+def test_messages_heard_in_english_are_translated_in_each_language(code):
     heard = {**TEXTS[code]["heard"], **TEXTS[code]["refused"]}
 
     assert said_in_english() - heard.keys() == set()
@@ -275,7 +275,7 @@ def texts_in_html(html: str) -> list[str]:
 
 
 @pytest.mark.parametrize("name", TEMPLATES)
-def test_no_template_has_a_text(name):
+def test_templates_contain_no_text(name):
     html = template(name)
 
     assert texts_in_html(html) == []
@@ -283,7 +283,7 @@ def test_no_template_has_a_text(name):
 
 
 @pytest.mark.parametrize("change", ["missing", "more", "empty", "gap", "shorter"])
-def test_a_text_that_is_not_in_both_is_found(change):
+def test_difference_between_the_texts_of_two_languages_is_found(change):
     german = copy.deepcopy(TEXTS["de"]["lessons"])
     if change == "missing":
         del german["words"]["start"]
@@ -299,13 +299,13 @@ def test_a_text_that_is_not_in_both_is_found(change):
     assert len(different(TEXTS["en"]["lessons"], german)) == 1
 
 
-def test_a_text_that_no_page_shows_is_found():
+def test_text_that_no_page_shows_is_found():
     words = {"nobodySaysThis": "What is never said"}
 
     assert unused(words, code() + "// nobodySaysThis") == {"nobodySaysThis"}
 
 
-def test_a_lesson_has_a_check_for_each_goal_a_plan_for_each_step_and_an_answer_to_each_question():
+def test_lessons_have_checks_for_goals_plans_for_steps_answers_for_tasks():
     plan = r'^    id: "(\w+)",.*?^    steps: \[\n(.*?)^    \],\n    goals: \[\n(.*?)^    \],'
     plans = re.findall(plan, code(), re.DOTALL | re.MULTILINE)
     check = re.compile(r"^      \(_?runs, _?tick(?:, \{ \w+ \})?\) =>", re.MULTILINE)

@@ -88,7 +88,7 @@ def live(open_shared: Callable[..., Page]) -> Page:
     return page
 
 
-def test_the_live_page_has_all_that_matters_in_view(live):
+def test_live_page_has_its_controls_in_view_at_every_size(live):
     for size in SIZES:
         resize(live, size)
         assert out_of_view(live, LIVE, size) == [], size
@@ -97,19 +97,19 @@ def test_the_live_page_has_all_that_matters_in_view(live):
         assert arena["height"] >= min(size[1] * 0.5, size[0] * 0.7), size
 
 
-def test_the_arena_is_what_a_live_page_shows_first(live):
+def test_live_page_shows_a_large_arena_first(live):
     assert too_small(live, ARENA, ".lane canvas") == []
     assert live.evaluate(NEAR_THE_TOP)
 
 
-def test_the_arena_is_what_a_replay_shows_first(recorded: Path, open_page):
+def test_replay_shows_a_large_arena_first(recorded: Path, open_page):
     page = open_page(recorded.as_uri())
 
     assert too_small(page, ARENA, ".lane canvas") == []
     assert page.evaluate(NEAR_THE_TOP)
 
 
-def test_an_arena_that_is_small_or_covered_is_found(recorded: Path, open_page):
+def test_small_or_covered_arena_is_found(recorded: Path, open_page):
     page = open_page(recorded.as_uri())
     page.evaluate("document.querySelector('#stage').append(document.querySelector('.viewport'))")
     page.evaluate("document.querySelector('.viewport').style = 'position: absolute; left: 12px; top: 60px'")
@@ -121,7 +121,7 @@ def test_an_arena_that_is_small_or_covered_is_found(recorded: Path, open_page):
     assert len(too_small(page, {(1366, 657): (720, 540)}, ".lane canvas")) == 1
 
 
-def test_the_replay_has_all_that_matters_in_view_even_while_it_compares(recorded: Path, open_page):
+def test_replay_has_its_controls_in_view_even_while_it_compares(recorded: Path, open_page):
     page = open_page(recorded.as_uri())
     page.click("#pin")
     page.evaluate("octet.go(octet.last)")
@@ -144,15 +144,15 @@ def out_of_legend(page: Page) -> list[str]:
     return found
 
 
-def test_the_legend_is_one_press_away_on_the_live_page(live):
+def test_legend_is_one_press_away_on_the_live_page(live):
     assert out_of_legend(live) == []
 
 
-def test_the_legend_is_one_press_away_on_a_replay(recorded: Path, open_page):
+def test_legend_is_one_press_away_on_a_replay(recorded: Path, open_page):
     assert out_of_legend(open_page(recorded.as_uri())) == []
 
 
-def test_a_printed_replay_is_one_white_sheet(recorded: Path, open_page):
+def test_printed_replay_is_one_white_sheet(recorded: Path, open_page):
     page = open_page(recorded.as_uri())
     page.evaluate("octet.go(octet.last)")
     next_frame(page)
@@ -164,7 +164,7 @@ def test_a_printed_replay_is_one_white_sheet(recorded: Path, open_page):
     assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgba(0, 0, 0, 0)"
 
 
-def test_fingers_can_hit_everything_on_a_phone(live):
+def test_controls_and_arena_items_are_large_enough_for_touch_on_a_phone(live):
     for size in PHONES:
         resize(live, size)
         assert live.evaluate(TOO_SMALL) == [], size
@@ -172,7 +172,7 @@ def test_fingers_can_hit_everything_on_a_phone(live):
         assert live.evaluate(with_modules(REACH, "edit/hit_testing.ts")) == [], size
 
 
-def test_the_arena_stays_in_view_when_an_obstacle_is_added_on_a_phone(live):
+def test_arena_stays_in_view_when_an_obstacle_is_added_on_a_phone(live):
     for size in PHONES:
         resize(live, size)
         live.click("#add-bar")
@@ -191,7 +191,7 @@ def test_axe_finds_nothing_on_the_replay(recorded: Path, open_page):
     assert violations_at(page) == []
 
 
-def test_axe_finds_what_is_wrong(live):
+def test_axe_finds_a_text_with_low_contrast(live):
     live.evaluate("document.querySelector('#legend').innerHTML += '<p id=\"grey\" style=\"color: #ccc\">grey</p>'")
 
     found = violations(live)

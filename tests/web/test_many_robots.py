@@ -46,12 +46,12 @@ def selected(page) -> int:
     return page.evaluate("octet.scene.node")
 
 
-def test_every_robot_is_drawn_in_the_colour_of_its_reason(page):
+def test_robots_are_drawn_in_the_colours_of_their_reasons(page):
     for x, y, reason in ((800, 700, "wander"), (2000, 1500, "remembered"), (3300, 1500, "stop")):
         assert page.evaluate(COLOUR_AT, [x - 60, y]) == page.evaluate(COLOUR_OF, f"reason-{reason}")
 
 
-def test_every_robot_has_its_number_beside_it(page):
+def test_robots_have_their_numbers_beside_them(page):
     ink, paper = (page.evaluate(COLOUR_OF, name) for name in ("ink", "paper"))
 
     inside = [page.evaluate(COLOUR_AT, number_of(x, y)) for x, y in ((800, 700), (2000, 1500), (3300, 1500))]
@@ -59,7 +59,7 @@ def test_every_robot_has_its_number_beside_it(page):
     assert inside == [ink, paper, paper]
 
 
-def test_a_robot_alone_has_no_number_and_no_buttons(open_page):
+def test_robot_alone_has_no_number_and_no_buttons(open_page):
     page = open_page(HOME, prepare=FakeRun([robot_state(1, 800, 700)]).serve)
 
     assert page.evaluate(COLOUR_AT, number_of(800, 700)) == page.evaluate(COLOUR_OF, "floor")
@@ -67,7 +67,7 @@ def test_a_robot_alone_has_no_number_and_no_buttons(open_page):
     assert page.inner_text("#memory-title") == "Memory: eight bytes"
 
 
-def test_every_robot_leaves_its_trail(page, run):
+def test_robots_leave_one_trail_each(page, run):
     for state in run.states:
         state["x"] += 40
     run.send()
@@ -80,7 +80,7 @@ def test_every_robot_leaves_its_trail(page, run):
     ]
 
 
-def test_numbers_and_brackets_select_a_robot(page):
+def test_keys_for_digits_and_brackets_select_a_robot(page):
     seen = [selected(page)]
     for key in ("2", "]", "]", "[", "1", "7"):
         page.keyboard.press(key)
@@ -89,7 +89,7 @@ def test_numbers_and_brackets_select_a_robot(page):
     assert seen == [1, 2, 12, 1, 12, 1, 1]
 
 
-def test_a_click_selects_a_robot(page):
+def test_click_selects_a_robot(page):
     page.mouse.click(*place_on_page(page, 3300, 1500))
     assert selected(page) == 12
     page.click("#robots >> text='2'")
@@ -97,7 +97,7 @@ def test_a_click_selects_a_robot(page):
     wait_for(page, "document.querySelector('#robots [aria-pressed=true]').value === '2'")
 
 
-def test_the_panel_shows_the_selected_robot(page, run):
+def test_panel_shows_the_selected_robot(page, run):
     run.send(lessons=[{"node": 2, "tick": 5, "cell": 1, "side": 1, "by_hand": 0}])
     wait_for_text(page, "#memory-title", "Memory of robot 1: eight bytes")
     assert page.inner_text("#lessons") == "Nothing yet."
@@ -114,7 +114,7 @@ def test_the_panel_shows_the_selected_robot(page, run):
     assert page.inner_text("#lessons") == "Nothing yet."
 
 
-def test_a_dragged_robot_is_lifted_and_put_by_its_number(page, run):
+def test_dragged_robot_is_lifted_and_put_by_its_number(page, run):
     drag(page, (2000, 1500), (2300, 1200))
     wait_for(page, "octet.scene.node === 2")
 
@@ -154,7 +154,7 @@ def test_cells_are_written_erased_and_frozen_in_the_selected_robot(page, run):
     ]
 
 
-def test_after_a_new_connection_the_same_robot_is_selected(page, run):
+def test_selected_robot_stays_selected_after_a_new_connection(page, run):
     page.keyboard.press("2")
     run.states[0]["x"] = 900
     run.send(measures=page.evaluate("octet.scene.measures"), environment=page.evaluate("octet.scene.environment"))
@@ -164,7 +164,7 @@ def test_after_a_new_connection_the_same_robot_is_selected(page, run):
     assert page.evaluate("octet.scene.trails.map(({ length }) => length)") == [1, 1, 1]
 
 
-def test_trails_begin_anew_where_the_same_environment_is_started_over(page, run):
+def test_trails_begin_anew_when_the_same_environment_starts_over(page, run):
     for state in run.states:
         state["x"] += 400
     run.send(environment={**ENVIRONMENT, "first_tick": 90, "start_tick": 90})
@@ -173,7 +173,7 @@ def test_trails_begin_anew_where_the_same_environment_is_started_over(page, run)
     assert page.evaluate("octet.scene.trails.map(({ length }) => length)") == [1, 1, 1]
 
 
-def test_a_page_that_has_lost_its_connection_says_so_until_it_has_another_one(page):
+def test_lost_connection_stays_reported_when_the_page_is_redrawn(page):
     page.evaluate("octet.connection.open = () => {}")
     page.evaluate("octet.connection.socket.close()")
     wait_for_text(page, "#status", "no connection")
@@ -184,7 +184,7 @@ def test_a_page_that_has_lost_its_connection_says_so_until_it_has_another_one(pa
     assert page.inner_text("#status").startswith("no connection")
 
 
-def test_numbers_have_the_decimal_point_of_the_language(run, open_page):
+def test_numbers_have_the_decimal_separator_of_the_language(run, open_page):
     page = open_page(HOME, prepare=run.serve, locale="de")
     run.send(pins=[{"volts": 7.4, "counts": [5, 6], "duty": [30, -31]}])
     wait_for_text(page, "#pins", "V")
@@ -192,7 +192,7 @@ def test_numbers_have_the_decimal_point_of_the_language(run, open_page):
     assert (page.inner_text("#fact-speed")[:3], page.inner_text("#pins")[:5]) == ("1,0", "7,4 V")
 
 
-def test_only_the_main_button_of_a_mouse_moves_a_robot(page, run):
+def test_right_mouse_button_does_not_move_a_robot(page, run):
     page.mouse.move(*place_on_page(page, 2000, 1500))
     page.mouse.down(button="right")
     page.mouse.move(*place_on_page(page, 2300, 1200))
@@ -210,7 +210,7 @@ def replay(tmp_path, open_page):
     return open_page(write_replay(tmp_path / "many.html", robots).as_uri())
 
 
-def test_a_recorded_run_opens_at_the_tick_that_it_names(tmp_path, open_page):
+def test_recorded_run_opens_at_the_tick_that_it_names(tmp_path, open_page):
     robots = [{"node": 3, "y": 800, "cell": 1, "learned_at": 50}]
 
     page = open_page(write_replay(tmp_path / "wrong.html", robots, shown=77).as_uri())
@@ -218,7 +218,7 @@ def test_a_recorded_run_opens_at_the_tick_that_it_names(tmp_path, open_page):
     assert page.evaluate("[octet.tick, octet.scene.states[0].x]") == [77, 654]
 
 
-def test_a_recorded_run_has_the_states_of_all_robots(replay):
+def test_recorded_run_has_the_states_of_all_robots(replay):
     replay.evaluate("octet.go(100)")
 
     assert replay.evaluate(
@@ -229,7 +229,7 @@ def test_a_recorded_run_has_the_states_of_all_robots(replay):
     ]
 
 
-def test_a_recorded_run_plays_the_events_of_the_selected_robot(replay):
+def test_recorded_run_goes_to_the_events_of_the_selected_robot(replay):
     replay.select_option("#kind", "lesson")
     replay.click("#after")
     assert replay.evaluate("octet.tick") == 50
@@ -242,13 +242,13 @@ def test_a_recorded_run_plays_the_events_of_the_selected_robot(replay):
     wait_for_text(replay, "#lessons", "Learned: front-left blocked, turn left.")
 
 
-def test_a_click_selects_a_recorded_robot(replay):
+def test_click_selects_a_recorded_robot(replay):
     assert selected(replay) == 3
     replay.mouse.click(*place_on_page(replay, 500, 1600))
     assert selected(replay) == 4
 
 
-def test_a_person_acts_on_one_robot_of_a_live_run(watch, open_page):
+def test_commands_act_on_one_robot_of_a_live_run(watch, open_page):
     watched = watch("--robots", "3", "--seed", "1")
     page = open_page(watched.url)
     pause(page)
@@ -270,7 +270,7 @@ def test_a_person_acts_on_one_robot_of_a_live_run(watch, open_page):
     assert [(edit["do"], edit["robot"]) for edit in watched.params()["edits"]] == [("lift", 1)]
 
 
-def test_a_recorded_run_shows_each_robot_as_it_was(tmp_path, open_page):
+def test_recorded_run_ends_with_the_memory_of_each_robot(tmp_path, open_page):
     words = ("--robots", "2", "--seed", "3", "--environments", "1", "--limit-s", "20")
     assert octet("run", "--bus", "none", *words, "--quiet", "--out", tmp_path).returncode == 0
     page = open_page((tmp_path / "replay.html").as_uri())

@@ -30,7 +30,7 @@ def check_schemes(page: Page, name: str) -> None:
         check(page, name.format(scheme))
 
 
-def test_live(watch, look):
+def test_live_screens_are_readable_and_fit_the_width(watch, look):
     url = watch("--seed", "2").url
     for size in SIZES:
         page = look(url, size)
@@ -43,7 +43,7 @@ def test_live(watch, look):
         )
 
 
-def test_interaction(watch, look):
+def test_interaction_screen_is_readable_and_fits_the_width(watch, look):
     page = look(watch("--seed", "2").url, "laptop")
     pause(page)
     page.click("#add-bar")
@@ -56,7 +56,7 @@ def test_interaction(watch, look):
     check(page, "interaction-light-laptop")
 
 
-def test_replay(recorded, look):
+def test_replay_screens_are_readable_and_fit_the_width(recorded, look):
     for size in SIZES:
         page = look(recorded.as_uri(), size)
         page.click("#pin")
@@ -65,7 +65,7 @@ def test_replay(recorded, look):
         check_schemes(page, f"replay-{{}}-{size}")
 
 
-def test_many_robots(look):
+def test_screens_of_many_robots_are_readable_and_fit_the_width(look):
     states = [
         robot_state(node, 350 + 470 * (node - 1), 400 + 310 * (node - 1), reason=node - 1) for node in range(1, 9)
     ]

@@ -84,7 +84,7 @@ def third(esperanto: Path, open_shared: Callable[..., Page]) -> Page:
 
 
 @pytest.mark.parametrize("tab", ["run", "parameters", "listing", "program", "curves", "files", "talk", "lessons"])
-def test_a_language_whose_file_alone_is_added_is_spoken_by_the_whole_page(tab, third):
+def test_page_speaks_a_language_that_is_added_as_one_file(tab, third):
     third.click(f"#tab-{tab}")
     third.click("summary >> visible=true >> nth=-1")
     for tick in (0, 400, third.evaluate("octet.last")):
@@ -92,7 +92,7 @@ def test_a_language_whose_file_alone_is_added_is_spoken_by_the_whole_page(tab, t
         assert foreign(third) == set()
 
 
-def test_what_goes_wrong_is_said_in_it_too(third):
+def test_errors_and_news_are_in_the_added_language(third):
     third.evaluate("octet.begin({ ...octet.lane.experiment, changes: [] })")
     settle(third)
     third.click("#what-if")
@@ -107,7 +107,7 @@ def test_what_goes_wrong_is_said_in_it_too(third):
     assert foreign(third) == set()
 
 
-def test_the_page_of_a_run_speaks_it(esperanto, open_page):
+def test_replay_speaks_the_added_language(esperanto, open_page):
     page = open_page((esperanto / "run/replay.html").as_uri(), locale="eo")
     for tick in (0, 400, page.evaluate("octet.last")):
         page.evaluate("tick => octet.go(tick)", tick)
@@ -118,7 +118,7 @@ def test_the_page_of_a_run_speaks_it(esperanto, open_page):
     assert foreign(page) == set()
 
 
-def test_the_board_and_the_pages_of_a_run_speak_it(watch, hold_class, open_page):
+def test_board_and_live_pages_speak_the_added_language(watch, hold_class, open_page):
     def speak(page: Page) -> None:
         lesson = f"{TEACH}({json.dumps(third_language())})"
         page.add_init_script(f"document.addEventListener('readystatechange', () => {lesson})")
@@ -135,7 +135,7 @@ def test_the_board_and_the_pages_of_a_run_speak_it(watch, hold_class, open_page)
     assert [foreign(page) for page in (board, *pages)] == [set()] * 4
 
 
-def test_axe_finds_nothing_in_german_on_a_phone_on_its_side(third, esperanto, watch, hold_class, open_page):
+def test_axe_finds_nothing_in_german_on_a_phone_in_landscape(third, esperanto, watch, hold_class, open_page):
     watched = watch("--listen", "127.0.0.1", "--robots", "2")
     kept = [((esperanto / name).as_uri(), ready) for name, ready in KEPT.items()]
     served = [(hold_class()[1], BOARD_READY), (watched.url, "window.octet?.scene?.state")]
@@ -144,7 +144,7 @@ def test_axe_finds_nothing_in_german_on_a_phone_on_its_side(third, esperanto, wa
         assert violations_at(page, [(740, 360)]) == []
 
 
-def test_another_language_is_chosen_without_loading_the_page_again(third):
+def test_language_changes_without_reloading_the_page(third):
     third.select_option("#language", "de")
     assert third.inner_text("#erase") == GERMAN["page"]["erase"]
     assert third.get_attribute("html", "lang") == "de"

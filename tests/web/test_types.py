@@ -37,13 +37,13 @@ def check(folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(["tsc", "-p", "."], cwd=folder, capture_output=True, text=True, check=False)
 
 
-def test_every_module_passes_the_type_checker():
+def test_modules_pass_the_type_checker():
     done = check(WEB)
 
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
-def test_the_type_checker_finds_every_planted_fault(tmp_path):
+def test_type_checker_finds_every_planted_fault(tmp_path):
     for part in (TYPES, WEB / "generated_types.ts", WEB / "tsconfig.json", WEB / "browser.d.ts"):
         shutil.copy(part, tmp_path)
     for name, (_, text) in FAULTS.items():
@@ -56,7 +56,7 @@ def test_the_type_checker_finds_every_planted_fault(tmp_path):
     assert sorted(found) == sorted((name, code) for name, (code, _) in FAULTS.items())
 
 
-def test_no_module_suppresses_a_finding():
+def test_modules_suppress_no_finding():
     said = re.compile(r"@ts-(?:ignore|nocheck|expect-error)|\bas any\b|\w: any(?:[,)]| =)|\bany\[\]")
 
     assert [path.name for path in WEB.rglob("*.ts") if said.search(path.read_text())] == []
@@ -68,14 +68,14 @@ def interfaces(text: str) -> dict[str, dict[str, str]]:
     return {name: dict(re.findall(r"^  (\w+\??): (.+);$", body, re.MULTILINE)) for name, body in found}
 
 
-def test_the_type_of_a_recorded_run_is_what_its_page_holds(recorded):
+def test_type_of_a_recorded_run_matches_its_page(recorded):
     run, found = run_in(recorded), interfaces(TEXT)
 
     assert {*run, "shown"} == {name.removesuffix("?") for name in found["Run"]}  # few name the tick to open at
     assert set(run["robots"][0]) == set(found["RobotRun"])
 
 
-def test_the_type_of_a_message_is_what_a_live_run_sends(watch, open_page):
+def test_type_of_a_message_matches_what_a_live_run_sends(watch, open_page):
     page = open_page(watch().url)
     first, later = page.evaluate(
         """() => new Promise((resolve) => {

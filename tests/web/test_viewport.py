@@ -41,7 +41,7 @@ def point(page: Page, x: float, y: float) -> None:
     page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
 
 
-def test_the_wheel_zooms_where_the_pointer_is(page):
+def test_wheel_zooms_at_the_pointer(page):
     before, corner = at(page, 0.4, 0.6), at(page, 0, 0)
     point(page, 0.4, 0.6)
     page.mouse.wheel(0, -300)
@@ -52,7 +52,7 @@ def test_the_wheel_zooms_where_the_pointer_is(page):
     assert at(page, 0, 0) == corner
 
 
-def test_a_pointer_on_the_floor_and_arrows_in_the_arena_move_what_is_in_view(page):
+def test_pointer_and_arrow_keys_move_the_view(page):
     page.click("#zoom-in")
     page.click("#zoom-in")
     before = at(page, 0.5, 0.5)
@@ -71,7 +71,7 @@ def test_a_pointer_on_the_floor_and_arrows_in_the_arena_move_what_is_in_view(pag
     assert page.evaluate("octet.tick") == tick
 
 
-def test_a_pointer_that_was_released_outside_of_the_arena_moves_nothing_later(page):
+def test_pointer_released_outside_the_arena_moves_nothing_later(page):
     point(page, 0.3, 0.02)
     page.mouse.down()
     page.mouse.move(2, 2)
@@ -85,7 +85,7 @@ def test_a_pointer_that_was_released_outside_of_the_arena_moves_nothing_later(pa
     assert at(page, 0.5, 0.5) == before
 
 
-def test_what_comes_before_the_next_drawing_is_not_lost(page):
+def test_events_before_the_next_drawing_are_not_lost(page):
     page.click("#zoom-in")
     before = at(page, 0.5, 0.5)
     page.evaluate(SEVERAL, ["keydown", "ArrowRight", "ArrowDown"])
@@ -97,7 +97,7 @@ def test_what_comes_before_the_next_drawing_is_not_lost(page):
     assert at(page, 0.4, 0.6) == pytest.approx(before, abs=3)
 
 
-def test_it_follows_the_robot_up_to_the_walls_until_all_is_in_view_again(page):
+def test_view_follows_the_robot_within_the_walls_until_zoomed_out(page):
     page.keyboard.press("f")
     page.keyboard.press("+")
     assert page.get_attribute("#follow", "aria-pressed") == "true"
@@ -141,7 +141,7 @@ FIRST_LOOK = """() => {
 }"""
 
 
-def test_until_there_is_a_run_an_arena_has_the_colour_of_its_floor(page):
+def test_arena_has_the_colour_of_its_floor_before_there_is_a_run(page):
     shown, floor = page.evaluate(FIRST_LOOK)
 
     assert shown == floor

@@ -44,20 +44,20 @@ def changed(run: Path, **fields: object) -> str:
     return json.dumps({**json.loads((run / "run.world.json").read_text()), **fields})
 
 
-def test_a_log_is_its_run_with_and_without_its_world(tmp_path, run):
+def test_log_opens_as_its_run_with_and_without_its_world(tmp_path, run):
     log, world = (run / "run.log").read_text(), (run / "run.world.json").read_text()
 
     assert opened(tmp_path, log, world) == "This is the run of the log, byte for byte."
     assert opened(tmp_path, log) == "This is the run of the log, byte for byte."
 
 
-def test_a_log_that_was_cut_off_is_the_run_so_far(tmp_path, run):
+def test_truncated_log_opens_as_the_run_so_far(tmp_path, run):
     lines = (run / "run.log").read_text().splitlines(keepends=True)
 
     assert opened(tmp_path, "".join(lines[:300])).startswith("The log ends before the run does")
 
 
-def test_another_world_than_that_of_the_log_is_found(tmp_path, run):
+def test_world_that_does_not_fit_the_log_is_found(tmp_path, run):
     edit = {**EDIT, "tick": 0, "do": "move_food", "id": 0, "at": [10, 10]}
     lift = {"tick": 3, "do": "lift"}
 
@@ -84,18 +84,18 @@ def test_another_world_than_that_of_the_log_is_found(tmp_path, run):
     ],
     ids=str,
 )
-def test_a_world_file_that_is_none_is_refused_in_a_line(tmp_path, run, fields, why):
+def test_malformed_world_file_is_refused_in_one_line(tmp_path, run, fields, why):
     assert opened(tmp_path, (run / "run.log").read_text(), changed(run, **fields)) == why
 
 
-def test_what_is_no_json_is_no_world(tmp_path, run):
+def test_text_that_is_not_json_is_refused_as_a_world_file(tmp_path, run):
     assert opened(tmp_path, (run / "run.log").read_text(), "hello") == NO_WORLD
 
 
 @pytest.mark.parametrize(
     "log", ["", "hello\n", "(0000000000.000000) octet 101#F612000000288002\n"], ids=["", "text", "unstarted"]
 )
-def test_what_is_no_run_is_refused_in_a_line(tmp_path, log):
+def test_log_without_a_run_is_refused_in_one_line(tmp_path, log):
     assert len(opened(tmp_path, log).splitlines()) == 1
     assert "byte for byte" not in opened(tmp_path, log)
 
@@ -109,7 +109,7 @@ octet.simulate(octet.lane);
 """
 
 
-def test_of_several_changes_only_those_that_cannot_be_made_are_taken_back(open_page, tmp_path):
+def test_impossible_changes_are_taken_back_and_the_others_stay(open_page, tmp_path):
     page = open_page(page_file(tmp_path).as_uri(), ready=READY)
 
     page.evaluate(f"() => {{ {CHANGES} }}")
@@ -135,14 +135,14 @@ def logs(tmp_path_factory) -> list[Path]:
     return [recorded(folder / name, *words) for name, words in (runs | {"four": ("--robots", "4")}).items()]
 
 
-def test_every_recorded_log_is_answered_frame_by_frame(tmp_path, logs):
+def test_recorded_logs_are_replayed_frame_by_frame(tmp_path, logs):
     compared = in_node(tmp_path, "sim/log_replay.ts", REPLAY, *logs)
 
     assert [it.get("difference") for it in compared] == [None] * len(logs)
     assert [it["frames"] for it in compared] == [len(log.read_text().splitlines()) for log in logs]
 
 
-def test_a_drive_that_differs_is_found(tmp_path, logs):
+def test_drive_frame_that_differs_is_found_with_its_line(tmp_path, logs):
     lines = logs[0].read_text().splitlines()
     changed = next(i for i, line in enumerate(lines) if i > 100 and " 041#" in line)
     lines[changed] = lines[changed][:-1] + ("0" if lines[changed][-1] != "0" else "1")

@@ -35,7 +35,7 @@ return layouts.map(({ world, ...which }) => {
 
 
 @pytest.mark.parametrize("name", sorted(DIGESTS.keys() - {CRATES}))
-def test_the_layouts_of_a_world_stay_the_same_for_ever(tmp_path, name):
+def test_layouts_of_a_world_have_their_recorded_digest(tmp_path, name):
     asked, world = tmp_path / "layouts.json", {"name": name, **WRITTEN[name]} if name in WRITTEN else name
     layouts = [{"world": world, **which._asdict()} for which in WANTED_LAYOUTS]
     asked.write_text(json.dumps({"worlds": world_dimensions(), "layouts": layouts}))
@@ -56,7 +56,7 @@ return seeds.map((seed) => {
 """
 
 
-def test_the_shortest_tour_is_the_same_to_the_last_bit(tmp_path):
+def test_shortest_tour_is_the_same_to_the_last_bit(tmp_path):
     asked, world = tmp_path / "asked.json", world_of("crowded")
     asked.write_text(json.dumps({"worlds": world_dimensions(), "seeds": [1, 2, 3, 4]}))
 
@@ -84,7 +84,7 @@ def in_page(tmp_path_factory) -> dict[str, dict[str, Any]]:
 
 
 @pytest.mark.parametrize(("name", "wanted"), list(zip(NAMES, WANTED, strict=True)), ids=NAMES)
-def test_a_run_has_the_log_and_the_page_of_tools_run(tmp_path, in_page, name, wanted):
+def test_page_run_has_the_log_and_the_states_of_tools_run(tmp_path, in_page, name, wanted):
     assert octet("run", "--bus", "none", "--quiet", "--out", tmp_path, *words(wanted)).returncode == 0
 
     assert in_page[name]["log"] == (tmp_path / "run.log").read_text()
@@ -116,7 +116,7 @@ CHANGED = {
 
 
 @pytest.mark.parametrize(("world", "profile", "robots", "changes"), CHANGED.values(), ids=CHANGED)
-def test_a_run_in_another_world_that_changes_is_that_of_tools_run(tmp_path, world, profile, robots, changes):
+def test_page_run_in_a_changing_world_is_that_of_tools_run(tmp_path, world, profile, robots, changes):
     assert_same_run(tmp_path, experiment(profile, 3, robots, world=world), changes, code=0)
 
 
@@ -124,12 +124,12 @@ LATER = "lag:60ms@2s slack:3deg@3s/1 slip:5%@4s latency:1@5s/2 dark-wall@8s repa
 
 
 @pytest.mark.parametrize("body", ["ideal", "kit", "docs/bodies/late_body.toml", "docs/bodies/sharp_body.toml"])
-def test_a_run_with_other_bodies_that_get_worse_is_that_of_tools_run(tmp_path, body):
+def test_page_run_with_bodies_that_get_worse_is_that_of_tools_run(tmp_path, body):
     assert_same_run(tmp_path, experiment("adaptive", 3, 2, body=body), LATER, code=0)
 
 
 @pytest.mark.parametrize("profile", ["searcher", "distance"])
-def test_the_kit_has_a_name_in_the_page_too(tmp_path, profile):
+def test_page_run_with_the_body_named_kit_is_that_of_tools_run(tmp_path, profile):
     wanted = experiment(profile, 3, body="kit")
 
     assert octet("run", "--bus", "none", "--quiet", "--out", tmp_path, *words(wanted)).returncode == 0
@@ -138,13 +138,13 @@ def test_the_kit_has_a_name_in_the_page_too(tmp_path, profile):
 
 
 @pytest.mark.parametrize("body", ["ideal", "kit"])
-def test_the_page_sets_robots_up_for_their_bodies_as_tools_run_does(tmp_path, body):
+def test_page_sets_robots_up_for_their_bodies_as_tools_run_does(tmp_path, body):
     settings = in_node(tmp_path, "sim/arena.ts", f'return modules["sim/arena.ts"].settingsOf("{body}");')
 
     assert settings == RunConfig(body=body).robot_settings
 
 
-def test_a_run_in_which_robots_stop_because_of_their_wheels_is_that_of_tools_run(tmp_path):
+def test_page_run_with_robots_stopped_by_wheel_faults_is_that_of_tools_run(tmp_path):
     broken = "odometer:left:-100%@3s/2 odometer:left:0%@env2 odometer:right:0%@env2 repair@env2+9s"
 
     assert_same_run(tmp_path, experiment("article", 3, 2), broken, code=1)

@@ -45,7 +45,7 @@ def opened(folder: Path, text: str, code: str = OPEN) -> object:
     return in_node(folder, "sim/world_opening.ts", code, *files)
 
 
-def test_a_world_file_is_that_of_the_command_line(tmp_path):
+def test_world_file_is_read_as_on_the_command_line(tmp_path):
     world = read_world_file(ROOT / "docs/worlds/two_walls.toml")
 
     read = opened(tmp_path, GOOD)["world"]
@@ -54,7 +54,7 @@ def test_a_world_file_is_that_of_the_command_line(tmp_path):
 
 
 @pytest.mark.parametrize("text", BAD.values(), ids=BAD)
-def test_a_mistake_in_a_world_file_is_told_with_its_line_as_on_the_command_line(tmp_path, text):
+def test_world_file_error_has_its_line_and_text_as_on_the_command_line(tmp_path, text):
     (tmp_path / "my.toml").write_text(text)
     with pytest.raises(UsageError) as error:
         read_world_file(tmp_path / "my.toml")
@@ -66,19 +66,19 @@ def test_a_mistake_in_a_world_file_is_told_with_its_line_as_on_the_command_line(
     assert what in said or "is not TOML" in said
 
 
-def test_an_unknown_key_is_told(tmp_path):
+def test_unknown_key_in_a_world_file_is_reported(tmp_path):
     said = opened(tmp_path, f"{FOOD}bar = []\n")
 
     assert said == "my.toml:2: there is no 'bar': a world has size, start, food, bars"
 
 
 @pytest.mark.parametrize("text", ["food", "food = [", "= 3", "food = [[1, 2] 3]", "food = 1\nfood = 2", "[arena]"])
-def test_what_is_no_toml_is_told_in_a_line(tmp_path, text):
+def test_malformed_toml_is_reported_with_its_line(tmp_path, text):
     assert str(opened(tmp_path, text)).startswith(f"my.toml:{text.count(chr(10)) + 1}: this is not TOML: ")
 
 
 @pytest.mark.parametrize("body", ["ideal", "kit"])
-def test_the_robots_of_a_world_file_have_the_settings_that_suit_its_bodies(tmp_path, body):
+def test_robots_of_a_world_file_have_the_settings_of_its_body(tmp_path, body):
     world = {"format": 1, "seed": 3, "of": 2, "limit_ticks": 500, "robots": 2, "edits": [], "body": body}
     code = OPEN.replace("my.toml", "run.world.json").replace("settings: {}", "settings: { turn_deg: 77 }")
 

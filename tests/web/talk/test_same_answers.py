@@ -61,7 +61,7 @@ def random_sentences(seed: int) -> list[tuple[str, str]]:
     return [(who, sentence(who)) for who in draw.choices(SPEAKERS, k=QUESTIONS)]
 
 
-def test_thousands_of_sentences_get_the_same_answers_in_the_page(tmp_path: Path):
+def test_page_answers_thousands_of_sentences_as_the_command_line_does(tmp_path: Path):
     log = tmp_path / "run.log"
     run(RunConfig(seed=11, environments=2, bus="none", profile="forgetful", world="crowded"), log)
     trajectory = resimulate(log).trajectory
