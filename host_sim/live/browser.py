@@ -51,7 +51,8 @@ async def _serve(live: PacedRun, server: LiveServer, out: TextIO) -> None:
 def open_browser(url: str) -> Iterator[None]:
     """Opens a browser at an address that others must not see: other users can read the list of processes.
 
-    The browser gets the name of a file that only this user can read, and that leads it on. It goes with the context.
+    The browser gets the name of a file that only this user can read, and that redirects it to the address. The file
+    is deleted when the context ends.
     """
     descriptor, name = tempfile.mkstemp(prefix="octet-", suffix=".html")
     try:

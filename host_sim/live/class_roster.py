@@ -23,7 +23,7 @@ _FILE_MAX = PUPILS_MAX * (LINK_MAX + 2000)
 _KEY = re.compile(r"[0-9a-f]{32}")
 _LINK = re.compile(r"(#[ -~]*)?")
 _DIGITS = "0123456789ABCDEFGHJKMNPQRSTVWXYZ"
-"""Digits of a code, which nobody confuses: those of Crockford's base 32."""
+"""Digits of a code, which are hard to confuse: those of Crockford's base 32."""
 
 _DIGIT_BITS, _CHECK_BITS = 5, 10
 _FORMULA = ("=", "+", "-", "@")
@@ -226,5 +226,5 @@ def _memory_in(cells: object) -> list[int]:
 
 def _link_in(link: object) -> str:
     if not isinstance(link, str) or len(link) > LINK_MAX or not _LINK.fullmatch(link):
-        raise RosterError("the link is too long, or none")
+        raise RosterError("the link is too long or malformed")
     return link

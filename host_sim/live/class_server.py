@@ -126,5 +126,5 @@ async def _object_in(request: web.Request) -> dict[str, Any]:
     except (ValueError, RecursionError):
         said = None
     if not isinstance(said, dict):
-        raise RosterError("a JSON object is wanted")
+        raise RosterError("the body must be a JSON object")
     return said

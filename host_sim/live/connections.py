@@ -111,7 +111,7 @@ class _Connection(web.RequestHandler):
 
 
 class _Masks:
-    """Follows the frames of a WebSocket. Clients mask all of theirs (RFC 6455, 5.1); aiohttp takes others, too."""
+    """Follows the frames of a WebSocket. Clients must mask theirs (RFC 6455, 5.1); aiohttp accepts others, too."""
 
     def __init__(self) -> None:
         self._head, self._left = bytearray(), 0

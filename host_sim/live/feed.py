@@ -196,8 +196,8 @@ def points(track: RobotTrack, ticks: range) -> list[int]:
 
     Args:
         track: The robot.
-        ticks: Retained ticks. If they have a step, a look around between two small steps is left out; where more than
-            that begins, a tick is added: no trial, remembered turn or meal is missing.
+        ticks: Retained ticks. If they have a step, a look around between two small steps is left out, and a tick is
+            added where any other action begins, so that no trial, remembered turn or meal is missing.
 
     Returns:
         [x, y, reason, ...], x and y in mm.

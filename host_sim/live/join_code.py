@@ -54,7 +54,7 @@ class JoinCode:
             address: Network address of its sender.
 
         Raises:
-            TooManyGuessesError: There were too many wrong ones; a right one would not be taken either.
+            TooManyGuessesError: There were too many wrong ones; a right one would be refused, too.
         """
         now = self._clock()
         while self._wrong and self._wrong[0][0] <= now - PERIOD_S:

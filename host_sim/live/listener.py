@@ -28,9 +28,9 @@ class Listener:
         token: Secret of this run that a page's address must contain: other users of this machine can connect, too.
         board_token: Secret that the board's address must contain, which only its owner is told.
         socket: The socket.
-        urls: The page's address, by number; one for each network that this machine is in.
+        urls: The page's addresses with numbers for the host, one for each network of this machine.
         code: The code that makes a page's address short enough to type; None for this machine only.
-        short_urls: Such an address for each of `urls`; where there is no code, `urls`.
+        short_urls: The address with the code for each of `urls`; `urls` if there is no code.
         board_url: The board's address.
         qr_modules: The first of the page's addresses as a QR code: see `modules_of`; empty for this machine only.
     """

@@ -32,7 +32,10 @@ _PART_TICKS = 50_000
 _NOTHING: EnvironmentScene = {
     "number": 1, "of": 1, "seed": 0, "first_tick": 0, "start_tick": 0, "bars": [], "food": []
 }  # fmt: skip
-_KEYS = "Ctrl-C ends it. Nothing is sent to the robot.\nIts way is by its wheels alone, from where it was first seen."
+_KEYS = (
+    "Ctrl-C ends it. Nothing is sent to the robot.\n"
+    "Its path comes from its wheels alone, from where it was first seen."
+)
 
 
 @dataclass(frozen=True)

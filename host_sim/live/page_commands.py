@@ -78,7 +78,7 @@ class Freeze:
 
 @dataclass(frozen=True)
 class MoveRobot:
-    """Lift a robot off the floor, or put a lifted one down: the edit, and whose it is."""
+    """Lift a robot off the floor, or put a lifted one down: the edit, and the robot's node."""
 
     edit: Edit
     node: int | None = None

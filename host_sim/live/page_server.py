@@ -87,7 +87,7 @@ class PageServer:
         return given
 
     def page(self, request: web.Request, text: str, holds: Callable[[str], bool], *pages: str) -> web.Response:
-        """The first of these pages, which takes the secret out of its address: its browser keeps it in a cookie."""
+        """The first of these pages, which removes the secret from its address: its browser keeps it in a cookie."""
         given = self.admitted(request, holds, *pages)
         response = web.Response(text=text, content_type="text/html")
         response.set_cookie(self._cookie(pages[0]), given, httponly=True, samesite="Strict")

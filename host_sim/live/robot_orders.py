@@ -35,7 +35,7 @@ def command_robot(simulation: Simulation, recorder: RunRecorder, command: WriteC
 def discard_reports(simulation: Simulation) -> None:
     """Discards what robots report between two ticks: they receive nothing, and say so.
 
-    Of a line that never falls silent, only so many frames are taken that a page does not have to wait for them.
+    Takes a limited number of frames, so that a page does not wait for a line that never falls silent.
     """
     if isinstance(simulation.pace, RealTime):
         simulation.pace.rest()

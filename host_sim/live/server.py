@@ -20,13 +20,13 @@ _PAGE = "page"
 _POLICY = HEADERS["Content-Security-Policy"].replace(
     "script-src 'self'", "script-src 'self' 'wasm-unsafe-eval'; worker-src blob:"
 )
-"""The page simulates what might have been: in a worker that it makes, with the firmware as WebAssembly."""
+"""Lets the page simulate other futures: in a worker that it makes, with the firmware as WebAssembly."""
 
 PAGES_MAX = 64
 """Maximum number of open pages, those that have just been reloaded among them."""
 
 IDLE_S = 60.0
-"""Where no more pages fit, the one that has sent nothing for longest goes, if it is for at least this time, s."""
+"""If no more pages fit, the one that has been idle for longest is closed, if that is at least this time, s."""
 
 FRAME_S, RACING_FRAME_S = 1 / 60, 1 / 20
 """Minimum time between two messages to a page; the second at full speed, which is too fast to follow anyway."""
@@ -87,14 +87,14 @@ class LiveServer(PageServer):
                 await self._hand_over()
 
     def on_refusal(self) -> None:
-        """Counts it."""
+        """Counts a refused request."""
         self._live.refused += 1
 
     async def _page(self, request: web.Request) -> web.StreamResponse:
         return self.page(request, self._page_text, self.listener.holds, _PAGE)
 
     async def _hand_over(self) -> None:
-        """Tells all pages that the run has ended, and waits until each has fetched the recording that it becomes."""
+        """Tells all pages that the run has ended, and waits until each has fetched the recording."""
         pages, began = list(self._visitors), time.monotonic()
         due = self._read + len(pages) if pages and self._so_far() else 0
         for page in pages:

@@ -1,4 +1,4 @@
-"""What repeats a recorded run in its page, where its future can then be changed.
+"""The data with which a page repeats a recorded run, so that its future can be changed there.
 
 One object, with
 
@@ -37,7 +37,7 @@ def laboratory(
         world: The text of the run's world file; empty if there is none.
         trajectory: The run.
         record: Its world; None if unknown.
-        commands: Each command in the order of their ticks, with the number of ticks before it.
+        commands: The commands in the order of their ticks, each with the number of ticks before it.
     """
     nodes = [track.node for track in trajectory.tracks]
     if record is None:

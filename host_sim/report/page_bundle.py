@@ -54,7 +54,7 @@ if (window.DecompressionStream) {
 </body>
 </html>
 """
-"""It writes no new document: after `document.open()`, Chromium captures no pointer."""
+"""It does not write a new document: after `document.open()`, Chromium captures no pointer."""
 _NO_STREAM = "This page needs a newer browser: Chrome or Edge 80, Firefox 113, Safari 16.4."
 _COMMENT = re.compile(r"^[ \t]*(?:/\*[^*]*\*+(?:[^/*][^*]*\*+)*/|//[^\n]*)\n", re.MULTILINE)
 _INDENTATION = re.compile(r"^\s+", re.MULTILINE)
@@ -107,7 +107,7 @@ def script(name: str) -> str:
 
 
 def _plain(text: str) -> str:
-    """A text without what no browser reads."""
+    """A text without comments, indentation and empty lines."""
     return _INDENTATION.sub("", _COMMENT.sub("", text))
 
 

@@ -1,4 +1,4 @@
-/* What browsers have and the compiler's library does not know yet. */
+/* Declarations of what browsers have and the compiler's library does not have yet. */
 
 declare class DecompressionStream implements GenericTransformStream {
   constructor(format: "deflate");

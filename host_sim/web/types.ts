@@ -1,4 +1,4 @@
-/* The shapes of what the server sends and takes. What the fields mean stands where they are made: Message in
+/* The shapes of what the server sends and takes. What the fields mean is explained where they are made: Message in
    host_sim/live/feed.py, Run in host_sim/report/replay_page.py, the generated ones where generated_types.ts says. */
 
 import type { EnvironmentScene, Lesson, Measures, SimParams as Dimensions, State, Trial } from "./generated_types.js";
@@ -33,7 +33,7 @@ interface Health {
   orders_refused: number;
 }
 
-/** Left, right. */
+/** `counts` and `duty`: left, right. */
 export type PinFigures = { volts: number; counts: number[]; duty: number[] };
 
 /** What the live page receives; `states` and `trails` have one entry per robot. */
@@ -44,7 +44,7 @@ export interface Message {
   states: State[];
   trails: number[][];
   lessons: Lesson[];
-  /** Of each robot, those since the last message. */
+  /** For each robot, those since the last message. */
   events: RobotRun["events"][];
   play: Play;
   health: Health;
@@ -55,7 +55,7 @@ export interface Message {
 }
 
 /**
- * An answer, and what its facts rest on and speak of: ticks, cells, pieces of food. `log` if each fact in it is known.
+ * An answer, and what its facts rest on and are about: ticks, cells, food. `log` if each fact in it is known.
  */
 export type Said = { mark: "log" | "words"; text: string; ticks: number[]; cells: number[]; food: number[] };
 
@@ -127,7 +127,7 @@ export interface RobotSetup {
   profile: string;
   settings: Record<string, number>;
   memory: number[] | null;
-  /** Of its random turns; by default the experiment's, plus its place among the robots. */
+  /** The seed of its random turns; by default the experiment's, plus its place among the robots. */
   seed?: number;
   /** Its brain, in the language of the listing; without one, the firmware's own. */
   program?: string;
@@ -147,8 +147,8 @@ export type WorldEdit = { do: "add_bar"; a: [number, number]; b: [number, number
   | { do: "put"; robot?: number; at: [number, number]; heading: number };
 
 /**
- * What a robot is told between two ticks; robots are counted from 0. A start is that of the robot with another behaviour; its
- * memory stays. A command is one as a log has it: `struct command`.
+ * What a robot is told between two ticks; robots are counted from 0. A start restarts the robot with another
+ * behaviour, and keeps its memory. A command is as in a log: `struct command`.
  */
 export type RobotChange = { do: "write"; robot: number; cell: number; side: number }
   | { do: "erase"; robot: number }
@@ -161,8 +161,8 @@ export type RobotChange = { do: "write"; robot: number; cell: number; side: numb
 export type Change = WorldEdit | RobotChange;
 
 /**
- * The dimensions of a world; what its layouts are drawn from, an enum layout_style; and its measures, with the default
- * limit of boredom.
+ * The dimensions of a world; the style of its layouts, an enum layout_style; and its measures, with the default limit
+ * of boredom.
  */
 export type SimParams = Dimensions & { style: number; measures: Measures };
 
@@ -191,9 +191,9 @@ export interface Experiment {
   world?: string | WrittenWorld;
   /** What the robots' bodies are like: "ideal", "kit", or as in docs/bodies.md; by default, ideal. */
   body?: string | Traits;
-  /** Of a run that was ended early. */
+  /** The number of ticks of a run that was ended early. */
   ticks_max?: number;
 }
 
-/** What bodies are like: of each trait its value and its tolerance. */
+/** What bodies are like: the value and the tolerance of each trait. */
 export type Traits = Record<string, [number, number]>;

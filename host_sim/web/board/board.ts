@@ -71,7 +71,7 @@ class Board {
     return made("table", [made("thead", [head]), made("tbody", pupils.map((it) => this.row(it, ids)))]);
   }
 
-  /** @param ids - Of the lessons. */
+  /** @param ids - The lessons, one for each column. */
   row(pupil: Pupil, ids: Lesson[]) {
     const { lessons } = wordsOf("lessons");
     const cells = ids.map((id) => {

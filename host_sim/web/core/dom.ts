@@ -5,7 +5,7 @@ export function byId(id: string): HTMLElement {
   return typedById(id, HTMLElement);
 }
 
-/** The element with an id, which must be of a class. */
+/** The element with an id, which must be an instance of a class. */
 export function typedById<T extends HTMLElement>(id: string, kind: new () => T): T {
   const element = document.getElementById(id);
   if (!(element instanceof kind)) throw new Error(`this page has no ${kind.name} with the id ${id}`);

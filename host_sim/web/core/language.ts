@@ -6,8 +6,8 @@ import { keep, kept } from "./storage.js";
 import type { Words } from "./phrases.js";
 
 /**
- * The words of one language, as in texts/: those of the page, and those in which it says what it hears in English from
- * the firmware, the worker or the server.
+ * The words of one language, as in texts/: those of the page, and its translations of English texts from the
+ * firmware, the worker or the server.
  */
 export type Texts = typeof import("../texts/en.json");
 
@@ -47,7 +47,7 @@ export function say(key: Key, values: Record<string, string | number> = {}) {
   return filled(SAID[spoken][key] ?? SAID[FALLBACK][key] ?? key, values);
 }
 
-/** What something is called. */
+/** The name of something in the language of the page. */
 export function nameIn(group: Group, name: string) {
   const names = (ALL[spoken][group] ?? ALL[FALLBACK][group]) as Record<string, string>;
   return names[name] ?? name;
@@ -107,7 +107,7 @@ function sayAll() {
   for (const option of document.querySelectorAll("[data-kinds] option")) option.textContent = nameIn("kinds", option.getAttribute("value") ?? "");
 }
 
-/** A field for a whole number says so, in the language of the page and not of the browser. */
+/** Lets a field for a whole number say so in the language of the page, not in that of the browser. */
 function explain(field: Element) {
   if (!(field instanceof HTMLInputElement)) return;
   field.oninput = () => {

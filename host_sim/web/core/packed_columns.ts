@@ -19,7 +19,7 @@ export async function unpackColumns(data: string, names: string[], ticks: number
 }
 
 /**
- * Planes of bytes to differences, differences to values.
+ * Turns planes of bytes into differences, and differences into values.
  * @param low - Where the plane of low bytes begins.
  */
 function unpackColumn(bytes: Uint8Array, low: number, ticks: number) {

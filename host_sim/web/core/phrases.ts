@@ -11,7 +11,7 @@ export const ENGLISH: Words = { sentences: SENTENCES, patterns: PATTERNS, sides:
 
 /**
  * One sentence for what a state shows.
- * @param exact - Whether to tell a step from the look around that follows: too quick to read in motion.
+ * @param exact - Whether to tell a step from the look around after it; in motion, both are too short to read.
  */
 export function sentence(state: State, exact: boolean, words: Words = ENGLISH): string {
   const name = nameOf(state);
@@ -53,21 +53,21 @@ export function lessonSentence(lesson: Lesson, words: Words = ENGLISH): string {
 
 /**
  * What has happened to a body, in one sentence.
- * @param what - As docs/worlds.md has it.
+ * @param what - The change, as in docs/worlds.md.
  */
 export function bodySentence(what: string): string {
   const [name, ...details] = what.replace("/", " of ").split(":");
   return filled((BODY_SENTENCES as Record<string, string>)[name], details);
 }
 
-/** @param name - Of a sentence. */
+/** @param name - The name of a sentence, which is about a cell. */
 function ofCell(name: string, { cell, side }: { cell: number; side: number }, { sentences, patterns, sides }: Words) {
   return filled(sentences[name], { pattern: patterns[cell], side: sides[side] });
 }
 
 /**
- * @param text - With words in braces,
- * @param words - and what they stand for.
+ * @param text - Has names in braces.
+ * @param words - What to put in their places.
  */
 export function filled(text: string, words: Record<string, string | number> | string[]) {
   return text.replace(/\{(\w+)\}/g, (gap, word) => `${(words as Record<string, string | number>)[word] ?? gap}`);

@@ -59,7 +59,7 @@ export class RunData {
     return latest(this.run.scenes, tick);
   }
 
-  /** Makes trails those up to a tick, in its environment. */
+  /** Fills trails with the points up to a tick, in its environment. */
   trailsAt(tick: number, trails: Trail[]) {
     const begin = this.sceneAt(tick).first_tick;
     trails.forEach((trail) => trail.clear());
@@ -135,12 +135,12 @@ export class RobotData {
   }
 }
 
-/** What holds at a tick, of pairs [from which tick on, what] in their order; the first holds at least from there. */
+/** The value at a tick, from pairs [first tick, value] in order; the first pair must not begin later. */
 function latest<T>(pairs: [number, T][], tick: number): T {
   return pairs[countUpTo(pairs, tick, ([at]) => at) - 1][1];
 }
 
-/** How many entries, in the order of their ticks, are at a tick or before. */
+/** The number of entries at or before a tick; they are in the order of their ticks. */
 function countUpTo<T>(entries: T[], tick: number, tickOf: (entry: T) => number) {
   let [low, high] = [0, entries.length];
   while (low < high) {

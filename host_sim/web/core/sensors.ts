@@ -14,7 +14,7 @@ export const CONES = [
   { bit: FEEL.LEFT, bearing: -90 },
 ];
 
-/** The bit in a pattern of a sensor, by its bit in `feel`; 0 for a sensor that no pattern has. */
+/** The bit of a sensor in a pattern, by its bit in `feel`; 0 for a sensor that is not part of patterns. */
 export function patternBit(bit: number) {
   return (bit >> 1) & (CELL_COUNT - 1);
 }

@@ -5,7 +5,7 @@ export function kept(name: string) {
   try {
     return localStorage.getItem(`octet-${name}`) ?? "";
   } catch {
-    return ""; // a browser may forbid it to files
+    return ""; // a browser may forbid storage to a page opened from a file
   }
 }
 
@@ -13,7 +13,7 @@ export function keep(name: string, text: string) {
   try {
     localStorage.setItem(`octet-${name}`, text);
   } catch {
-    // then for this visit only
+    // it is then kept for this visit only
   }
 }
 

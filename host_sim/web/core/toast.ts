@@ -19,7 +19,7 @@ export class Toast {
     document.addEventListener("keydown", () => this.followFocus(), { capture: true });
   }
 
-  /** With the keyboard, the hand is at the element in focus. */
+  /** Moves the hand to the element in focus, for those who use the keyboard. */
   followFocus() {
     const box = document.activeElement?.getBoundingClientRect();
     if (box && document.activeElement !== document.body) this.hand = { x: box.left, y: (box.top + box.bottom) / 2 };

@@ -92,7 +92,7 @@ function drawLine(
   return y(count);
 }
 
-/** Writes each name beside the end of its line, or as near to it as the others leave room. */
+/** Writes each name beside the end of its line, or as near to it as the other names allow. */
 function drawNames(
   context: CanvasRenderingContext2D,
   lines: (Line & { y: number })[],

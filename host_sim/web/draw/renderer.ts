@@ -60,7 +60,7 @@ export class Renderer {
   }
 
   /**
-   * The place in the arena at a place of the page.
+   * Converts a place on the page to one in the arena.
    * @returns mm
    */
   placeOf(at: { clientX: number; clientY: number }): Place {
@@ -70,19 +70,19 @@ export class Renderer {
   }
 
   /**
-   * A length on the page as one in the arena.
+   * Converts a length on the page to one in the arena.
    * @returns mm
    */
   lengthOf(px: number): number {
     return (px * this.canvas.width) / (this.scale * this.canvas.getBoundingClientRect().width);
   }
 
-  /** Reads the colours anew if the page has become dark or light. */
+  /** Notes the size that the canvas has on the page. */
   measure() {
     this.size = { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
   }
 
-  /** Gives the canvas a pixel for each of the screen's, mm as its unit, and what is to be in view as its content. */
+  /** Gives the canvas the pixels of the screen, with mm as its unit, and moves it to the part in view. */
   fit(scene: Scene) {
     const { measures } = scene;
     const width = Math.max(1, Math.round(this.size.width * devicePixelRatio));
@@ -113,7 +113,7 @@ export class Renderer {
     for (let y = GRID_MM; y < measures.height; y += GRID_MM) context.fillRect(0, y - 2, measures.width, 4);
   }
 
-  /** @param scene - Its food: full discs, and empty rings once they are eaten. */
+  /** @param scene - Its food is drawn as full discs, and as empty rings once it is eaten. */
   drawFood({ environment, state, item }: Scene) {
     const { context, palette } = this;
     environment.food.forEach(([x, y], id) => {
@@ -126,7 +126,7 @@ export class Renderer {
     });
   }
 
-  /** Rings around what an answer speaks of. */
+  /** Draws rings around what an answer is about. */
   drawMeant({ food, places }: Meant, { environment, measures }: Scene) {
     const { context, palette } = this;
     context.strokeStyle = palette.of.select;

@@ -38,14 +38,14 @@ export class RobotView {
     context.restore();
   }
 
-  /** A wide broken ring says that it is off the floor. */
+  /** Draws a wide dashed ring, which shows that it is off the floor. */
   drawAir() {
     this.context.setLineDash([40, 30]);
     drawRing(this.context, this.scene.measures.body * 1.45, this.palette.of.select);
     this.context.setLineDash([]);
   }
 
-  /** The corridor in which a robot sees food, lit as far as the food that it sees; obstacles go over it. */
+  /** Draws the corridor in which a robot sees food, highlighted up to the food that it sees; obstacles cover it. */
   drawLook(state: State) {
     const { context, palette, scene: { measures } } = this;
     if (this.scene.isHeld(state)) return;
@@ -100,7 +100,7 @@ export class RobotView {
     context.fill();
   }
 
-  /** The robot's number beside its body; inverted for the robot that the panel shows. */
+  /** Draws the robot's number beside its body; inverted for the robot that the panel shows. */
   drawNumber(state: State) {
     const { context, scene, palette: { of } } = this;
     const { x, y } = scene.poseOf(state);
@@ -112,7 +112,7 @@ export class RobotView {
     drawText(context, `${state.node}`, { ...at, size: state.node < 10 ? 100 : 80, colour: ink });
   }
 
-  /** A sign above the robot: a question while it tries something, then whether it helped. */
+  /** Draws a sign above the robot: a question mark during a trial, then whether it helped. */
   drawTrial({ trial, tick, reason, y }: State) {
     const { context, scene, palette } = this;
     if (!trial || (tick - trial.tick) * scene.measures.tick_ms > VERDICT_MS) return;

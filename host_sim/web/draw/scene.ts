@@ -13,7 +13,7 @@ import type { Trail } from "./trail.js";
  */
 export type Item = { kind: "robot" | "food" | "bar" | "plant"; id: number; part: "a" | "b" | "whole" };
 
-/** Cells; and, in the environment that begins with a tick, pieces of food by their index, and places in mm. */
+/** What an answer is about: cells; in the environment that begins at `first_tick`, food by index and places in mm. */
 export type Meant = { cells: number[]; first_tick: number; food: number[]; places: WirePlace[] };
 
 /** Where a person holds a robot: mm and mrad. */
@@ -29,7 +29,7 @@ export class Scene {
   node: number;
   news: News[] = [];
   item: Item | undefined;
-  /** What an answer speaks of, and is lit up. */
+  /** What an answer is about; it is highlighted. */
   meant: Meant | undefined;
   ghosts: Map<number, Ghost> = new Map();
   shown: Map<number, State> = new Map();

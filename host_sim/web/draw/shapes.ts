@@ -6,7 +6,7 @@ const LEAVES = 8;
 const FONT = "system-ui, sans-serif";
 const QUIET_ZONE_MODULES = 4;
 
-/** A ring about the origin. */
+/** Draws a ring around the origin. */
 export function drawRing(context: CanvasRenderingContext2D, radius: number, colour: string) {
   context.strokeStyle = colour;
   context.lineWidth = 16;
@@ -14,7 +14,7 @@ export function drawRing(context: CanvasRenderingContext2D, radius: number, colo
   context.stroke();
 }
 
-/** A disc with an edge. */
+/** Draws a disc with an edge. */
 export function drawDisc(
   context: CanvasRenderingContext2D,
   { x, y, radius, ground, edge, width }: { x: number, y: number, radius: number, ground: string, edge: string, width: number },
@@ -27,7 +27,7 @@ export function drawDisc(
   context.stroke();
 }
 
-/** A plant: leaves around a pot, as large as they are. */
+/** Draws a plant to scale: leaves around a pot. */
 export function drawPlant(
   context: CanvasRenderingContext2D,
   [, x, y, radius]: number[],
@@ -46,7 +46,7 @@ export function drawPlant(
   drawDisc(context, { x, y, radius: 0.35 * radius, ground: bar, edge: floor, width: 6 });
 }
 
-/** A text about its middle. */
+/** Draws a text centred on a place. */
 export function drawText(
   context: CanvasRenderingContext2D,
   text: string,
@@ -66,7 +66,7 @@ export function circle(context: CanvasRenderingContext2D, x: number, y: number, 
 }
 
 /**
- * A QR code of so many modules a side, a pixel each, and what must be light around it.
+ * Draws a QR code with a number of modules on each side, one pixel each, and its light border.
  * @param isDark - Whether the module in a column and a row is dark.
  */
 export function drawModules(canvas: HTMLCanvasElement, side: number, isDark: (x: number, y: number) => boolean) {

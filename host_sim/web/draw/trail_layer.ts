@@ -23,7 +23,7 @@ export const WIDTH_MM = new Map([
 export class TrailLayer {
   canvas = document.createElement("canvas");
   context = contextOf(this.canvas);
-  /** Which trails the last frame had, in which part of the arena, and how many points. */
+  /** The trails and the part of the arena in the last frame, and the number of points of each trail. */
   before = { key: "", added: [0] };
   drawn = { at: 0, key: "", added: [0], colours: [""] };
 
@@ -32,7 +32,7 @@ export class TrailLayer {
   /**
    * @param context - In mm.
    * @param colours - By reason.
-   * @param selected - That of the robot that is selected.
+   * @param selected - The trail of the selected robot.
    */
   draw(context: CanvasRenderingContext2D, trails: Trail[], colours: string[], selected: Trail) {
     const order = [...trails.filter((trail) => trail !== selected), selected];
@@ -55,7 +55,7 @@ export class TrailLayer {
     });
   }
 
-  /** @param key - Of which trails the picture is. */
+  /** @param key - Identifies the trails in the picture. */
   isStale({ width, height }: HTMLCanvasElement, key: string, order: Trail[], colours: string[]) {
     const { drawn } = this;
     if (drawn.key !== key || drawn.colours !== colours) return true;
@@ -63,7 +63,7 @@ export class TrailLayer {
     return haveGrown(order, drawn.added) && performance.now() - drawn.at > REDRAW_MS;
   }
 
-  /** @param order - The last one is that of the robot that is selected. */
+  /** @param order - The last one is that of the selected robot. */
   redraw(context: CanvasRenderingContext2D, key: string, order: Trail[], colours: string[]) {
     const { canvas } = this;
     [canvas.width, canvas.height] = [context.canvas.width, context.canvas.height];
@@ -75,7 +75,7 @@ export class TrailLayer {
 
 /**
  * Whether there is more to draw than a few points.
- * @param added - How many points each had.
+ * @param added - The number of points that each had.
  */
 function haveGrown(order: Trail[], added: number[]) {
   return order.some((trail, i) => trail.added - added[i] > TAIL_POINTS);
@@ -83,7 +83,7 @@ function haveGrown(order: Trail[], added: number[]) {
 
 /**
  * Draws whole trails.
- * @param order - The last one is that of the robot that is selected.
+ * @param order - The last one is that of the selected robot.
  */
 function drawTrails(context: CanvasRenderingContext2D, order: Trail[], colours: string[]) {
   order.forEach((trail, i) => {
@@ -92,7 +92,7 @@ function drawTrails(context: CanvasRenderingContext2D, order: Trail[], colours: 
   });
 }
 
-/** Draws the points from the first-oldest on. */
+/** Draws the points from the index `first` on, where 0 is the oldest. */
 function drawPoints(
   context: CanvasRenderingContext2D,
   trail: Trail,

@@ -15,7 +15,7 @@ const WHEEL_PX = 400;
 const ARROW_SHARE = 0.15;
 const ARROWS: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
-/** One for all arenas of a page, whose buttons are zoom-in, zoom-out and follow. */
+/** Serves all arenas of a page; its buttons are zoom-in, zoom-out and follow. */
 export class Viewport {
   zoom = 1;
   follows = false;
@@ -68,7 +68,7 @@ export class Viewport {
   }
 
   /**
-   * Moves what is in view, as often as it is called before the next drawing.
+   * Moves what is in view; several calls before the next drawing add up.
    * @param by - mm
    */
   move(renderer: Renderer, by: Place) {
@@ -94,7 +94,7 @@ export class Viewport {
     else if (key.toLowerCase() === "f") this.follow(!this.follows);
   }
 
-  /** @param renderer - Its arena can be zoomed and moved from now on. */
+  /** Makes a renderer's arena zoomable and movable. */
   watch(renderer: Renderer) {
     const { canvas } = renderer;
     canvas.addEventListener("wheel", (event) => {

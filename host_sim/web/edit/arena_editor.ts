@@ -20,11 +20,11 @@ const NEW_BAR_ROOM_MM = 300;
 export class ArenaEditor {
   barPending = false;
   plantPending = false;
-  /** Robots that we asked to be lifted, and that are not yet. */
+  /** Robots that were asked to be lifted, and are not lifted yet. */
   lifting: Set<number> = new Set();
 
   /**
-   * @param scene - Its `item`, `node` and `ghosts` are ours.
+   * @param scene - The editor sets its `item`, `node` and `ghosts`.
    * @param onChange - Called when there is something new to draw.
    */
   constructor(public scene: Scene, readonly send: (command: Command) => void, readonly onChange: () => void) {
@@ -35,7 +35,7 @@ export class ArenaEditor {
     byId("remove-bar").addEventListener("click", () => this.removeBar());
   }
 
-  /** The arena has changed: what was selected may be gone, and an obstacle that we asked for may be there. */
+  /** Called when the arena has changed: the selected item may be gone, and a requested obstacle may be there. */
   onEnvironment() {
     const { environment, item } = this.scene;
     if (this.barPending) this.select(whole("bar", Math.max(...environment.bars.map(([id]) => id))));
@@ -62,7 +62,7 @@ export class ArenaEditor {
     setText(byId("lift"), say(lifted ? (several ? "putDownNumber" : "putDown") : several ? "pickUpNumber" : "pickUp", { node }));
   }
 
-  /** Something could not be done: no robot is about to be lifted, and no obstacle about to come. */
+  /** Called when a command was refused: stops waiting for robots to be lifted and for a new obstacle. */
   onRefusal() {
     this.lifting.clear();
     this.barPending = this.plantPending = false;
@@ -80,7 +80,7 @@ export class ArenaEditor {
     this.onChange();
   }
 
-  /** @param step - 1 forward, -1 back. */
+  /** @param step - 1 for the next item, -1 for the one before. */
   selectNext(step: number) {
     const items = allItems(this.scene);
     const { item } = this.scene;
@@ -110,7 +110,7 @@ export class ArenaEditor {
     this.send({ do: "lift", node });
   }
 
-  /** @param node - Of a robot that a person holds: it is put down there. */
+  /** Puts a robot down where a person holds it. */
   put(node: number) {
     const ghost = this.scene.ghosts.get(node);
     if (!ghost) return;
@@ -146,7 +146,7 @@ export class ArenaEditor {
     this.send({ do: "plant", at: wirePlace(at, measures), radius: PLANT_RADIUS_MM });
   }
 
-  /** The selected plant grows to all sides. */
+  /** Makes the selected plant grow to all sides. */
   grow() {
     const { item, environment } = this.scene;
     const plant = item?.kind === "plant" && plantOf(environment, item.id);
@@ -175,7 +175,7 @@ export class ArenaEditor {
     if (plant) this.send({ do: "move_plant", id: item.id, at: wirePlace({ x: plant.x + by.x, y: plant.y + by.y }, measures) });
   }
 
-  /** @param radians - To the right. */
+  /** Turns the selected item to the right. */
   turn(radians: number) {
     const { item, environment, measures, ghosts } = this.scene;
     const ghost = item?.kind === "robot" && ghosts.get(item.id);
@@ -185,7 +185,7 @@ export class ArenaEditor {
   }
 }
 
-/** @param radians - The angle that it returns is in -pi..pi. */
+/** The same angle in -pi..pi. */
 function wrap(radians: number) {
   return Math.atan2(Math.sin(radians), Math.cos(radians));
 }

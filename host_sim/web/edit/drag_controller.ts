@@ -8,7 +8,7 @@ import type { Place } from "../types.js";
 import type { ArenaEditor } from "./arena_editor.js";
 import type { Ends } from "./placement.js";
 
-/** What is dragged, from where, and for a bar its ends then. */
+/** What is dragged, where the drag began, and for a bar its ends at that time. */
 type Drag = { item: Item; from: Place; ends: Ends | undefined };
 
 const LIFT_AFTER_MM = 30;

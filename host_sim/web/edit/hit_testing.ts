@@ -48,7 +48,7 @@ function plantsOf({ environment }: Scene) {
   return environment.plants ?? [];
 }
 
-/** An item, all of it. */
+/** An item as a whole. */
 export function whole(kind: Item["kind"], id: number): Item {
   return { kind, id, part: "whole" };
 }

@@ -72,7 +72,7 @@ export function wirePlace({ x, y }: Place, measures: Measures): WirePlace {
   return [clamp(Math.round(x), measures.width), clamp(Math.round(y), measures.height)];
 }
 
-/** As much of a step as both ends have room for. */
+/** The part of a step for which both ends have room. */
 function roomFor({ a, b }: Ends, by: Place, measures: Measures): Place {
   return { x: roomWithin(by.x, [a.x, b.x], measures.width), y: roomWithin(by.y, [a.y, b.y], measures.height) };
 }

@@ -1,4 +1,4 @@
-/* The map of all memories: where each lies on it, and how long a robot takes that has it and learns no more. */
+/* The map of all memories: where each lies on it, and the time of a robot that has it and learns no more. */
 
 import { CELL_COUNT, PARAMETERS } from "../generated.js";
 import { RANDOM } from "../core/world_names.js";
@@ -12,7 +12,7 @@ const DOWN = [4, 6, 7];
 const KINDS = 3; // of what a cell holds
 export const WIDTH = KINDS ** ACROSS.length;
 export const HEIGHT = KINDS ** DOWN.length;
-/** The cells of which a coarse map has all contents; it leaves the others empty. */
+/** The cells whose contents vary in a coarse map; the others stay empty. */
 const COARSE = [1, 3, 4, 6];
 /** The environments that are added to a coarse map at a time: the first ones of the seeds from FIRST_SEED on. */
 const SEEDS = 4;
@@ -67,7 +67,7 @@ export class CoarseMap {
 
   constructor(readonly where: { world: Experiment["world"]; body: Experiment["body"] }) {}
 
-  /** The environments in which each memory was. */
+  /** The number of environments in which each memory was tried. */
   get environments() {
     return Math.min(...this.counts);
   }
@@ -77,7 +77,7 @@ export class CoarseMap {
     return this.counts[place] ? this.sums[place] / this.counts[place] : undefined;
   }
 
-  /** @param memory - Any; the one that stands for it is returned. */
+  /** The memory on the map that is nearest to any memory. */
   nearest(memory: number[]) {
     return memory.map((side, cell) => (COARSE.includes(cell) ? side : 0));
   }
@@ -115,7 +115,7 @@ export class CoarseMap {
 
 /**
  * An experiment in which a robot has a memory from the start, and learns no more.
- * @param experiment - Any other changes of it are left out.
+ * @param experiment - Its own changes are left out.
  * @param robot - Counted from 0.
  */
 export function frozenWith(memory: number[], experiment: Experiment, robot: number): Experiment {

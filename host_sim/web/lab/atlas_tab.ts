@@ -11,9 +11,9 @@ import type { ShownRun } from "./shown_run.js";
 
 /** Pixels of a square. */
 const SQUARE = 9;
-/** From fast to slow: viridis, which also people see who are colour-blind. */
+/** From fast to slow: viridis, which colour-blind people can tell apart, too. */
 const COLOURS = [[253, 231, 37], [94, 201, 98], [33, 145, 140], [59, 82, 139], [68, 1, 84]];
-/** The part of the memories that have the darkest colour, since few are far slower than all others. */
+/** The share of memories that get the darkest colour, since a few are far slower than all others. */
 const SLOWEST = 0.01;
 const STEPS = {
   ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1],
@@ -34,7 +34,7 @@ export class AtlasTab {
   drives: HTMLButtonElement;
   extends: HTMLButtonElement;
 
-  /** @param seconds - Of the study. */
+  /** @param seconds - The mean times that the study measured. */
   constructor(parent: HTMLElement, readonly lab: Laboratory, seconds: number[]) {
     this.studied = new StudiedMap(seconds);
     this.cursor = placeOf(memoryAt(0, 0));
@@ -166,7 +166,7 @@ export class AtlasTab {
     context.strokeRect(this.cursor[0] * SQUARE - 1, this.cursor[1] * SQUARE - 1, SQUARE + 2, SQUARE + 2);
   }
 
-  /** @param context - Gets lines between the contents of cells 1 and 4. */
+  /** Draws lines between the contents of cells 1 and 4. */
   drawThirds(context: CanvasRenderingContext2D) {
     context.fillStyle = "#fff";
     for (const part of [1, 2]) {
@@ -191,7 +191,7 @@ function drawWay(context: CanvasRenderingContext2D, way: number[][], colour: str
   }
 }
 
-/** @param part - From 0, the fastest, to 1; beyond it is as 1. */
+/** @param part - From 0, the fastest, to 1, the slowest; more counts as 1. */
 function colourOf(part: number) {
   const place = Math.min(Math.max(part, 0), 1) * (COLOURS.length - 1);
   const from = Math.min(Math.floor(place), COLOURS.length - 2);

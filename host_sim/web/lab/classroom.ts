@@ -7,7 +7,7 @@ import { PLANS } from "../lessons/plans.js";
 import type { Course } from "../lessons/course.js";
 
 const REPORT_MS = 3000;
-/** A page that has nothing new still says that it is there. */
+/** A page without news reports at every fifth time only, to say that it is still there. */
 const ALIVE_REPORTS = 5;
 const NAME_MAX = 20;
 const LINK_MAX = 4000;
@@ -107,7 +107,7 @@ export class Classroom {
   }
 }
 
-/** The key by which the board knows this page again. */
+/** The key by which the board recognizes this page. */
 function keptKey() {
   const old = kept("class-key");
   if (/^[0-9a-f]{32}$/.test(old)) return old;

@@ -63,7 +63,7 @@ export function csvOf(lanes: ShownRun[]) {
   return rows.map((row) => `${row.join(",")}\n`).join("");
 }
 
-/** A value as the page says it; a file has it in English. */
+/** A value in the language of the page; a file has it in English. */
 function said(value: string | number) {
   if (typeof value === "number") return `${value}`.replace(".", robotWords().point);
   return value === "yes" || value === "no" ? say(value) : heard(value);

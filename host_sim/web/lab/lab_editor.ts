@@ -13,14 +13,14 @@ import type { ShownRun } from "./shown_run.js";
 export class LabEditor extends ArenaEditor {
   /** By the lane that is touched; closed lanes are not kept. */
   drags: WeakMap<ShownRun, DragController> = new WeakMap();
-  /** What `ids` was when an obstacle or a plant was put down that is not there yet. */
+  /** The value of `ids` when an obstacle or a plant was put down that is not there yet. */
   idsBefore = 0;
 
   constructor(readonly lab: Laboratory, scene: Scene) {
     super(scene, (command) => this.pass(command), () => (lab.stale = true));
   }
 
-  /** @param lane - Its arena can be touched from now on. */
+  /** Makes the arena of a run editable. */
   watch(lane: ShownRun) {
     if (this.drags.has(lane)) return;
     this.drags.set(lane, new DragController(lane.renderer, this));
@@ -46,7 +46,7 @@ export class LabEditor extends ArenaEditor {
     return bar + plant;
   }
 
-  /** What the live page would be told, as a change of a run. */
+  /** A command of the live page as a change of a run. */
   changeOf(command: Command): Change | undefined {
     const robot = "node" in command ? this.scene.states.findIndex(({ node }) => node === command.node) : 0;
     if (command.do === "lift") return { do: "lift", robot };

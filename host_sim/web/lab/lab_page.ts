@@ -26,7 +26,7 @@ import type { Linked } from "../program/link.js";
 import type { Experiment } from "../types.js";
 import type { Parts } from "./laboratory.js";
 
-/** What a page that simulates nothing does not have, and what of it a live run has all the same. */
+/** Controls that a page without simulation cannot offer, in two parts; a live run has the second. */
 const SIMULATED = "#behaviour, #robot-seed, #when, #tab-parameters, #tab-program, #tab-atlas, #tab-files, #tab-lessons";
 const CHANGES = "#lift, #add-bar, #add-plant, #erase, #freeze, #break, #new-run :is(button, input, select)";
 
@@ -90,7 +90,7 @@ export class LabPage extends Laboratory {
     location.reload();
   }
 
-  /** Whether the recorded run is not shown any more. */
+  /** Whether the recorded run is no longer shown. */
   get isAway() {
     return this.recorded !== undefined && !this.lanes.some(({ isRecorded }) => isRecorded);
   }
@@ -137,7 +137,7 @@ export class LabPage extends Laboratory {
     const { data, robot, experiment } = this.lane;
     if (!data) return;
     const { profile } = experiment.robots[robot];
-    const starts: [number, string][] = profile ? [[0, profile]] : []; // of a recorded run it may not be known
+    const starts: [number, string][] = profile ? [[0, profile]] : []; // it may be unknown for a recorded run
     for (const change of experiment.changes) {
       const told = inWords(change);
       if (told.do === "start" && told.robot === robot) starts.push([change.tick, told.profile]);
@@ -153,7 +153,7 @@ export class LabPage extends Laboratory {
     this.talk.taught.add(answer.toUpperCase());
   }
 
-  /** All that was said and taught is forgotten. */
+  /** Forgets all that was said and taught. */
   restartTalk() {
     this.conversations = new Conversations();
     this.talk.forget();
@@ -250,7 +250,7 @@ export class LabPage extends Laboratory {
   }
 }
 
-/** Controls of which this page cannot do what they are for say why, when they are looked at or pressed. */
+/** Makes controls that do not work on this page say why, when they are hovered over or pressed. */
 export function withhold(selector: string, why: () => string, note: Toast) {
   const controls = [...document.querySelectorAll(selector)];
   inEachLanguage(() => controls.forEach((control) => control.setAttribute("title", why())));

@@ -20,7 +20,7 @@ export type Parts = { worlds: Worlds; programs: Record<string, string>; wasm: st
 
 const LANES_MAX = 4;
 
-/** A class that extends it shows the runs: `onLanes`, `onScene` and `onRefusal` tell it what has changed. */
+/** Subclasses show the runs: `onLanes`, `onScene` and `onRefusal` tell them what has changed. */
 export class Laboratory extends PlayingPage {
   programs: Record<string, string>;
   /** The command that opens a log in a debugger. */
@@ -115,7 +115,7 @@ export class Laboratory extends PlayingPage {
     this.onLanes();
   }
 
-  /** @param lane - Is closed. */
+  /** Closes a run. */
   drop(lane: ShownRun) {
     lane.remove();
     this.simulator.queued.delete(lane);
@@ -135,7 +135,7 @@ export class Laboratory extends PlayingPage {
     this.select(this.addLane(experiment, recorded));
   }
 
-  /** @param experiment - That a person has described. */
+  /** Begins an experiment that a person has described. */
   renew(experiment: Experiment) {
     this.begin(experiment);
     this.playsNext = mayMove();
@@ -170,7 +170,7 @@ export class Laboratory extends PlayingPage {
     });
   }
 
-  /** Copies the selected run beside it; what is changed next is changed there. False: there is no room. */
+  /** Copies the selected run beside it; further changes go to the copy. Returns false if there is no room. */
   copy() {
     if (this.isFull) return false;
     this.setPlaying(false);
@@ -200,13 +200,13 @@ export class Laboratory extends PlayingPage {
     setText(byId("status"), this.lane.isRecorded ? this.title : this.doing);
   }
 
-  /** What is simulated. */
+  /** The status of the simulation. */
   get doing() {
     const isRunning = this.lanes.some((lane) => lane.isRunning);
     return say(!isRunning ? "realFirmware" : this.scene ? "runningAhead" : "waking");
   }
 
-  /** What the recorded run is. */
+  /** The title of the recorded run. */
   get title() {
     return heard(this.recorded?.run.title ?? "");
   }

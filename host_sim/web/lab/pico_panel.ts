@@ -14,7 +14,7 @@ type PicoParts = { worker: string; image: string };
 /** Across both columns of the fields. */
 const WIDE = "grid-column: 1 / -1";
 
-/** At the end of the tab "Run". */
+/** Stands at the end of the tab "Run". */
 export class PicoPanel {
   worker: Worker | undefined;
   progress: Progress | undefined;

@@ -6,8 +6,8 @@ import { Viewport } from "../draw/viewport.js";
 import { explainMarks } from "../panel/timeline.js";
 
 /**
- * A class that extends it says which ticks there are (`last`, `tickMs`), shows one (`show`), draws (`draw`, `drawMarks`),
- * and does what the buttons ask for (`jump`, `whatIf`).
+ * Subclasses say which ticks there are (`last`, `tickMs`), show one (`show`), draw (`draw`, `drawMarks`), and do what
+ * the buttons ask for (`jump`, `whatIf`).
  */
 export class PlayingPage {
   /** The tick that is shown. */
@@ -76,12 +76,12 @@ export class PlayingPage {
     this.stale = true;
   }
 
-  /** @param tick - One beyond the ends shows the end. */
+  /** Shows a tick; beyond the ends it shows the end. */
   go(tick: number) {
     this.goAhead(Math.min(this.last, Math.max(this.first, tick)));
   }
 
-  /** @param tick - It may be there only later. */
+  /** Shows a tick, which may not be simulated yet. */
   goAhead(tick: number) {
     this.exactTick = tick;
     this.tick = Math.floor(tick);
@@ -89,13 +89,13 @@ export class PlayingPage {
     this.stale = true;
   }
 
-  /** @param tick - To stay at. */
+  /** Shows a tick, and pauses. */
   seek(tick: number) {
     this.setPlaying(false);
     this.go(tick);
   }
 
-  /** Something else is to be drawn at the same tick. */
+  /** Draws the same tick again, since something else in it is to be shown. */
   lightUp() {
     this.stale = true;
   }
@@ -145,7 +145,7 @@ export class PlayingPage {
     action();
   }
 
-  /** @param event - Of a key that may be meant for the page. */
+  /** Whether a key is meant for the page. */
   takesKey(event: KeyboardEvent) {
     return isForPage(event, event.key === " " ? "select, button" : "select");
   }

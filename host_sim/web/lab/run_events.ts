@@ -1,4 +1,4 @@
-/* The ticks of a run that one can go to. */
+/* The ticks of a run to which the page can jump. */
 
 import type { RobotData } from "../core/run_data.js";
 import type { EventKind } from "../types.js";

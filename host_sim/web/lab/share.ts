@@ -39,7 +39,7 @@ export function experimentFrom(
   return { ...plain, robots: setups ?? alike, changes };
 }
 
-/** What the largest code holds, with the least correction of errors. */
+/** The capacity of the largest code, at the lowest level of error correction. */
 const BYTES_MAX = 2953;
 const LOCAL = /^(?:|localhost|127\..*|\[::1\])$/;
 

@@ -27,7 +27,7 @@ export function restartNames() {
 /** Shows its run at any tick. `data` and `scene` are there once the first environment was simulated. */
 export class ShownRun {
   number = lanes;
-  /** What it is in a lesson: a key of the texts, or a behaviour. */
+  /** Its name in a lesson: a key of the texts, or a behaviour. */
   called = "";
   canvas: HTMLCanvasElement;
   caption: HTMLElement;
@@ -37,12 +37,12 @@ export class ShownRun {
   scene: Scene | undefined;
   /** Of each environment so far, the length of the shortest tour, mm. */
   tours: number[] = [];
-  /** Of each robot. */
+  /** The beads of each robot. */
   beads: Beads[] = [];
   /** How often it was asked to simulate, and whether the last simulation is still running. */
   asked = 0;
   isRunning = false;
-  /** Whether it was not simulated here. */
+  /** Whether it is a recording, and was not simulated here. */
   isRecorded = false;
   /** The node of the robot to select first. */
   node: number | undefined;
@@ -115,7 +115,7 @@ export class ShownRun {
     });
   }
 
-  /** @param recorded - What was simulated. */
+  /** Takes the results of a simulation. */
   take({ run, columns, tours, beads }: Recorded) {
     this.tours = tours;
     this.beads = beads;
@@ -187,7 +187,7 @@ export class ShownRun {
     this.experiment = { ...this.experiment, changes: this.experiment.changes.filter((it) => !changes.includes(it)) };
   }
 
-  /** Undoes the change that was made last; those of a file in the order of their ticks. False if there is none. */
+  /** Undoes the newest change, of those in a file the one with the last tick. Returns false if there is none. */
   undo() {
     const orderOf = (change: Change) => madeAt.get(change) ?? 0;
     const last = [...this.experiment.changes].sort((a, b) => orderOf(a) - orderOf(b)).at(-1);
@@ -195,7 +195,7 @@ export class ShownRun {
     return last !== undefined;
   }
 
-  /** @param setup - How the selected robot starts from now on. */
+  /** Changes how the selected robot starts. */
   setUp(setup: Partial<RobotSetup>) {
     const robots = this.experiment.robots.map((it, robot) => (robot === this.robot ? { ...it, ...setup } : it));
     this.experiment = { ...this.experiment, robots };

@@ -45,7 +45,7 @@ export class SidePanel {
   faults: FaultMenu;
   robotSeed: HTMLInputElement;
   frozen = 0;
-  /** What was last told of files, in the language of the page. */
+  /** The last message about files, in the language of the page. */
   fileNews = () => "";
 
   constructor(readonly lab: Laboratory) {
@@ -87,7 +87,7 @@ export class SidePanel {
       byId(`tab-${name}`).tabIndex = name === tab ? 0 : -1;
       byId(`panel-${name}`).hidden = name !== tab;
     }
-    if (tab === "curves") this.lab.whole().catch(() => {}); // they need all of the run, and are there without What if?
+    if (tab === "curves") this.lab.whole().catch(() => {}); // curves need the whole run, and work without What if?
     this.show();
     this.lab.lightUp(); // what other modules write into the tab is written with the next picture
   }
@@ -129,7 +129,7 @@ export class SidePanel {
     });
   }
 
-  /** @param done - If something cannot be done with a file, this tells why. */
+  /** @param done - Fails with the reason if something cannot be done with a file. */
   tell(done: Promise<void>) {
     done.catch((error) => this.report(() => heard(error instanceof Error ? error.message : `${error}`)));
   }
@@ -297,7 +297,7 @@ function faultName(what: string) {
 }
 
 /**
- * Fills a field; what was chosen stays so.
+ * Fills a field, and keeps the choice that was made.
  * @param options - Their values and names.
  */
 function offer(select: HTMLSelectElement, options: [string, string][]) {

@@ -10,7 +10,7 @@ export type OnAnswer = (answer: Answer) => void;
 export class Simulator {
   lastId = 0;
   waiting: Map<number, OnAnswer> = new Map();
-  /** What is to be run next, by who asks. */
+  /** What is to be run next, by caller. */
   queued: Map<object, [Experiment, OnAnswer]> = new Map();
   /** The run that is simulated now. */
   running: number | undefined;
@@ -38,7 +38,7 @@ export class Simulator {
     this.next();
   }
 
-  /** Asks for something else than a run. */
+  /** Asks for something other than a run. */
   ask<K extends keyof Answers>(what: K, asked: Parameters<Answers[K]>[0]): Promise<ReturnType<Answers[K]>> {
     return new Promise((resolve, reject) => {
       this.post(what, asked, ({ answer, error }) => (error ? reject(new Error(error)) : resolve(answer)));

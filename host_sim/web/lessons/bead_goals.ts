@@ -11,7 +11,7 @@ const MEETINGS_MIN = 30;
 const CELLS = Array.from({ length: CELL_COUNT }, (_, cell) => cell);
 
 /**
- * The beads of a robot at a tick, by cell; no robot that keeps none has any.
+ * The beads of a robot at a tick, by cell; none for a robot whose behaviour keeps none.
  * @param robot - Counted from 0.
  */
 export function beadsAt({ beads }: ShownRun, tick: number, robot = 0) {

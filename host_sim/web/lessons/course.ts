@@ -63,7 +63,7 @@ export class Course {
     keep("lessons", JSON.stringify(this.progress));
   }
 
-  /** @param step - Is done. */
+  /** Marks a step as done. */
   tick(step: number) {
     this.note(this.reached, this.done.add(step));
     this.show();

@@ -13,7 +13,7 @@ const COUNTS = [1, 10, 100];
 const WIDTH = 300;
 const ROW = 44;
 const DOT = 4;
-/** Of a row, what dots may fill above the line of its interval. */
+/** The part of a row that dots may fill, above the line of its interval. */
 const ROOM = 32;
 
 /** A tool of a lesson. */
@@ -36,7 +36,7 @@ export class DotPlot {
     this.element = made("div", [fields, buttons, this.plot, this.told], { class: "samples" });
   }
 
-  /** @param place - Of the behaviour. */
+  /** @param place - The place of the behaviour, 0 or 1. */
   makeChoice(place: number) {
     const { samples } = this;
     const names: [string, string][] = PROFILES.map((name) => [name, heard(name)]);

@@ -9,7 +9,7 @@ import type { Exchange, TalkBox } from "../talk/talk_box.js";
 import type { Stretch } from "./evidence.js";
 import type { Place } from "../types.js";
 
-/** A run whose first environments are there to be looked at. */
+/** A run of which at least the first environment is simulated. */
 export type Shown = { lane: ShownRun; data: RunData };
 
 export const FRONT_RIGHT = PATTERNS.indexOf("front-right");
@@ -100,7 +100,7 @@ function brokenTimes({ experiment }: ShownRun, how: string, tick: number) {
   return times;
 }
 
-/** Whether a sensor has ever seen what was not there. */
+/** Whether a sensor has ever reported what was not there. */
 export function isBroken(lane: ShownRun, tick: number) {
   return brokenTimes(lane, "stuck-on", tick + 1).length > 0;
 }
@@ -147,7 +147,7 @@ export function knowSooner(runs: Shown[], tick: number) {
   return sharing.some(know) && silent.some((run) => !know(run));
 }
 
-/** Pairs of an exchange and a later one, of the same question. */
+/** Pairs of an exchange and a later one with the same question. */
 function repeated(history: Exchange[]) {
   return history.flatMap((one, i) => history.slice(i + 1).filter((other) => isSame(one, other)).map((other) => ({ one, other })));
 }
@@ -173,14 +173,14 @@ export function repeatsWhatItWasTaught({ history, taught }: TalkBox) {
   return history.some(({ said }) => said.mark === "words" && taught.has(said.text));
 }
 
-/** Whether the robot told from its log what it had told otherwise at the same time, before the run was changed. */
+/** Whether an answer from the log differs from that to the same question before the run was changed. */
 export function changedAnswer({ history }: TalkBox) {
   return repeated(history).some(({ one, other }) =>
     one.who === other.who && one.said.mark === "log" && other.said.mark === "log" && one.said.text !== other.said.text
     && (other.changes ?? 0) > (one.changes ?? 0) && Math.abs((other.tick ?? 0) - (one.tick ?? 0)) <= SOON_ASKED_TICKS);
 }
 
-/** What was put there: a bar as in a scene, or a plant as a bar whose ends are its middle; and its radius. */
+/** What a person added: a bar as in a scene, or a plant as a bar whose ends are its middle; and its radius. */
 type Thing = { bar: number[]; radius: number };
 
 /**

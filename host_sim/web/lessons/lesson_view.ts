@@ -11,7 +11,7 @@ import type { Tool } from "./tools.js";
 /** Fills the element panel-lessons, for one lesson in one language. */
 export class LessonView {
   marks: { state: HTMLSpanElement; item: HTMLLIElement }[];
-  /** Of the step that is shown. */
+  /** The tools of the step that is shown. */
   tools: Tool[] = [];
   news: HTMLParagraphElement;
   begin: HTMLButtonElement;

@@ -4,10 +4,10 @@ import { PARAMETERS } from "../generated.js";
 import { experimentOf } from "../lab/shown_run.js";
 import type { Simulator } from "../lab/simulator.js";
 
-/** The worlds are those of the seeds from here on: everyone in a class sees the same. */
+/** The seed of the first world; the others follow, so that everyone in a class sees the same worlds. */
 const FIRST_SEED = 2;
 export const LIMIT_S = 300;
-/** Of a normal distribution, 95 % lies within so many standard deviations. */
+/** 95 % of a normal distribution lies within this number of standard deviations. */
 const NORMAL_95 = 1.96;
 const ENOUGH = 10;
 
@@ -24,7 +24,7 @@ export class Samples {
   profiles = ["article", "searcher"];
   seconds: number[][] = [[], []];
   wanted = 0;
-  /** The pairs of which ten runs were made. */
+  /** The pairs of behaviours of which ten runs were made. */
   tried = new Set();
   wereTogether = false;
   wereApart = false;
@@ -38,7 +38,7 @@ export class Samples {
     return this.seconds[1].length;
   }
 
-  /** All is forgotten, but not the two behaviours. */
+  /** Forgets everything but the two behaviours. */
   clear() {
     this.seconds = [[], []];
     this.wanted = 0;
@@ -51,7 +51,7 @@ export class Samples {
     this.clear();
   }
 
-  /** @param count - Of runs that there are to be. */
+  /** @param count - The number of runs to reach. */
   async fill(count: number) {
     const isRunning = this.count < this.wanted;
     this.wanted = Math.max(this.wanted, count);
@@ -73,7 +73,7 @@ export class Samples {
     return (await this.simulator.ask("ticks", { experiment })) * tickS;
   }
 
-  /** Notes what the intervals have said once. */
+  /** Notes whether the intervals have ever overlapped, or been apart. */
   judge() {
     if (this.count < ENOUGH) return;
     this.tried.add(this.profiles.join());

@@ -54,7 +54,7 @@ function tableIn({ tables }: Texts, id: Plan["id"]) {
   return (tables as Record<string, string[]>)[id] ?? [];
 }
 
-/** What a teacher wants to know of a lesson. */
+/** The notes on a lesson for teachers. */
 export function notesOf(texts: Texts, id: Plan["id"]) {
   const { words, lessons } = texts;
   const { tasks, notes: { aim, time, expect, answers } } = lessons[id];

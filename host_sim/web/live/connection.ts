@@ -6,7 +6,7 @@ const RECONNECT_MS = 1000;
 const GOING_AWAY = 1001;
 
 export class Connection {
-  /** Whether messages are not wanted; the end of the run is. */
+  /** Whether messages are ignored, except for the end of the run. */
   isResting = false;
   socket = this.connect();
 
@@ -39,7 +39,7 @@ export class Connection {
     this.socket = this.connect();
   }
 
-  /** Messages are wanted again, from the first one on. */
+  /** Receives messages again, beginning with the first one of a new connection. */
   wake() {
     this.isResting = false;
     this.reconnect();

@@ -31,9 +31,9 @@ class LivePage extends LabPage {
   isLost = false;
   /** What repeats the recording. */
   parts: Pick<Parts, "why" | "recorded"> = {};
-  /** Until the recording is here. */
+  /** Settled when the recording is here; undefined unless it is being fetched. */
   past: Promise<void> | undefined;
-  /** The tick of it to show. */
+  /** The tick of the recording to show. */
   wanted: number | undefined;
   /** How many events were marked, and the last tick then; later the marks are closer together. */
   marked = [0, 0];
@@ -88,7 +88,7 @@ class LivePage extends LabPage {
     message.answers?.forEach(({ places, ...exchange }) => this.talk.answer(exchange, places));
   }
 
-  /** @param live - Is shown again. */
+  /** Shows the live run again. */
   comeBack(live: LiveRun) {
     const node = this.scene?.node;
     this.first = live.first;
@@ -110,7 +110,7 @@ class LivePage extends LabPage {
     if (document.activeElement !== field) field.value = `${(this.scene?.environment.seed ?? 0) + 1}`;
   }
 
-  /** The recording of the run so far takes the place of the live run, or of an earlier one. */
+  /** Replaces the live run, or an earlier recording, by the recording of the run so far. */
   lookBack() {
     return (this.past ??= this.fetchPast().finally(() => (this.past = this.wanted = undefined)));
   }
@@ -135,7 +135,7 @@ class LivePage extends LabPage {
     this.showStatus();
   }
 
-  /** @param lane - Has the recording; a copy of it can be changed. */
+  /** @param lane - Has the recording; prepares changes in a copy of it. */
   canChange(lane: ShownRun) {
     this.first = lane.data?.first ?? 0;
     this.scrub.min = `${this.first}`;
@@ -316,7 +316,7 @@ function restarted({ seed }: EnvironmentScene, states: State[]) {
 export function watch(parts: Parts) {
   let page: LivePage | undefined;
   hideToken();
-  history.replaceState(null, "", location.href.split("#")[0]); // a link has another run
+  history.replaceState(null, "", location.href.split("#")[0]); // a link would hold another run
   document.body.classList.add("live");
   setText(byId("status"), say("connecting"));
   setText(byId("doing"), say("waitingRobot"));

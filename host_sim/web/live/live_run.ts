@@ -9,7 +9,7 @@ import type { Message, RobotRun } from "../types.js";
 const LESSONS_SHOWN = 30;
 const MEMORIES_KEPT = 1000;
 
-/** A run of which there is only the last tick. Each message makes that another one. */
+/** A run of which only the last tick is known; each message replaces it. */
 export class LiveRun extends RunData {
   /** The events of each robot so far. */
   events: RobotRun["events"][] = [];
@@ -50,7 +50,7 @@ export class LiveRun extends RunData {
     return this.message.states;
   }
 
-  /** Adds what the last message has, once. */
+  /** Adds the points of the last message, once. */
   override addTrails(trails: Trail[]) {
     this.message.trails.forEach((points, robot) => {
       for (let i = 0; i < points.length; i += 3) trails[robot].add(points[i], points[i + 1], points[i + 2]);
@@ -59,7 +59,7 @@ export class LiveRun extends RunData {
   }
 }
 
-/** The columns have the present alone; their tick is that in which its action began. */
+/** Keeps only the present in the columns; their tick is the one in which the current action began. */
 function keepState(robot: RobotData, { tick, action, pattern, reason, memory }: State) {
   if (robot.columns.action?.[0] !== action) robot.first = tick;
   robot.columns = { action: Int32Array.of(action), pattern: Int32Array.of(pattern), reason: Int32Array.of(reason) };

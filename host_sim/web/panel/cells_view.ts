@@ -24,7 +24,7 @@ export const SVG = "http://www.w3.org/2000/svg";
 /** A cone of 45 degrees that looks up. */
 const SECTOR = "M0 0 L-12.2 -29.6 A32 32 0 0 1 12.2 -29.6 Z";
 
-/** Shows a memory in a list; a cell can be pressed where someone listens. */
+/** Shows a memory in a list; its cells are buttons if there is an `onPress`. */
 export class CellsView {
   cells: Parts[];
   shown: string[] = [];
@@ -44,7 +44,7 @@ export class CellsView {
   }
 
   /**
-   * @param state - Of its robot; the sentence tells of the same one.
+   * @param state - The state of its robot; the sentence describes the same state.
    * @param other - A memory to compare with, and when or where it is.
    */
   show(scene: Scene, state: State, { then, where = say("then") }: { then?: number[]; where?: string }) {

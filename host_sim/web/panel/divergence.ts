@@ -76,7 +76,7 @@ function changedFrom({ experiment: { robots, changes } }: ShownRun, { experiment
   return copy.robots === robots ? (own?.tick ?? Infinity) : 0;
 }
 
-/** What of what they know or feel differs. */
+/** What differs in their memories or senses. */
 function reasonOf(a: State, b: State) {
   const { patterns } = robotWords();
   const cells = Array.from({ length: CELL_COUNT }, (_, cell) => cell).filter((cell) => a.memory[cell] !== b.memory[cell]);

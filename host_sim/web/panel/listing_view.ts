@@ -85,7 +85,7 @@ export class ListingView {
   }
 }
 
-/** What of the listing the robot executes. */
+/** The steps of the listing that the robot executes. */
 function stepsOf(state: State, actionTick: number) {
   const side = state.left < state.right ? "left" : "right";
   const steps: Record<number, string> = {

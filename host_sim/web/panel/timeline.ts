@@ -25,7 +25,7 @@ export function explainMarks() {
 }
 
 /**
- * Draws a mark for each event; of those of a kind within a pixel, for the first one.
+ * Draws a mark for each event; if several of a kind are within a pixel, only for the first one.
  * @param ticks - Those at the ends of the strip.
  */
 export function drawMarks(

@@ -11,7 +11,7 @@ export type Linked = { seed: number; environments: number; robots: number; world
   memory: number[]; settings: Record<string, number>; setups: RobotSetup[]; changes: Experiment["changes"]; tick: number;
   lesson: string; step: number; language: string; program: string };
 
-/** What of a link could be taken, and what not: the names of its fields. */
+/** The fields that could be taken from a link, and the names of those that could not. */
 type Found = { taken: Partial<Linked>; left: string[]; isCut: boolean; isOther: boolean };
 
 /** What there is to choose from: programs by name, the names of worlds and of lessons, the codes of languages. */
@@ -79,7 +79,7 @@ export function linkedIn(hash: string, known: Known): Found | undefined {
   return found;
 }
 
-/** What of a link was taken, and what not; empty if all of it was. */
+/** Says what was taken from a link and what was not; empty if all of it was. */
 export function tellFound({ taken, left, isCut, isOther }: Found, texts: Texts["program"]) {
   const fields = texts.fields as Record<string, string>;
   const named = (keys: string[]) => keys.map((key) => fields[key] ?? key).join(", ");

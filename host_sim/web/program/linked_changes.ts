@@ -39,13 +39,13 @@ const FIELDS: Record<Change["do"], Record<string, Rule>> = {
   command: { robot: whole, opcode: whole, which: whole, value: whole },
 };
 
-/** The changes in a text; undefined if one of them is none. */
+/** The changes in a text; undefined if one of them is invalid. */
 export function changesIn(json: string): LinkedChange[] | undefined {
   const read = listIn(json, CHANGES_MAX, isChange);
   return read?.every((it, i) => i === 0 || read[i - 1].tick <= it.tick) ? read : undefined;
 }
 
-/** The robots in a text; undefined if one of them is none. */
+/** The robots in a text; undefined if one of them is invalid. */
 export function setupsIn(json: string): RobotSetup[] | undefined {
   const read = listIn(json, ROBOTS_MAX, isSetup);
   return read?.length ? read : undefined;

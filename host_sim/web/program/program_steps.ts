@@ -40,12 +40,12 @@ export class ProgramSteps {
     });
   }
 
-  /** At this tick, the first step is shown first. */
+  /** Shows the first step first at a tick, instead of the last one. */
   beginAt(tick: number) {
     this.stepsAt = tick;
   }
 
-  /** On to the next step; false if this was the last one. */
+  /** Goes to the next step; returns false if this was the last one. */
   advance() {
     const count = this.state?.steps.length ?? 0;
     const next = this.place === undefined ? 0 : this.nextLine(this.place);

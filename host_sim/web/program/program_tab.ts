@@ -29,7 +29,7 @@ export class ProgramTab {
   choice: HTMLSelectElement;
   /** The runs whose parting is shown. */
   compared: unknown[] = [];
-  /** What is told of a link, in the language of the page. */
+  /** The message about a link, in the language of the page. */
   note = () => "";
 
   constructor(readonly lab: Lab) {
@@ -39,7 +39,7 @@ export class ProgramTab {
     this.parting = made("p", [], { id: "program-parting", role: "status" });
     this.variables = made("dl", [], { id: "program-variables" });
     this.choice = made("select", []);
-    this.choose(FIRST); // while its editor is in no document, which is then not laid out for it
+    this.choose(FIRST); // before the editor is in the document, so that no layout is needed
     inEachLanguage(() => this.build());
     for (const event of ["click", "focus"]) byId("tab-program").addEventListener(event, () => this.show());
     this.follow(location.hash);
@@ -144,7 +144,7 @@ export class ProgramTab {
     this.show();
   }
 
-  /** @param hash - Of a link to an experiment, which is shown; or of anything else. */
+  /** Shows the experiment of a link; ignores any other hash. */
   follow(hash: string) {
     const { lab } = this;
     const found = linkedIn(hash, lab.known);

@@ -7,7 +7,7 @@ import type { NativeRun } from "./native_run.js";
 /** What the bodies are like, and the seed that they are drawn from. */
 type Bodies = { body?: string | Traits; seed?: number };
 
-/** The kinds of bodies that have a name. */
+/** The names of bodies. */
 export const IDEAL = "ideal";
 export const KIT = "kit";
 
@@ -16,7 +16,7 @@ export function settingsOf(body: Bodies["body"]): Record<string, number> {
   return body === KIT ? { ...KIT_SETTINGS } : {};
 }
 
-/** Whether something changes the world or the bodies in it; all else is said to a robot. */
+/** Whether a change is one of the world or of the bodies in it; all others are commands to a robot. */
 export function isWorldEdit<T extends { do: string }>(change: T): change is T & WorldEdit {
   return Object.hasOwn(EDITS, change.do);
 }
@@ -29,7 +29,7 @@ const DIMENSIONS = [
   "width_mm", "height_mm", "body_radius_mm", "wheel_track_mm", "sensor_reach_mm", "front_extra_mm", "beam_width_mm",
   "eat_reach_mm", "tick_s", "max_wheel_speed_mm_s", "bar_thickness_mm",
 ] as const;
-/** That of an edit's numbers. */
+/** The order of an edit's numbers. */
 const NUMBERS = ["id", "robot", "seed", "heading", "radius"];
 const PLACES = ["a", "b", "at"];
 

@@ -37,7 +37,7 @@ export class LearningHistory {
     return notes;
   }
 
-  /** @param tick - From which on nothing is known of the cells. */
+  /** Makes all cells unused from a tick on, and when they were learned unknown. */
   forgetCells(tick: number) {
     for (let cell = 0; cell < CELL_COUNT; cell += 1) this.cells.push([tick, cell, 0, -1, 0]);
   }
@@ -51,7 +51,7 @@ export class LearningHistory {
     this.addLessons(tick);
   }
 
-  /** @param tick - Of new lessons. */
+  /** @param tick - The tick of new lessons. */
   addLessons(tick: number) {
     const { c } = this.native;
     const numbers = this.native.numbersAt(c.page_lessons(this.robot), LESSON_NUMBERS * c.page_lesson_count(this.robot));

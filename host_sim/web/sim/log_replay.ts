@@ -34,7 +34,7 @@ export function replayLog(module: WebAssembly.Module, text: string): Comparison 
   return { frames, difference: undefined };
 }
 
-/** The frames of a log that are a robot's. */
+/** The frames of a log that come from a robot or are meant for one. */
 export function* framesOf(text: string) {
   for (const [index, line] of text.split("\n").entries()) {
     const frame = line && frameOf(line, index + 1);
@@ -53,7 +53,7 @@ function frameOf(line: string, number: number) {
   return { robot, base, words: `${id}#${hex}`, data: bytesOf(hex) };
 }
 
-/** @param hex - Of a frame's bytes. */
+/** @param hex - The bytes of a frame. */
 export function bytesOf(hex: string) {
   return Uint8Array.from(hex.match(/../g) ?? [], (byte) => parseInt(byte, 16));
 }

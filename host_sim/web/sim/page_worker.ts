@@ -13,9 +13,10 @@ import type { Worlds } from "./simulation.js";
 export type Recorded = ReturnType<Simulation["result"]>;
 
 /**
- * What else the worker is asked for, and answers: the whole log of an experiment; a robot's eight bytes after a tick, with
- * whatever its behaviour keeps in them; what its program is doing then; how many ticks an experiment takes; and the experiment that a world file is of, where
- * `base` says what the file does not, or a log with its world file, of which the text may be empty, or a recorded run.
+ * What else the worker answers: the whole log of an experiment; a robot's eight bytes after a tick, with all that its
+ * behaviour keeps in them; what its program is doing then; how many ticks an experiment takes; and the experiment in
+ * a world file, where `base` gives what the file lacks, in a log with the text of its world file, which may be empty,
+ * or in a recorded run.
  */
 export interface Answers {
   log: (asked: { experiment: Experiment }) => Uint8Array[];
@@ -28,12 +29,12 @@ export interface Answers {
 }
 
 /**
- * What it sends: an answer; or of an experiment that it is to run the run after its first environment, and `done` at its
- * end, with the changes that were refused, by their places, and why.
+ * What it sends: an answer; or for an experiment to run, the run after the first environment, and again at its end
+ * with `done`, and the changes that were refused, each with its place and the reason.
  */
 export type Answer = { id: number; done: boolean; run?: Recorded; refusals?: [number, string][]; answer?: any; error?: string };
 
-/** From the first message, and when they are there. */
+/** The parts from the first message, and when they are ready. */
 let parts: { module: WebAssembly.Module; worlds: Worlds };
 let ready: Promise<void>;
 
@@ -58,7 +59,7 @@ function finished(experiment: Experiment, keepsLog = true) {
   return simulation;
 }
 
-/** What is there after a tick. */
+/** The robots and their arena after a tick. */
 function finishedAt(experiment: Experiment, tick: number) {
   const changes = experiment.changes.filter((change) => change.tick <= tick);
   return finished({ ...experiment, changes, ticks_max: tick + 1 }).native;

@@ -9,7 +9,7 @@ import { framesOf } from "./log_replay.js";
 export type Pair = { tick: number; page: string; pico: string };
 
 /**
- * How far it has come: ticks and frames that were compared, how many times as fast as real time; the newest frames; the
+ * Its progress: ticks and frames that were compared, how many times as fast as real time; the newest frames; the
  * frames of the first tick that differs, after which it ends.
  */
 export type Progress = { ticks: number; frames: number; equal: number; speed: number; newest: Pair[]; differs?: Pair[]; done: boolean };
@@ -58,7 +58,7 @@ class PicoRobot {
     }
   }
 
-  /** What it says until it has said so many frames, or a time has passed. */
+  /** What it says until it has said a number of frames, or a time has passed. */
   hearUntil(count: number, nanos: number) {
     for (let left = nanos; left > 0 && this.said.length < count; left -= STEP_NS) this.pass();
     const { said } = this;
@@ -66,7 +66,7 @@ class PicoRobot {
     return said;
   }
 
-  /** What it answers. It does not wait for the next tick: one frame more is found then. */
+  /** What it answers. Does not wait for frames beyond the expected ones: those come with the next exchange. */
   ask({ heard, answers }: Exchange) {
     const [id, hex] = heard.split("#");
     this.board.hear(new TextEncoder().encode(`t${id}${hex.length / 2}${hex}\r`));

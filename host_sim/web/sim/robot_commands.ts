@@ -54,7 +54,7 @@ export class RobotCommands {
     else this.start(robot, change.profile);
   }
 
-  /** @param name - Of a parameter. */
+  /** @param name - The name of a parameter. */
   set(robot: number, name: string, value: number) {
     this.native.command(robot, OPCODE.SET, Object.keys(PARAMETERS).indexOf(name), value);
   }
@@ -88,7 +88,7 @@ export class RobotCommands {
     }
   }
 
-  /** @param cells - Of one half. */
+  /** @param cells - Cells of one half. */
   writeHalf(robot: number, memory: number[], cells: number[]) {
     if (!cells.length) return;
     const [mask, value] = cells.reduce(

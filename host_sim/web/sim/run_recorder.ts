@@ -13,13 +13,13 @@ import type { NativeRun } from "./native_run.js";
 /** A block of one robot's ticks, in the order of native/page.h. */
 type Block = { ticks: number; rows: Int16Array; poses: Float64Array };
 
-/** From which tick on how sure a robot is of each cell. */
+/** A tick, and how sure a robot is of each cell from then on. */
 export type Beads = [number, number[]][];
 
-/** A run, and of each robot its columns and its beads. */
+/** A run, with the columns and the beads of each robot. */
 type Recorded = { run: Run; columns: Columns[]; beads: Beads[] };
 
-/** Of x, y and heading in a column. */
+/** The scales of x, y and heading in a column. */
 const SCALES = [["x", 10], ["y", 10], ["heading", 1000]] as const;
 const NAMES = ["x", "y", "heading", ...Object.keys(COLUMNS)];
 const EAT = ROW.indexOf("eat");
@@ -193,8 +193,8 @@ const SAID: Record<string, string> = SENTENCES;
 const SHOWN = ["plant", "move_plant", "grow_plant", "remove_plant", "body"];
 
 /**
- * All that changed, in order; what a person moved by hand is not among it.
- * @param edits - That were made.
+ * All that changed, in order, except what a person moved by hand.
+ * @param edits - The edits that were made.
  */
 function newsOf(edits: Edited[], robots: number): News[] {
   const shown = edits.filter((edit) => SHOWN.includes(edit.do));

@@ -1,4 +1,4 @@
-/* A run in the page: robots in one environment after the other. The same frames as those of tools/run. */
+/* A run in the page: robots in one environment after the other. Its frames are those of tools/run. */
 
 import { Arena, isWorldEdit, EditError } from "./arena.js";
 import { drawFrom, drawLayout } from "./native_layouts.js";
@@ -195,7 +195,7 @@ class DueChanges {
   }
 
   /**
-   * Makes those of a tick.
+   * Makes the changes of a tick.
    * @param make - Throws an EditError if a change cannot be made.
    */
   makeThoseOf(tick: number, make: (change: TimedChange) => void) {

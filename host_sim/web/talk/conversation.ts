@@ -8,7 +8,7 @@ import type { Said, WirePlace } from "../types.js";
 import type { Known, Script } from "./eliza.js";
 import type { Texts } from "./facts.js";
 
-/** One who talks: a script and, for its facts, the words of its language. */
+/** A speaker: a script and, for its facts, the words of its language. */
 type Speaker = { script: Script; texts: Texts };
 
 type About = ConstructorParameters<typeof RobotFacts>[0];
@@ -42,7 +42,7 @@ export class Conversation {
     }
   }
 
-  /** Teaches it a word: what it says to each sentence with that word. Nothing is known the more. */
+  /** Teaches it a word: what it says to each sentence with that word. The answer is not a known fact. */
   teach(word: string, answer: string) {
     const key = word.trim().toUpperCase();
     const transformations = [{ parts: [0], reassemblies: [[[answer.toUpperCase()], null] as [string[], null]], turn: 0 }];

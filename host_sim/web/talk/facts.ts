@@ -147,7 +147,7 @@ export class RobotFacts {
     return filled(this.#texts.facts[name], values);
   }
 
-  /** A fact that rests on ticks; where on none, on the one that is asked about. */
+  /** A fact that rests on ticks, or on the tick that is asked about if there are none. */
   #known(text: string, ticks: number[] = [], cells: number[] = []): Known {
     const rests = inOrder(ticks.filter((tick) => tick >= 0));
     return { text: text.toUpperCase(), ticks: rests.length ? rests : [this.#about.tick], cells: inOrder(cells), food: [] };
@@ -180,7 +180,7 @@ export class RobotFacts {
     return this.#say(name, { pattern: words.patterns[cell], side: words.sides[memory[cell]], times: this.#times(uses[cell]), ...values });
   }
 
-  /** Why it did what it did at the time in a question; where none is in it, in the last of some ticks. */
+  /** Why it did what it did at the time in a question or, if it names none, in the last of some ticks. */
   #reason(words: string[], begun: number[]) {
     const asked = SECONDS.exec(words.join(" "))?.[0].replace(POINT, ".");
     const { tick_ms } = this.#about.data.measures;
@@ -230,7 +230,7 @@ export function inOrder(numbers: number[]) {
   return [...new Set(numbers)].sort((a, b) => a - b);
 }
 
-/** The number of the pattern of front sensors that is spoken of; 0 if there is none. */
+/** The number of the pattern of front sensors that words name; 0 if they name none. */
 function cellIn(words: string[], spoken: Spoken) {
   let said = ` ${words.join(" ")} `.replaceAll("-", " ");
   let cell = 0;

@@ -84,7 +84,7 @@ export class TalkBox {
   }
 
   /**
-   * Shows an answer, and lights up what it speaks of.
+   * Shows an answer, and highlights what it is about.
    * @param places - Where the robot was in the ticks on which the answer rests, if that is in view.
    */
   answer(exchange: Exchange, places: WirePlace[]) {
@@ -105,7 +105,7 @@ export class TalkBox {
     this.page.lightUp();
   }
 
-  /** The last times on which an answer rests, to press where the page can show them. */
+  /** The last times on which an answer rests, as buttons if the page can show them. */
   times({ ticks }: Said) {
     const { scene, seek } = this.page;
     if (!scene) return [];
