@@ -185,7 +185,7 @@ def test_losses_recorded_on_a_busy_host_make_no_difference(name, drives):
     assert (outcome.drives, outcome.difference) == (drives, None)
 
 
-def test_new_run_with_losses_replays_alike_unless_its_log_lacks_too_much(tmp_path):
+def test_new_run_with_losses_has_no_difference_or_many_unanswered_senses(tmp_path):
     """What a busy host adds to the loss may be more than its log can tell."""
     words = ("--bus", "fd", "--environments", "1", "--limit-s", "2", "--real-time", "--fault", "drop@23-28/from")
     assert octet("run", *words, *BUSY_HOST, "--out", tmp_path).returncode == 0

@@ -94,7 +94,7 @@ def test_disturbed_link_leaves_the_drives_unchanged(tmp_path, meddle):
     assert not result.error
 
 
-def test_lost_answers_are_repeated_alike(tmp_path):
+def test_lost_answers_are_repeated_in_c_as_in_python(tmp_path):
     assert assert_alike(tmp_path, {40: lost, 300: lost}).repeated >= 2
 
 
@@ -115,7 +115,7 @@ FORGED: dict[str, Frame] = {
 
 
 @pytest.mark.parametrize("frame", FORGED.values(), ids=FORGED)
-def test_frames_that_contradict_the_session_are_found_alike(tmp_path, frame):
+def test_frames_that_contradict_the_session_are_found_in_c_as_in_python(tmp_path, frame):
     assert_alike(tmp_path, {40: foreign(frame), 200: foreign(frame)})
 
 

@@ -56,7 +56,7 @@ def test_change_is_read_and_written(text, change):
         ("mirror@5s/0", "environments and robots are counted from 1"),
     ],
 )
-def test_invalid_change_is_refused_with_what_was_meant(text, meant):
+def test_invalid_change_is_refused_with_a_suggestion(text, meant):
     with pytest.raises(UsageError) as raised:
         Change.parse(text)
 

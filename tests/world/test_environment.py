@@ -168,7 +168,7 @@ def test_all_bars_are_inside_the_arena():
     ("text", "meant"),
     [("corridor", "did you mean corridors?"), ("moon", "choose from random, corridors"), ("", "choose from")],
 )
-def test_unknown_world_is_refused_with_what_was_meant(text, meant):
+def test_unknown_world_is_refused_with_a_suggestion(text, meant):
     with pytest.raises(UsageError, match=meant.replace("?", r"\?")):
         world_of(text)
 
@@ -253,7 +253,7 @@ def test_example_in_the_documentation_equals_its_file():
         ),
     ],
 )
-def test_mistake_in_a_world_file_is_reported_with_line_and_what_was_meant(tmp_path, text, line, meant):
+def test_mistake_in_a_world_file_is_reported_with_its_line_and_reason(tmp_path, text, line, meant):
     with pytest.raises(UsageError) as raised:
         read(tmp_path, text)
 

@@ -95,7 +95,7 @@ def state(arena: Arena) -> list[tuple[object, ...]]:
 @pytest.mark.parametrize(
     ("seed", "robots", "edited"), [(1, 1, 0), (2, 1, 0), (3, 2, 0), (4, 5, 0), (5, 1, 1), (6, 3, 1)]
 )
-def test_bodies_bump_into_things_alike_in_both_physics(seed, robots, edited):
+def test_bodies_collide_the_same_way_in_both_physics(seed, robots, edited):
     layout, draws = generate(seed, 1, PARAMS, robots), random.Random(seed)
     arenas = [Arena(layout, PARAMS, physics=physics) for physics in PHYSICS]
 
