@@ -29,7 +29,7 @@ static void patch(struct compiler *compiler, uint16_t jump)
         compiler->program->code[jump].operand = here(compiler);
 }
 
-/* Lets each jump of a linked list come here. */
+/* Makes each jump of a linked list lead here. */
 static void patch_all(struct compiler *compiler, uint16_t last)
 {
     while (last != NO_PLACE) {

@@ -112,8 +112,8 @@ static int32_t limited(struct machine *machine, double number, double most, enum
     return 0;
 }
 
-/* Named as the firmware names what it does itself: a program that keeps Mem learns as the article's does. Nothing is
- * avoided by a turn before which rFeel was not asked. */
+/* The reason that the firmware would give: a program that keeps Mem learns as the article's does. A turn avoids
+ * something only if rFeel was asked before it. */
 static enum reason reason_to_turn(const struct machine *machine, int32_t degrees)
 {
     uint8_t pattern = pattern_of(machine->senses->feel);

@@ -101,7 +101,7 @@ unsigned compile_values(struct compiler *compiler, const struct token *word, con
 
 enum program_expected compiler_foreign(const struct compiler *compiler, const struct token *word,
                                        enum program_expected otherwise);
-        /* What to write instead of a word of RobotBASIC that is missing here, or otherwise. */
+        /* What to write instead of a word that only RobotBASIC has; otherwise, for any other word. */
 
 bool compiler_ends_statement(const struct compiler *compiler);
         /* Whether a statement can end here. */

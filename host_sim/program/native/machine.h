@@ -35,7 +35,7 @@ struct known_word {
 extern const struct known_word CODE_FUNCTIONS[], CODE_COMMANDS[];
 extern const unsigned CODE_FUNCTION_COUNT, CODE_COMMAND_COUNT;
 
-/* A word of RobotBASIC that this language has not. */
+/* A word of RobotBASIC that this language lacks. */
 struct foreign_word {
     const char *name;      /* in lower case */
     enum program_expected instead;
@@ -108,7 +108,7 @@ void machine_reckon(struct machine *machine);
 
 void machine_print_number(struct machine *machine, double number);
 void machine_print_text(struct machine *machine, const char *text, size_t len);
-        /* Print; what there is no room for is not kept. */
+        /* Print; text for which there is no room is lost. */
 
 void machine_show_at(struct machine *machine, double x, double y);
         /* Selects a place of the screen and clears it. */

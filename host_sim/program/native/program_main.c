@@ -41,7 +41,7 @@ struct program *programmed_program(struct brain *brain)
     return &program;
 }
 
-/* Hands on what has been printed since the last call, each line after a > and a blank. */
+/* Prints what the program has printed since the last call, each line after "> ". */
 static void hand_on(const char *printed)
 {
     static size_t known;

@@ -20,7 +20,7 @@ const char *__asan_default_options(void)
     return "detect_leaks=0:detect_stack_use_after_return=1:color=never";
 }
 
-/* The sanitizer has found something, and prints it next: with which senses, it does not know. */
+/* The sanitizer has found an error, which it prints next. It does not know the tick and the senses. */
 void __asan_on_error(void)
 {
     char when[GUARD_TEXT_MAX / 3];
@@ -30,7 +30,7 @@ void __asan_on_error(void)
     fflush(stdout);
 }
 
-/* The last of the places is the one that was not put there by a function of a header. */
+/* Inlined functions of headers come first: the last of the places is in the user's file. */
 void guard_place(const void *code, char *text, size_t size)
 {
     char places[GUARD_TEXT_MAX] = "";
@@ -68,7 +68,7 @@ static void too_long(int number, siginfo_t *info, void *context)
     guard_fail(code, NULL, "a loop without an end: 0.2 s in one decision");
 }
 
-/* A timer counts the time that this process computes: it counts in empty loops, too, which take no branches. */
+/* Limits the processor time of a decision: that ends empty loops, too, which take no branches. */
 void guard_watch(bool on)
 {
     static bool ready;

@@ -33,8 +33,8 @@ struct decision {
 /* The one under way in this thread, or NULL. It is looked up at every branch: that must not take a call. */
 static __thread struct decision *now __attribute__((tls_model("initial-exec")));
 
-static char failure[GUARD_TEXT_MAX];   /* the first one, of any robot, */
-static const void *failed;              /* and of which */
+static char failure[GUARD_TEXT_MAX];   /* the first failure of any robot, */
+static const void *failed;              /* and the robot */
 
 const char *own_failure(const void *robot)
 {
@@ -174,7 +174,7 @@ static void check_brain(const struct brain *before, const struct brain *after)
     check_memory(before, after);
 }
 
-/* The user's functions get copies: what they write beside these, the robot does not have. */
+/* The user's functions get copies, so that what they write beside these does not reach the robot. */
 bool __wrap_own_begin(struct brain *brain)
 {
     struct decision decision;

@@ -1,5 +1,5 @@
-/* guard.h: between the robot and its user's behaviour, on the host. guard.c knows what is wrong; what becomes of it,
- * checked.c knows in a process of the robot's own, and fast.c in the simulator's. */
+/* guard.h: stands between the robot and its user's behaviour, on the host. guard.c finds failures; checked.c handles
+ * them in a process of the robot's own, and fast.c in the simulator's process. */
 #ifndef OCTET_GUARD_H
 #define OCTET_GUARD_H
 
@@ -9,8 +9,8 @@
 enum { GUARD_TEXT_MAX = 600 };
 
 const char *own_failure(const void *robot);
-        /* What was wrong with this robot, or with any if it is null: the tick as a number, a space, and a message in
-           one line. Empty if nothing was. */
+        /* The failure of this robot, or of any if it is null: the tick as a number, a space, and a message in one
+           line. Empty if there was none. */
 
 long guard_when(char *text, size_t size);
         /* The tick of the decision under way, -1 at the start of a run; with its senses, in words, too. */
@@ -20,12 +20,12 @@ void guard_fail(const void *code, const char *place, const char *what);
            return while a decision is under way. */
 
 void guard_place(const void *code, char *text, size_t size);
-        /* Of checked.c and fast.c: the file and line of code, empty if it is not known. */
+        /* In checked.c and fast.c: the file and line of code, empty if they are not known. */
 
 void guard_end(const char *text);
-        /* The same: takes a failure, as above. Returns if the robot is to stand still from now on. */
+        /* In both, too: handles a failure. Returns if the robot is to stand still from now on. */
 
 void guard_watch(bool on);
-        /* The same: a decision begins or ends. */
+        /* In both, too: a decision begins or ends. */
 
 #endif

@@ -7,7 +7,7 @@
  * - Nothing lasts from one call to the next except in *brain: no static or global variables. One program may run
  *   thousands of robots, and takes them back in time.
  * - No malloc, printf, time or other function of a system: a microcontroller has none. note() prints.
- * - No dice but below() and any_side(). The same *brain and senses always give the same action.
+ * - No random numbers but those of below() and any_side(). The same *brain and senses always give the same action.
  * - No loop without an end: a call may take a million branches, and 0.2 s.
  * - Of *brain, change only what is listed below; of *config and *senses, nothing. */
 #ifndef OCTET_BRAIN_OF_ONES_OWN_H

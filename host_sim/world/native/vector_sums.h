@@ -41,7 +41,7 @@ static inline double vector_length(struct vector way)
 
 static inline double vector_whole(double number)
 {
-    /* Rounds to the nearest whole number, a half to the even one; for less than 2^51, where every compiler can. */
+    /* Rounds to the nearest whole number, a half to the even one, with every compiler; for less than 2^51. */
     static const double SHIFT = 6755399441055744.0;
 
     return (number + SHIFT) - SHIFT;

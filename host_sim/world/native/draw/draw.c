@@ -152,7 +152,7 @@ static struct vector place(const struct reach *reach, uint32_t which)
     return reach_middle(reach, cell);
 }
 
-/* Draws a position from which all food can be reached. There is room where the food is. */
+/* Draws a position from which all food can be reached: a cell with enough room, or the place of a piece of food. */
 static struct vector draw_place(struct draws *draws, const struct layout_params *params, struct reach *reach,
                                 const struct layout *layout)
 {

@@ -167,7 +167,7 @@ static void find(struct world *world, struct body *body)
     count_touches(&finding, &space->touching[index_of(world, body) * space->words]);
 }
 
-/* Whether what a body overlaps may have changed with another one that has moved. */
+/* Whether what a body overlaps may include another one at this place. */
 static bool may_notice(const struct plain_world *space, const struct body *body, const struct plain_place *other)
 {
     struct vector way = vector_to(plain_position(body), other->at);
