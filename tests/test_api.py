@@ -27,7 +27,7 @@ def done(folder):
     return run(CONFIG, log=folder / "run.log")
 
 
-def test_it_is_the_run_of_the_command_line(done, folder, tmp_path):
+def test_api_run_equals_that_of_the_command_line(done, folder, tmp_path):
     options = ["--bus", "none", "--seed", "3", "--environments", "2", "--limit-s", "20", "--quiet"]
     assert main(["run", *options, "--out", str(tmp_path)]) == 0
 
@@ -36,11 +36,11 @@ def test_it_is_the_run_of_the_command_line(done, folder, tmp_path):
     assert (folder / "run.world.json").read_bytes() == (tmp_path / "run.world.json").read_bytes()
 
 
-def test_without_a_log_it_is_the_same_run(done):
+def test_run_without_a_log_has_the_same_digest(done):
     assert run(CONFIG).log_sha256 == done.log_sha256
 
 
-def test_each_environment_is_told_as_it_ends():
+def test_callback_gets_each_episode_as_it_ends():
     told = []
 
     ended = run(CONFIG, each=told.append)
@@ -48,7 +48,7 @@ def test_each_environment_is_told_as_it_ends():
     assert told == ended.episodes
 
 
-def test_a_run_that_cannot_begin_leaves_the_log_of_an_earlier_one(tmp_path):
+def test_refused_run_leaves_the_log_of_an_earlier_one(tmp_path):
     run(RunConfig(environments=1, limit_s=1), log=tmp_path / "run.log")
     before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
 
@@ -58,7 +58,7 @@ def test_a_run_that_cannot_begin_leaves_the_log_of_an_earlier_one(tmp_path):
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
-def test_a_run_that_ends_before_its_time_can_be_looked_at(tmp_path):
+def test_run_that_ends_early_can_be_resimulated(tmp_path):
     run(RunConfig(seed=1, environments=1, limit_s=1), log=tmp_path / "run.log")
 
     def ends(_episode):
@@ -70,7 +70,7 @@ def test_a_run_that_ends_before_its_time_can_be_looked_at(tmp_path):
     assert resimulate(tmp_path / "run.log").trajectory.ticks == 1000
 
 
-def test_a_memory_is_begun_with():
+def test_run_begins_with_the_given_memory():
     cells = (0, 2, 2, 2, 1, 1, 1, 1)
 
     assert run(RunConfig(environments=1, limit_s=1), memories=[cells]).memories == [cells]
@@ -85,7 +85,7 @@ def test_ticks_are_columns_of_equal_length(done, folder):
     assert (ticks["x"][-1], ticks["y"][-1]) == tuple(again.tracks[0].pose(again.ticks - 1)[:2])
 
 
-def test_what_is_wrong_is_an_error_of_one_line(tmp_path):
+def test_impossible_run_raises_an_error_of_one_line(tmp_path):
     with pytest.raises(UsageError, match=r"^32 robots from node 1 need node 32; the last is 31$"):
         run(RunConfig(robots=32))
     with pytest.raises(UsageError, match="cannot write"):
@@ -93,12 +93,12 @@ def test_what_is_wrong_is_an_error_of_one_line(tmp_path):
 
 
 @pytest.mark.parametrize(("name", "value"), [("seed", -1), ("limit_s", 1e6), ("profile", "genius"), ("owner", 256)])
-def test_a_configuration_with_a_wrong_value_is_refused_by_its_name(name, value):
+def test_configuration_refuses_a_wrong_value_by_its_name(name, value):
     with pytest.raises(UsageError, match=f"{name} must be one of .*, not {value!r}"):
         RunConfig(**{name: value})
 
 
-def test_help_on_a_configuration_has_each_option_with_its_range():
+def test_docstring_of_run_config_has_each_option_with_its_range():
     assert "seed: seed for environments and random turns (0..4294967295)." in RunConfig.__doc__
     assert all(f"        {field.name}: " in RunConfig.__doc__ for field in fields(RunConfig))
 
@@ -114,18 +114,18 @@ def failures_in(module: object) -> int:
     return doctest.testmod(module, report=False).failed
 
 
-def test_there_are_examples():
+def test_modules_have_doctest_examples():
     assert {"host_sim.sim.make", "host_sim.world.arena", "host_sim.world.body", "host_sim.world.layouts"} <= set(
         MODULES
     )
 
 
 @pytest.mark.parametrize("name", MODULES)
-def test_the_examples_of_a_module_hold(name):
+def test_doctest_examples_of_a_module_hold(name):
     assert failures_in(importlib.import_module(name)) == 0
 
 
-def test_an_example_that_does_not_hold_is_noticed(capsys):
+def test_wrong_doctest_example_is_detected(capsys):
     wrong = type(doctest)("wrong", "An example.\n\n>>> 1 + 1\n3\n")
 
     assert failures_in(wrong) == 1

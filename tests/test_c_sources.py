@@ -149,7 +149,7 @@ def reach() -> dict[str, set[str]]:
     return reach_of_programs(BUILD)
 
 
-def test_every_source_is_tested_or_has_its_reason(reach):
+def test_c_sources_are_tested_or_have_a_reason(reach):
     assert missing(reach) == set(NOT_ON_THE_HOST)
 
 
@@ -161,13 +161,13 @@ def test_every_source_is_tested_or_has_its_reason(reach):
         ("tests/hal/stm32/test_pins", {"gpio.c", "pins.c"}),
     ],
 )
-def test_a_source_whose_tests_are_left_out_is_named(reach, without, named):
+def test_source_whose_tests_are_left_out_is_named(reach, without, named):
     fewer = {program: sources for program, sources in reach.items() if not program.startswith(without)}
 
     assert {Path(path).name for path in missing(fewer) - set(NOT_ON_THE_HOST)} == named
 
 
-def test_a_library_does_not_count_as_a_whole():
+def test_library_counts_only_as_far_as_tests_reach():
     objects = [
         Object("tests/test_a.c", set(), {"a"}),
         Object("hal/a.c", {"a"}, {"b"}),
@@ -214,7 +214,7 @@ def objects() -> list[Object]:
     return list(objects_of(BUILD, sources_of_objects(BUILD)).values())
 
 
-def test_no_source_calls_itself_through_others(objects):
+def test_c_sources_call_each_other_without_cycles(objects):
     assert in_rings(calls(objects)) == set()
 
 
@@ -225,7 +225,7 @@ def test_no_source_calls_itself_through_others(objects):
         ("layout.c", "layouts_draw", {"layout.c", "layouts.c", "draw.c", "written.c"}),
     ],
 )
-def test_a_call_that_closes_a_ring_is_found(objects, low, symbol, ring):
+def test_call_that_closes_a_cycle_is_found(objects, low, symbol, ring):
     planted = next(Object(it.source, set(), {symbol}) for it in objects if it.source.endswith(f"/{low}"))
 
     found = {source.rpartition("/")[2] for source in in_rings(calls([*objects, planted]))}
@@ -259,12 +259,12 @@ def run_sanitized(folder: Path, body: str) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.mark.parametrize("error", CRASHES)
-def test_the_sanitizers_end_a_program_that_errs(tmp_path, error):
+def test_sanitizers_end_a_faulty_program(tmp_path, error):
     ended = run_sanitized(tmp_path, CRASHES[error])
 
     assert ended.returncode != 0
     assert error in ended.stderr
 
 
-def test_the_sanitizers_let_a_sound_program_be(tmp_path):
+def test_sanitizers_let_a_sound_program_finish(tmp_path):
     assert run_sanitized(tmp_path, "char *bytes = calloc(8, 1); int result = bytes[7]; free(bytes);").returncode == 0

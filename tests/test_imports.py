@@ -32,7 +32,7 @@ def plant(project: Path, importer: str, imported: str) -> None:
         file.write(f"import {imported}\n")
 
 
-def test_every_import_goes_down(project):
+def test_host_sim_imports_only_lower_layers(project):
     done = lint(project)
 
     assert done.returncode == 0, done.stdout
@@ -54,7 +54,7 @@ UPWARD = [
 ]
 
 
-def test_imports_that_go_up_or_across_are_all_found(project):
+def test_imports_that_go_up_or_across_are_found(project):
     for importer, imported in UPWARD:
         plant(project, importer, imported)
 
@@ -64,7 +64,7 @@ def test_imports_that_go_up_or_across_are_all_found(project):
     assert [arrow for arrow in UPWARD if "{}.planted -> {}".format(*arrow) not in done.stdout] == []
 
 
-def test_a_package_without_a_floor_is_found(project):
+def test_package_without_a_layer_is_found(project):
     plant(project, "host_sim.attic", "host_sim.base.errors")
     (project / "host_sim/attic/__init__.py").touch()
 
@@ -74,7 +74,7 @@ def test_a_package_without_a_floor_is_found(project):
     assert "attic" in done.stdout + done.stderr
 
 
-def test_an_exception_that_is_no_longer_needed_is_found(project):
+def test_unneeded_import_exception_is_found(project):
     config = project / "pyproject.toml"
     arrow = '"host_sim.base.errors -> host_sim.cli.main"'
     text = config.read_text()
@@ -119,7 +119,7 @@ def loaded_at_the_first_tick(folder: Path, first: str = "") -> set[str]:
     return set(done.stdout.split()[1:])
 
 
-def test_a_run_in_this_process_loads_nothing_that_only_others_need(tmp_path):
+def test_in_process_run_loads_only_modules_that_it_needs(tmp_path):
     loaded_at_the_first_tick(tmp_path)  # the first run after a build reads C code, and keeps what it read
 
     assert loaded_at_the_first_tick(tmp_path) == set()
@@ -156,7 +156,7 @@ COMMANDS = sorted(
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_a_command_is_in_the_name_of_its_module(name, capsys):
+def test_command_is_in_the_name_of_its_module(name, capsys):
     with pytest.raises(SystemExit):
         main([name, "--help"])
 

@@ -76,11 +76,11 @@ def upward(root: Path) -> set[tuple[str, str]]:
     return {arrow for arrow in includes(root) if not goes_down(*arrow)}
 
 
-def test_every_include_goes_down():
+def test_c_files_include_only_lower_layers():
     assert upward(ROOT) == set()
 
 
-def test_there_are_includes_to_look_at():
+def test_c_sources_have_includes_to_check():
     assert len(includes(ROOT)) > 50
 
 
@@ -109,7 +109,7 @@ PLANTED = [
 
 
 @pytest.mark.parametrize("arrow", PLANTED, ids=" ".join)
-def test_an_include_that_goes_up_or_across_is_found(arrow, tmp_path):
+def test_include_that_goes_up_or_across_is_found(arrow, tmp_path):
     for folder in FOLDERS:
         shutil.copytree(ROOT / folder, tmp_path / folder)
     file = tmp_path / arrow[0]

@@ -75,7 +75,7 @@ def scanned() -> Iterator[Path]:
                 yield path
 
 
-def test_nothing_of_the_robots_is_copied_by_hand():
+def test_words_and_numbers_of_the_robot_are_not_copied_by_hand():
     paths = list(scanned())
     copies = {str(path.relative_to(ROOT)): copies_in(path.read_text()) for path in paths}
 
@@ -107,7 +107,7 @@ CANARIES = {
 
 
 @pytest.mark.parametrize("text", CANARIES.values(), ids=CANARIES)
-def test_a_copy_is_found(text):
+def test_copy_by_hand_is_found(text):
     assert copies_in(text)
 
 
@@ -123,7 +123,7 @@ FINE = {
 
 
 @pytest.mark.parametrize("text", FINE.values(), ids=FINE)
-def test_what_is_no_copy_is_let_through(text):
+def test_use_of_a_word_is_not_taken_for_a_copy(text):
     assert copies_in(text) == []
 
 
@@ -163,7 +163,7 @@ def texts() -> dict[str, str]:
     return {file: (ROOT / file).read_text() for file in files if (ROOT / file).exists()}
 
 
-def test_no_other_file_says_to_be_the_twin_of_another(texts):
+def test_only_listed_files_say_to_be_a_twin(texts):
     assert len(texts) > 500
     assert twins(texts) == set(TWINS)
     assert all((ROOT / test).exists() for test in TWINS.values())
@@ -178,7 +178,7 @@ def test_no_other_file_says_to_be_the_twin_of_another(texts):
         "/* As in host_sim/world/change_effects.py. */",
     ],
 )
-def test_a_file_that_says_so_is_found(comment):
+def test_comment_that_names_a_twin_is_found(comment):
     assert twins({"one.ts": comment.replace("//", "*"), "other.ts": "/* As in the article. */"}) == {"one.ts"}
 
 
@@ -205,7 +205,7 @@ def readers(suffix: str) -> set[str]:
 
 
 @pytest.mark.parametrize("suffix", READS)
-def test_only_what_is_listed_reads_the_wall_clock(suffix):
+def test_only_listed_files_read_the_wall_clock(suffix):
     assert readers(suffix) == {name for name in ALLOWED if Path(name).suffix == suffix}
 
 
@@ -218,7 +218,7 @@ def test_only_what_is_listed_reads_the_wall_clock(suffix):
         (".py", "datetime.now(timezone.utc)"),
     ],
 )
-def test_a_reading_of_the_wall_clock_is_found(suffix, line):
+def test_reading_of_the_wall_clock_is_found(suffix, line):
     assert READS[suffix].search(line)
 
 
@@ -226,5 +226,5 @@ def test_a_reading_of_the_wall_clock_is_found(suffix, line):
     ("suffix", "line"),
     [(".c", "clock_gettime(CLOCK_MONOTONIC, &now);"), (".py", "time.monotonic() + self.now()")],
 )
-def test_a_monotonic_clock_is_none(suffix, line):
+def test_monotonic_clock_is_not_taken_for_a_wall_clock(suffix, line):
     assert not READS[suffix].search(line)

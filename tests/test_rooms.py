@@ -59,11 +59,11 @@ def files() -> list[str]:
     return [file for file in named if (ROOT / file).exists()]
 
 
-def test_no_folder_is_crowded(files):
+def test_folders_have_at_most_30_files(files):
     assert crowded(files) == {}
 
 
-def test_one_file_too_many_is_found(files):
+def test_folder_with_31_files_is_found(files):
     room = [file for file in files if PurePath(file).parent == PurePath("host_sim/base")]
     planted = [f"host_sim/base/planted_{i}.py" for i in range(FILES_MAX + 1 - len(room))]
 
@@ -80,12 +80,12 @@ def texts(files) -> dict[str, str]:
     return {file: (ROOT / file).read_text() for file in sources + scripts}
 
 
-def test_no_module_is_too_small_to_stand_alone(texts):
+def test_modules_with_one_importer_have_at_least_40_lines(texts):
     assert too_small(texts) <= set(STAND_ALONE)
 
 
 @pytest.mark.parametrize("where", ["host_sim/live/page_talk.py", "host_sim/web/board/board.ts"])
-def test_a_small_module_with_one_importer_is_found(texts, where):
+def test_small_module_with_one_importer_is_found(texts, where):
     planted = str(PurePath(where).with_stem("planted"))
     line = {".ts": 'import { planted } from "./planted.js";', ".py": "from host_sim.live.planted import planted"}
     one = {**texts, planted: "\n", where: f"{line[PurePath(where).suffix]}\n{texts[where]}"}
@@ -100,14 +100,14 @@ def too_long(text: str) -> list[str]:
     return [line for line in text.splitlines() if len(line) > LINE_MAX]
 
 
-def test_no_line_of_c_is_too_long(files):
+def test_lines_of_c_have_at_most_118_columns(files):
     sources = [file for file in files if file.endswith((".c", ".h")) and not file.startswith("tests/")]
 
     assert len(sources) > 100
     assert {file: lines for file in sources if (lines := too_long((ROOT / file).read_text()))} == {}
 
 
-def test_a_line_that_is_too_long_is_found():
+def test_line_over_118_columns_is_found():
     fine = f"/* {'x' * (LINE_MAX - 6)} */"
 
     assert too_long(f"{fine}\n{fine} ") == [f"{fine} "]
@@ -119,7 +119,7 @@ def rooms_without_a_sentence(rooms: Iterable[str], architecture: str) -> set[str
     return set(rooms) - set(told)
 
 
-def test_each_room_of_host_sim_has_a_sentence_that_says_what_it_may_know(files):
+def test_architecture_page_describes_each_folder_of_host_sim(files):
     rooms = {file.split("/")[1] for file in files if re.match(r"host_sim/\w+/", file)}
     architecture = (ROOT / "docs/architecture.md").read_text()
 

@@ -20,13 +20,13 @@ from host_sim.base.result_files import Case, write_results
 from host_sim.base.toml_file import parse_toml
 
 
-def test_a_file_is_written_and_leaves_nothing_else(tmp_path):
+def test_write_bytes_creates_only_the_target_file(tmp_path):
     write_bytes(tmp_path / "a", b"new")
 
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {"a": b"new"}
 
 
-def test_a_link_stays_a_link_and_its_file_is_written(tmp_path):
+def test_write_through_a_symlink_replaces_its_target(tmp_path):
     (tmp_path / "folder").mkdir()
     (tmp_path / "folder/target").write_bytes(b"old")
     (tmp_path / "link").symlink_to("folder/target")
@@ -37,7 +37,7 @@ def test_a_link_stays_a_link_and_its_file_is_written(tmp_path):
     assert (tmp_path / "folder/target").read_bytes() == b"new"
 
 
-def test_a_file_keeps_its_mode(tmp_path):
+def test_rewritten_file_keeps_its_mode(tmp_path):
     (tmp_path / "a").write_bytes(b"old")
     (tmp_path / "a").chmod(0o600)
 
@@ -46,7 +46,7 @@ def test_a_file_keeps_its_mode(tmp_path):
     assert stat.S_IMODE((tmp_path / "a").stat().st_mode) == 0o600
 
 
-def test_a_new_file_has_the_mode_that_the_process_gives_its_files(tmp_path):
+def test_new_file_has_the_default_mode_of_the_process(tmp_path):
     (tmp_path / "usual").write_bytes(b"")
 
     write_bytes(tmp_path / "a", b"new")
@@ -55,7 +55,7 @@ def test_a_new_file_has_the_mode_that_the_process_gives_its_files(tmp_path):
 
 
 @pytest.mark.parametrize("make", [os.mkfifo, os.mkdir])
-def test_what_is_not_a_regular_file_is_not_replaced(tmp_path, make):
+def test_write_refuses_to_replace_a_pipe_or_a_folder(tmp_path, make):
     make(tmp_path / "a")
     before = (tmp_path / "a").stat()
 
@@ -65,7 +65,7 @@ def test_what_is_not_a_regular_file_is_not_replaced(tmp_path, make):
     assert (tmp_path / "a").stat() == before
 
 
-def test_a_pipe_in_the_place_of_an_old_temporary_name_does_not_matter(tmp_path):
+def test_write_ignores_a_pipe_named_like_an_old_temporary_file(tmp_path):
     os.mkfifo(tmp_path / "a.part")
 
     write_bytes(tmp_path / "a", b"new")
@@ -87,13 +87,13 @@ def test_failed_write_leaves_only_the_old_file(tmp_path, monkeypatch, call):
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {"a": b"old"}
 
 
-def test_a_regular_file_is_read(tmp_path):
+def test_regular_file_is_read(tmp_path):
     (tmp_path / "a").write_bytes(b"12345678")
 
     assert read_bytes(tmp_path / "a", 8) == b"12345678"
 
 
-def test_a_link_to_a_regular_file_is_read(tmp_path):
+def test_symlink_to_a_regular_file_is_read(tmp_path):
     (tmp_path / "a").write_bytes(b"1")
     (tmp_path / "link").symlink_to("a")
 
@@ -117,14 +117,14 @@ def make_huge(path: Path) -> None:
     ("make", "why"),
     [(make_pipe, "not a regular file"), (make_endless, "not a regular file"), (make_huge, "at most 8")],
 )
-def test_what_never_ends_or_is_too_large_is_refused_at_once(tmp_path, make, why):
+def test_read_refuses_pipe_device_and_oversized_file_at_once(tmp_path, make, why):
     make(tmp_path / "a")
 
     with pytest.raises(UsageError, match=why):
         read_bytes(tmp_path / "a", 8)
 
 
-def test_a_small_file_takes_little_memory_whatever_the_limit(tmp_path):
+def test_reading_a_small_file_takes_little_memory_despite_a_high_limit(tmp_path):
     (tmp_path / "a").write_bytes(b"12345678")
 
     tracemalloc.start()
@@ -142,7 +142,7 @@ def write_half(path: Path, error: BaseException) -> None:
         raise error
 
 
-def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path):
+def test_failed_replacement_leaves_only_the_old_file(tmp_path):
     path = tmp_path / "file"
     path.write_text("old")
 
@@ -152,7 +152,7 @@ def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path):
     assert [(it.name, it.read_text()) for it in tmp_path.iterdir()] == [("file", "old")]
 
 
-def test_an_interruption_stays_one_where_the_new_file_is_gone(tmp_path, monkeypatch):
+def test_interruption_is_raised_although_the_temporary_file_is_gone(tmp_path, monkeypatch):
     monkeypatch.setattr(Path, "write_text", lambda part, _text: part.unlink())  # somebody has tidied up meanwhile
 
     with pytest.raises(KeyboardInterrupt):
@@ -164,7 +164,7 @@ def test_an_interruption_stays_one_where_the_new_file_is_gone(tmp_path, monkeypa
 CASES = [Case("drives", "passed", seconds=1.5), Case("a<b", "failed", "it \x1bdoes\nnot"), Case("c", "skipped")]
 
 
-def test_junit_has_a_case_for_each_and_whatever_the_text_can_be_read(tmp_path):
+def test_junit_report_has_each_case_without_control_characters(tmp_path):
     write_results("robot", CASES, None, tmp_path / "robot.xml")
 
     suite = ET.parse(tmp_path / "robot.xml").getroot()
@@ -180,7 +180,7 @@ def test_junit_has_a_case_for_each_and_whatever_the_text_can_be_read(tmp_path):
     assert suite[2][0].tag == "skipped"
 
 
-def test_json_has_the_same(tmp_path):
+def test_json_report_has_each_case(tmp_path):
     write_results("robot", CASES, tmp_path / "robot.json", None)
 
     assert [Case(**case) for case in json.loads((tmp_path / "robot.json").read_text())] == CASES
@@ -201,17 +201,17 @@ def write(path: Path, sizes: list[int]) -> bytes:
     return path.read_bytes()
 
 
-def test_what_is_written_can_be_read(tmp_path):
+def test_compressed_file_decompresses_to_its_content(tmp_path):
     assert gzip.decompress(write(tmp_path / "a", [])) == CONTENT
 
 
-def test_the_bytes_do_not_depend_on_how_the_content_was_handed_over(tmp_path):
+def test_compressed_bytes_do_not_depend_on_the_sizes_of_writes(tmp_path):
     draws = random.Random(1)
 
     assert write(tmp_path / "a", []) == write(tmp_path / "b", [draws.randrange(5000) for _ in range(50)])
 
 
-def test_buffered_file_holds_all_but_the_last_write(tmp_path):
+def test_compressed_file_on_disk_lacks_less_than_64_kib_of_the_content(tmp_path):
     path = tmp_path / "a"
     file = CompressedFile(path.open("wb"))
     for at in range(0, len(CONTENT), 1000):
@@ -224,13 +224,13 @@ def test_buffered_file_holds_all_but_the_last_write(tmp_path):
     file.close()
 
 
-def test_an_empty_file_stays_empty(tmp_path):
+def test_compressed_file_without_writes_is_empty(tmp_path):
     CompressedFile((tmp_path / "a").open("wb")).close()
 
     assert (tmp_path / "a").read_bytes() == b""
 
 
-def test_on_a_full_disk_it_fails_and_is_closed_all_the_same():
+def test_compressed_file_on_a_full_disk_raises_and_still_closes():
     file = CompressedFile(Path("/dev/full").open("wb", buffering=0))  # noqa: SIM115 - it is closed below
     file.write(b"some")
 
@@ -242,7 +242,7 @@ def test_on_a_full_disk_it_fails_and_is_closed_all_the_same():
     assert file.closed
 
 
-def test_a_python_that_cannot_read_toml_says_so(monkeypatch):
+def test_toml_is_refused_where_python_has_no_parser(monkeypatch):
     for name in ("tomllib", "tomli"):
         monkeypatch.setitem(sys.modules, name, None)
 
@@ -250,7 +250,7 @@ def test_a_python_that_cannot_read_toml_says_so(monkeypatch):
         parse_toml("a = 1")
 
 
-def test_a_word_that_is_too_long_is_refused_and_not_cut(tmp_path):
+def test_overlong_word_is_refused_and_not_truncated(tmp_path):
     (tmp_path / "words.txt").write_text(f"one # fine\nturn_deg={'0' * 191}77\n")
 
     with pytest.raises(UsageError, match=r"words\.txt:2: 'turn_deg=00000000000' goes on for 202 characters"):

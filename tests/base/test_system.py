@@ -60,21 +60,21 @@ def sources() -> dict[str, str]:
     return {name: path.read_text() for name, path in names.items() if name != ROOM}
 
 
-def test_no_other_file_asks_which_system_it_runs_on():
+def test_only_system_py_asks_for_the_operating_system():
     assert len(sources()) > 500
     assert [name for name, text in sources().items() if ASKS.search(text)] == []
 
 
-def test_no_other_file_needs_what_windows_lacks():
+def test_only_listed_files_need_what_windows_lacks():
     assert [name for name, text in sources().items() if OF_POSIX.search(text) and not name.startswith(OUTSIDE)] == []
 
 
 @pytest.mark.parametrize("line", ['if sys.platform == "win32":', "#ifdef _WIN32", 'hasattr(os, "fork")'])
-def test_a_file_that_asks_is_noticed(line):
+def test_query_of_the_operating_system_is_detected(line):
     assert ASKS.search(line)
 
 
-def test_without_what_windows_lacks_a_run_is_the_same(tmp_path):
+def test_run_without_what_windows_lacks_gives_the_same_log(tmp_path):
     words = ("run", "--environments", "1", "--limit-s", "20", "--quiet", "--memory", tmp_path / "robot.mem", "--out")
     octet_process(*words[:-3], "--out", tmp_path / "here").check_returncode()
 
@@ -96,7 +96,7 @@ def test_bus_is_refused_without_robot_processes():
 
 
 @pytest.mark.parametrize(("has_processes", "bus"), [(True, "fd"), (False, "none")])
-def test_a_watched_robot_is_where_this_system_can_have_it(monkeypatch, has_processes, bus):
+def test_watched_robot_runs_in_process_where_robot_processes_are_missing(monkeypatch, has_processes, bus):
     monkeypatch.setattr(run_watch_command, "HAS_ROBOT_PROCESSES", has_processes)
 
     assert run_watch_command._watched(RunOptions()).bus == bus
@@ -114,7 +114,7 @@ def folder(tmp_path, monkeypatch):
 
 
 @pytest.mark.usefixtures("folder")
-def test_what_was_read_is_not_read_again(monkeypatch):
+def test_cached_c_interface_is_not_parsed_again(monkeypatch):
     c_interface(DECLARATIONS)
     c_interface.cache_clear()
     monkeypatch.setattr(cffi, "FFI", None)
@@ -122,7 +122,7 @@ def test_what_was_read_is_not_read_again(monkeypatch):
     assert c_interface(DECLARATIONS).sizeof("struct pair") == 8
 
 
-def test_other_declarations_are_others(folder):
+def test_other_declarations_get_their_own_cache_file(folder):
     c_interface(DECLARATIONS)
 
     assert c_interface("struct pair { char left, right; };").sizeof("struct pair") == 2
@@ -130,7 +130,7 @@ def test_other_declarations_are_others(folder):
 
 
 @pytest.mark.parametrize("left", [b"", b"\0" * 100, b"ffi = 1 +", b"raise KeyError"])
-def test_a_damaged_copy_is_made_anew(folder, left):
+def test_damaged_cache_of_a_c_interface_is_rewritten(folder, left):
     c_interface(DECLARATIONS)
     (kept,) = folder.glob("*.py")
     whole = kept.read_bytes()

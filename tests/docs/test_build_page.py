@@ -18,7 +18,7 @@ from tools.flashing.images import ROOT
 from tools.schematic import MECHANICAL, read_robot
 
 
-def test_the_pictures_and_the_table_in_the_documents_are_those_of_the_board(tmp_path: Path) -> None:
+def test_pin_table_and_drawings_match_the_blue_pill(tmp_path: Path) -> None:
     pins = read_pins("blue_pill")
 
     drawn = write_drawings(pins, tmp_path)
@@ -29,7 +29,7 @@ def test_the_pictures_and_the_table_in_the_documents_are_those_of_the_board(tmp_
             assert path.read_text() == (ROOT / "docs/images" / path.name).read_text()
 
 
-def test_the_parts_the_wires_and_the_pictures_of_the_pico_s_robot_are_those_of_its_wiring(tmp_path: Path) -> None:
+def test_build_page_and_drawings_match_the_wiring_of_the_pico(tmp_path: Path) -> None:
     robot, text = read_robot(read_pins("pico")), (ROOT / "docs/build.md").read_text()
 
     drawn = write_drawings(robot.pins, tmp_path)
@@ -41,7 +41,7 @@ def test_the_parts_the_wires_and_the_pictures_of_the_pico_s_robot_are_those_of_i
             assert path.read_text() == (ROOT / "docs/images" / path.name).read_text()
 
 
-def test_the_parts_list_has_as_many_of_each_kind_as_the_wires_need() -> None:
+def test_parts_list_counts_each_part_of_the_wiring() -> None:
     robot = read_robot(read_pins("pico"))
     needed = {part for ends in robot.wires.values() for part, _, _ in (end.partition(".") for end in ends)}
     numbers = [int(n) for n in re.findall(r"^\| (\d+) \|", robot.shopping(), re.MULTILINE)]
@@ -61,7 +61,7 @@ def test_the_parts_list_has_as_many_of_each_kind_as_the_wires_need() -> None:
     ],
     ids=["one end", "no part", "short circuit", "loose part", "open pin"],
 )
-def test_a_mistake_in_the_wiring_is_named(tmp_path: Path, old: str, new: str, why: str) -> None:
+def test_wiring_mistake_is_refused_by_name(tmp_path: Path, old: str, new: str, why: str) -> None:
     text = (ROOT / "hal/rp2040/boards/pico.toml").read_text()
     assert old in text
     path = tmp_path / "robot.toml"
@@ -71,13 +71,13 @@ def test_a_mistake_in_the_wiring_is_named(tmp_path: Path, old: str, new: str, wh
         read_robot(read_pins("pico"), path)
 
 
-def test_a_board_without_a_parts_list_has_its_wiring_drawn_alone(tmp_path: Path) -> None:
+def test_board_without_a_parts_list_gets_only_a_wiring_drawing(tmp_path: Path) -> None:
     drawn = write_drawings(replace(read_pins("pico"), board="mine"), tmp_path)
 
     assert [path.name for path in drawn if path.name.startswith("mine")] == ["mine-wiring.svg"]
 
 
-def test_the_wiring_shows_where_each_signal_ends_but_those_that_stay_on_the_board() -> None:
+def test_wiring_drawing_labels_each_signal_that_leaves_the_board() -> None:
     pins = read_pins("blue_pill")
     texts = re.findall("<text[^>]*>([^<]*)</text>", draw_wiring(pins))
 
@@ -86,12 +86,12 @@ def test_the_wiring_shows_where_each_signal_ends_but_those_that_stay_on_the_boar
     assert len(texts) == 1 + len(pins.ends) + 40
 
 
-def test_a_board_whose_headers_are_not_known_is_not_drawn() -> None:
+def test_board_without_known_headers_is_not_drawn() -> None:
     with pytest.raises(UsageError, match=r"nucleo_g431rb: its file .* does not say"):
         draw_wiring(read_pins("nucleo_g431rb"))
 
 
-def test_what_the_plates_hold_is_on_them_and_not_in_each_other_s_way() -> None:
+def test_plate_holes_lie_on_the_plate_without_overlap() -> None:
     radius = 95.0
     for upper in (False, True):
         text = draw_plate(upper=upper)
@@ -125,7 +125,7 @@ def ends_of(kind: str, of: dict[int, float]) -> list[tuple[float, float]]:
     return [(of[10] + of[40] * math.cos(turn), of[20] + of[40] * math.sin(turn)) for turn in turns]
 
 
-def test_what_is_cut_has_every_hole_and_closed_outlines() -> None:
+def test_dxf_plate_has_all_holes_and_closed_outlines() -> None:
     for upper, holes, slots in ((False, 4, 6), (True, 16, 0)):
         cut = entities(dxf_of(draw_plate(upper=upper)))
         ends = [end for kind, of in cut if kind != "CIRCLE" for end in ends_of(kind, of)]
@@ -143,7 +143,7 @@ class StoppedError(Exception):
     """The time of the beacon's test is over."""
 
 
-def test_a_beacon_sends_four_strong_and_four_weak_bursts_in_a_tick(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_beacon_sends_four_strong_and_four_weak_bursts_per_tick(monkeypatch: pytest.MonkeyPatch) -> None:
     now_us, begun, lengths = 7, [], []
 
     class FakePwm:

@@ -63,7 +63,7 @@ def folder(tmp_path: Path, first_run: Path) -> Path:
 
 
 @pytest.mark.parametrize("lines", blocks(None).values(), ids=blocks(None))
-def test_every_command_of_a_block_does_what_it_should(lines, folder):
+def test_commands_of_each_block_succeed(lines, folder):
     if NEW not in lines and any("mine.c" in line for line in lines):
         assert run(NEW, folder).returncode == 0, "its page begins with this line"
     done = {line: run(line, folder) for line in lines}
@@ -71,12 +71,12 @@ def test_every_command_of_a_block_does_what_it_should(lines, folder):
     assert {line: (it.returncode, it.stderr) for line, it in done.items() if it.returncode} == {}
 
 
-def test_the_documents_have_commands():
+def test_documents_have_command_blocks():
     assert len(blocks(None)) >= 8
 
 
 @pytest.mark.parametrize("line", commands("until-stopped"))
-def test_commands_that_go_on_until_stopped_do_so_and_end_well(line, folder):
+def test_until_stopped_commands_run_on_and_end_cleanly_on_ctrl_c(line, folder):
     ours, theirs = pty.openpty()
     terminal = {**os.environ, "TERM": "xterm"}  # a test machine may have none
     free_port = " --port 0" if "watch" in line and "--terminal" not in line else ""  # another test run may watch too
@@ -101,7 +101,7 @@ def test_commands_that_go_on_until_stopped_do_so_and_end_well(line, folder):
 
 
 @pytest.mark.parametrize("line", commands("needs-hardware"))
-def test_commands_for_hardware_that_is_not_here_name_what_is_missing(line, folder):
+def test_hardware_commands_name_the_missing_device(line, folder):
     done = run(line, folder)
 
     assert done.returncode in (1, 2)
@@ -109,7 +109,7 @@ def test_commands_for_hardware_that_is_not_here_name_what_is_missing(line, folde
     assert any(word in done.stderr for word in re.split(r"[\s:?&=']+", line) if word)
 
 
-def test_a_body_of_ones_own_is_built_and_does_what_its_page_says(folder):
+def test_custom_body_is_built_and_prints_what_its_page_says(folder):
     page = (ROOT / "docs/porting.md").read_text()
     (printed,) = re.findall(r"^```text\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
 
@@ -140,12 +140,12 @@ def run_block(code: str, folder: Path) -> subprocess.CompletedProcess[str]:
     )
 
 
-def test_there_are_blocks():
+def test_documents_have_python_blocks():
     assert len(CASES) >= 5
 
 
 @pytest.mark.parametrize(("code", "prints"), CASES)
-def test_a_block_runs_and_prints_what_the_page_says(code, prints, tmp_path):
+def test_python_block_runs_and_prints_what_the_page_says(code, prints, tmp_path):
     done = run_block(code, tmp_path)
 
     assert (done.returncode, done.stderr) == (0, "")
@@ -153,11 +153,11 @@ def test_a_block_runs_and_prints_what_the_page_says(code, prints, tmp_path):
 
 
 @pytest.mark.parametrize(("module", "prints"), PROGRAM.findall((ROOT / "docs/python.md").read_text()))
-def test_an_example_prints_what_the_page_says(module, prints, tmp_path):
+def test_example_prints_what_the_page_says(module, prints, tmp_path):
     done = run_block(f"import runpy; runpy.run_module({module!r}, run_name='__main__')", tmp_path)
 
     assert (done.returncode, done.stdout) == (0, prints)
 
 
-def test_a_block_that_fails_is_noticed(tmp_path):
+def test_failing_python_block_is_detected(tmp_path):
     assert run_block("import host_sim.nothing", tmp_path).returncode != 0

@@ -21,7 +21,7 @@ IDS = [path.name for path in PAGES]
 
 
 @pytest.mark.parametrize("path", PAGES, ids=IDS)
-def test_every_file_that_a_document_names_exists(path):
+def test_files_named_in_a_document_exist(path):
     text = path.read_text()
     linked = [path.parent / link for link in re.findall(r"\]\((?!https?:|#)([^)#]+)", text)]
     named = re.findall(r"`((?:firmware|hal|host_sim|tests|tools|docs|\.ci)/[\w./-]+)`", text)
@@ -38,7 +38,7 @@ def anchors(path: Path) -> set[str]:
 
 
 @pytest.mark.parametrize("path", PAGES, ids=IDS)
-def test_every_anchor_that_a_document_names_exists(path):
+def test_anchors_named_in_a_document_exist(path):
     links = re.findall(r"\]\(([^)#\s]*)#([^)]+)\)", path.read_text())
     targets = [(path.parent / file if file else path, anchor) for file, anchor in links]
 
@@ -47,7 +47,7 @@ def test_every_anchor_that_a_document_names_exists(path):
     assert missing == []
 
 
-def test_an_anchor_that_does_not_exist_is_noticed():
+def test_missing_anchor_is_detected():
     assert "a-conversation" in anchors(ROOT / "docs/protocol.md")
     assert "a-conversasion" not in anchors(ROOT / "docs/protocol.md")
 
@@ -58,7 +58,7 @@ def reached(page: Path, steps: int) -> set[Path]:
     return links.union(*(reached(link, steps - 1) for link in links)) if steps > 1 else links
 
 
-def test_there_are_few_pages_and_each_is_reached_from_the_readme_in_two_steps():
+def test_readme_reaches_all_of_at_most_22_pages_in_two_steps():
     pages = {*ROOT.glob("docs/*.md")}
 
     assert len(pages) <= 22
@@ -67,13 +67,13 @@ def test_there_are_few_pages_and_each_is_reached_from_the_readme_in_two_steps():
 
 
 @pytest.mark.parametrize("path", sorted(ROOT.glob("docs/*.md")), ids=lambda path: path.name)
-def test_the_first_sentence_of_a_page_says_whom_it_is_for(path):
+def test_first_sentence_of_a_page_says_whom_it_is_for(path):
     _, first, *_ = path.read_text().split("\n\n")
 
     assert first.startswith("For ")
 
 
-def test_the_readme_is_short_and_each_of_its_three_paths_has_a_picture():
+def test_readme_is_short_and_shows_a_picture_for_each_of_three_paths():
     text = (ROOT / "README.md").read_text()
     section = text.partition("## Three paths")[2].partition("\n## ")[0]
     _, *paths = re.split(r"^\*\*(?=\w)", section, flags=re.MULTILINE)
@@ -82,7 +82,7 @@ def test_the_readme_is_short_and_each_of_its_three_paths_has_a_picture():
     assert [len(re.findall(r"^!\[.+\]\(.+\)$", path, re.MULTILINE)) for path in paths] == [1, 1, 1]
 
 
-def test_every_line_of_c_in_the_article_stands_in_the_file_named():
+def test_lines_of_c_in_the_article_page_are_in_the_named_files():
     rows = re.findall(r"^\| .*? \| `([^`]+)` \| `([\w/.]+)`", (ROOT / "docs/article.md").read_text(), re.MULTILINE)
 
     wrong = [(line, file) for line, file in rows if line not in (ROOT / file).read_text()]
@@ -91,11 +91,11 @@ def test_every_line_of_c_in_the_article_stands_in_the_file_named():
     assert wrong == []
 
 
-def test_the_page_about_the_wire_is_that_of_the_dbc():
+def test_protocol_page_is_up_to_date_with_the_dbc():
     assert (ROOT / "docs/protocol.md").read_text() == page(), "make it anew: it says how"
 
 
-def test_no_document_is_for_one_machine_only():
+def test_documents_name_no_path_of_this_machine():
     places = (f"{ROOT}/", f"{Path.home()}/")
 
     assert [path.name for path in PAGES if any(place in path.read_text() for place in places)] == []
@@ -106,7 +106,7 @@ NAMED = re.compile(r"`(tests/[\w/]+\.(?:py|c))::(test_\w+)`")
 
 
 @pytest.mark.parametrize(("head", "at_least"), [("| what happens |", 15), ("| threat |", 20)])
-def test_each_fault_and_each_threat_of_a_session_names_a_test_that_exists(head, at_least):
+def test_session_faults_and_threats_name_existing_tests(head, at_least):
     (table,) = [block for block in SESSIONS.split("\n\n") if block.startswith(head)]
     rows = table.splitlines()[2:]
 
@@ -117,11 +117,11 @@ def test_each_fault_and_each_threat_of_a_session_names_a_test_that_exists(head, 
         assert re.search(defined, (ROOT / path).read_text(), re.MULTILINE), row
 
 
-def test_the_readme_leads_to_what_is_not_protected():
+def test_readme_links_to_what_is_not_protected():
     assert "docs/sessions.md#what-is-not-protected" in (ROOT / "README.md").read_text()
 
 
-def test_the_preview_has_the_size_that_links_show():
+def test_preview_has_1280_by_640_pixels_and_less_than_200_kb():
     preview = ROOT / ".github/preview.png"
 
     with Image.open(preview) as image:
@@ -150,7 +150,7 @@ def folder(tmp_path):
     return tmp_path
 
 
-def test_the_fan_of_the_page_passes_and_takes_thirty_lines(folder):
+def test_fan_of_the_bench_page_passes_and_takes_thirty_lines(folder):
     written = "".join(text for name, text in FILES.items() if name != "fan.dbc")
 
     assert run_pytest(folder).returncode == 0
@@ -158,13 +158,13 @@ def test_the_fan_of_the_page_passes_and_takes_thirty_lines(folder):
     assert len([line for line in written.splitlines() if line]) <= 30
 
 
-def test_a_fan_that_does_not_cool_fails(folder):
+def test_fan_that_does_not_cool_fails(folder):
     (folder / "fan.c").write_text(FILES["fan.c"].replace("duty = 100;", ""))
 
     assert run_pytest(folder).returncode == 1
 
 
-def test_the_commands_of_the_page_do_what_it_says():
+def test_commands_of_the_bench_page_end_as_it_says():
     venv, pip, *tests = COMMANDS.splitlines()
 
     done = [run_pytest(ROOT, *line.split()[1:]) for line in tests]
@@ -174,7 +174,7 @@ def test_the_commands_of_the_page_do_what_it_says():
     assert (ROOT / pip.split()[-1] / "pyproject.toml").exists()
 
 
-def test_every_option_and_method_that_the_page_names_exists():
+def test_options_and_methods_named_on_the_bench_page_exist():
     from tools.pytest_canbench.bench import Bench  # noqa: PLC0415 - what the page is about
     from tools.pytest_canbench.devices import ImageDevice  # noqa: PLC0415 - see above
 

@@ -64,7 +64,7 @@ def bus() -> Iterator[str]:
     line.close()
 
 
-def test_a_robot_that_sends_its_own_senses_is_no_rival(bus):
+def test_calibrate_works_with_a_robot_that_sends_its_own_senses(bus):
     stored = octet("calibrate", "--set", "body_track_mm=163", "--bus", bus)
     shown = octet("calibrate", "--show", "--bus", bus)
 

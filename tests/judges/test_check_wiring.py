@@ -159,7 +159,7 @@ def changed(change: Callable[[Robot], object]) -> Robot:
     return robot
 
 
-def test_a_robot_that_is_wired_right_passes(check):
+def test_correctly_wired_robot_passes(check):
     assert check(Robot()) == []
 
 
@@ -192,12 +192,12 @@ def test_a_robot_that_is_wired_right_passes(check):
         (lambda r: setattr(r, "battery_v", 5.4), "VSYS has 3.6 V"),
     ],
 )
-def test_each_wrong_wire_is_named(check, change, sentence):
+def test_wrong_wire_is_named(check, change, sentence):
     wrong = check(changed(change))
     assert any(sentence in text for text in wrong), wrong
 
 
-def test_the_wheels_rest_soon_after_the_orders_end():
+def test_wheels_stop_soon_after_the_orders_end():
     line = EmulatedLine(Robot())
     try:
         for _ in range(3):
@@ -214,7 +214,7 @@ def test_the_wheels_rest_soon_after_the_orders_end():
         line.pico.close()
 
 
-def test_a_line_with_nobody_at_its_far_end_is_named():
+def test_silent_serial_line_is_reported():
     class Silence:
         def read(self) -> bytes:
             return b""
@@ -270,7 +270,7 @@ def terminal() -> Iterator[Terminal]:
     made.close()
 
 
-def test_the_command_guides_through_all_steps(terminal):
+def test_check_wiring_guides_through_all_steps(terminal):
     with start_octet("check-wiring", terminal.name) as command:
         assert command.stdout is not None
         told = []
@@ -282,7 +282,7 @@ def test_the_command_guides_through_all_steps(terminal):
     assert told[-1].startswith(f"all {STEPS} are right"), told
 
 
-def test_ctrl_c_ends_it(terminal):
+def test_ctrl_c_ends_check_wiring(terminal):
     with start_octet("check-wiring", terminal.name) as command:
         assert command.stdout is not None
         assert command.stdout.readline()
@@ -291,7 +291,7 @@ def test_ctrl_c_ends_it(terminal):
     assert (command.returncode, errors) == (130, "octet: interrupted\n")
 
 
-def test_a_robot_with_another_image_is_named():
+def test_robot_with_another_image_is_reported():
     ours, theirs = pty.openpty()
     tty.setraw(theirs)
     with start_octet("check-wiring", os.ttyname(theirs)) as command:
@@ -304,14 +304,14 @@ def test_a_robot_with_another_image_is_named():
     assert (command.returncode, errors.partition(":")[2][:33]) == (1, " this robot runs another image, w")
 
 
-def test_a_port_that_is_not_there_is_named(tmp_path):
+def test_missing_port_is_reported(tmp_path):
     with start_octet("check-wiring", tmp_path / "none") as command:
         _, errors = command.communicate()
     assert command.returncode == 2
     assert errors.startswith(f"octet: cannot open {tmp_path}/none: ")
 
 
-def test_a_port_that_goes_away_is_named():
+def test_lost_port_is_reported():
     ours, theirs = pty.openpty()
     with start_octet("check-wiring", os.ttyname(theirs)) as command:
         assert command.stdout is not None

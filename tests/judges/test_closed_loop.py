@@ -173,11 +173,11 @@ def frames(board: type[ours.PinsBoard], limit_s: float, seed: int) -> list[str]:
     return found[ticks[0] : ticks[-1] + 2]
 
 
-def test_a_stand_alone_robot_drives_as_on_our_emulator():
+def test_stand_alone_robot_drives_in_labwired_as_on_our_emulator():
     assert frames(LabWiredPins, 1.0, 1) == frames(ours.PinsBoard, 1.0, 1)
 
 
-def test_an_encoder_that_counts_backward_is_a_difference():
+def test_backward_encoder_shows_up_as_a_difference():
     assert frames(Backward, 0.3, 1) != frames(ours.PinsBoard, 0.3, 1)
 
 

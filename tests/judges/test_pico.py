@@ -68,7 +68,7 @@ def test_4000_ticks_of_a_run_have_the_frames_of_the_host(tmp_path):
     assert first_difference(host, pico) is None
 
 
-def test_at_the_line_s_own_pace_it_answers_and_then_rests(start, exchanges):
+def test_pico_at_line_speed_answers_and_stops_when_the_senses_end(start, exchanges):
     board = start("paced")
     board.boot()
 
@@ -80,7 +80,7 @@ def test_at_the_line_s_own_pace_it_answers_and_then_rests(start, exchanges):
     assert [(it["reason"], it["left"], it["right"]) for it in drives[:1]] == [(Reason.SILENCE, 0, 0)]
 
 
-def test_a_byte_of_the_log_that_was_changed_is_a_difference(start, exchanges):
+def test_changed_byte_of_the_log_is_reported_as_a_difference(start, exchanges):
     board = start()
     board.boot()
     *same, (asked, (answer, *more)) = first(exchanges, 5)
@@ -102,13 +102,13 @@ def crc32_of_the_boot_rom(data: bytes) -> int:
     return crc
 
 
-def test_the_second_stage_has_its_sum():
+def test_second_stage_has_its_checksum():
     stage = flash_of()[:256]
 
     assert struct.unpack("<I", stage[252:]) == (crc32_of_the_boot_rom(stage[:252]),)
 
 
-def test_a_second_stage_with_a_wrong_sum_is_not_started(start):
+def test_second_stage_with_a_wrong_checksum_is_not_started(start):
     flash = bytearray(flash_of())
     flash[8] ^= 1
 
@@ -116,7 +116,7 @@ def test_a_second_stage_with_a_wrong_sum_is_not_started(start):
         start(flash=bytes(flash)).order("run", 1)
 
 
-def test_the_uf2_file_has_the_bytes_of_the_image():
+def test_uf2_file_has_the_bytes_of_the_image():
     image = image_path("pico", "slcan").with_suffix(".bin").read_bytes()
     uf2 = image_path("pico", "slcan").with_suffix(".uf2").read_bytes()
     blocks = [struct.unpack("<8I476sI", uf2[at : at + 512]) for at in range(0, len(uf2), 512)]
@@ -128,7 +128,7 @@ def test_the_uf2_file_has_the_bytes_of_the_image():
     assert [block[3] for block in blocks] == [0x10000000 + 256 * number for number in range(len(blocks))]
 
 
-def test_a_crash_is_told_with_where_it_was(start):
+def test_crash_is_reported_with_its_address(start):
     talk = talk_to(start())
 
     at = int(talk.board.order("crash"))
@@ -142,7 +142,7 @@ def test_a_crash_is_told_with_where_it_was(start):
     assert told["pc"] == at
 
 
-def test_a_core_that_hangs_is_reset_by_the_watchdog_after_2_s(start):
+def test_watchdog_resets_a_hung_core_after_2_s(start):
     talk = talk_to(start())
 
     talk.board.order("hang")
@@ -166,7 +166,7 @@ def memory_after_power_up(talk: Talk) -> tuple[int, ...]:
     return talk.memory
 
 
-def test_the_memory_survives_a_loss_of_power(start):
+def test_memory_survives_a_power_loss(start):
     talk = talk_to(start())
     learn(talk, Side.LEFT)
 
@@ -174,7 +174,7 @@ def test_the_memory_survives_a_loss_of_power(start):
 
 
 @pytest.mark.parametrize(("operation", "part"), [*((operation, 0.4) for operation in range(1, 7)), (2, 1)])
-def test_power_that_goes_at_any_operation_of_the_flash_loses_nothing(start, operation, part):
+def test_power_loss_in_any_flash_operation_leaves_a_stored_memory(start, operation, part):
     """The older sector's mark is overwritten, it is erased and marked, and three records are written."""
     board = start(flash=flash_of(FULL))
     board.order("cut", operation, part)
@@ -204,7 +204,7 @@ def test_missing_rp2040js_is_reported_in_a_sentence(monkeypatch, tmp_path):
         command_line(image_path("pico", "slcan").with_suffix(".bin"))
 
 
-def test_a_run_without_node_ends_with_exit_code_2(tmp_path):
+def test_run_without_node_ends_with_exit_code_2(tmp_path):
     command = [sys.executable, "-m", "host_sim", "run", "--robot", "emulated", "--board", "pico", "--out", tmp_path]
     done = subprocess.run(command, cwd=ROOT, env={**os.environ, "PATH": "/nowhere"}, capture_output=True, check=False)
 

@@ -96,7 +96,7 @@ def actions_of(config: RunConfig, ticks: int) -> dict[int, list[tuple[int, float
     return found
 
 
-def test_its_actions_take_the_time_and_reach_the_angle_of_those_of_a_simulated_kit():
+def test_pico_actions_match_a_simulated_kit_in_time_and_angle():
     """So that whole runs differ by chance only: a sensor's noise falls otherwise, and they part."""
     pico, kit = (actions_of(config, 1500) for config in (PINS, RunConfig(seed=2, environments=1, body="kit")))
     for reason, most in ((Reason.WANDER, 0.05), (Reason.LOOK_AROUND, 0.1)):
@@ -106,7 +106,7 @@ def test_its_actions_take_the_time_and_reach_the_angle_of_those_of_a_simulated_k
         assert mean(turned for _, turned in actions[Reason.REMEMBERED]) == pytest.approx(10, abs=1)
 
 
-def test_a_sensor_triggers_at_the_light_of_a_wall_at_60_mm_and_releases_at_a_tenth_less():
+def test_sensor_triggers_at_60_mm_and_releases_at_a_tenth_less_light():
     with make(PINS) as simulation:
         simulation.enter(1)
         parts, felt, changes = board_of(simulation).robot, 0, 0
@@ -120,7 +120,7 @@ def test_a_sensor_triggers_at_the_light_of_a_wall_at_60_mm_and_releases_at_a_ten
     assert changes > 5
 
 
-def test_a_tick_takes_a_quarter_of_a_millisecond_besides_what_the_flash_takes_for_a_page():
+def test_longest_tick_takes_less_than_250_us_plus_a_page_write():
     with make(PINS) as simulation:
         simulation.enter(1)
         board = board_of(simulation)
@@ -132,7 +132,7 @@ def test_a_tick_takes_a_quarter_of_a_millisecond_besides_what_the_flash_takes_fo
 
 
 @pytest.mark.parametrize("store", [b"", ROOM, FULL], ids=["blank", "roomy", "full"])
-def test_it_starts_from_any_store_and_rests_until_the_button_is_pressed(start, store):
+def test_pico_starts_from_any_store_and_rests_until_the_button_is_pressed(start, store):
     board = start(store)
     board.pass_time(0.5)
     assert duties(board) == [0, 0]
@@ -144,7 +144,7 @@ def test_it_starts_from_any_store_and_rests_until_the_button_is_pressed(start, s
     assert 0 not in duties(board)
 
 
-def test_the_button_stops_it(start):
+def test_button_stops_the_running_pico(start):
     board = start()
     press(board)
     board.pass_time(1.5)
@@ -161,7 +161,7 @@ def test_the_button_stops_it(start):
     ],
     ids=["fault", "spike", "flat battery"],
 )
-def test_trouble_puts_the_bridge_to_sleep(start, trouble):
+def test_bridge_fault_or_flat_battery_puts_the_bridge_to_sleep(start, trouble):
     board = start()
     press(board)
     board.pass_time(1.5)
@@ -171,7 +171,7 @@ def test_trouble_puts_the_bridge_to_sleep(start, trouble):
     assert board.robot.shares[2:6] == [1.0] * 4
 
 
-def test_a_battery_that_is_not_connected_is_flat(start):
+def test_disconnected_battery_counts_as_flat(start):
     board = start()
     board.robot.battery_v = 0.0
     press(board)
@@ -180,7 +180,7 @@ def test_a_battery_that_is_not_connected_is_flat(start):
 
 
 @pytest.mark.parametrize("side", [0, 1])
-def test_an_encoder_that_counts_against_its_motor_stops_the_robot_within_a_second(side):
+def test_reversed_encoder_stops_the_robot_within_a_second(side):
     with make(PINS) as simulation:
         board = board_of(simulation)
         board.robot.counts_by[side] = -1
@@ -227,7 +227,7 @@ def test_pico_has_three_sensors_and_ignores_room_light(start):
     assert feel_of(board) == 0b01110
 
 
-def test_commands_reach_it_at_the_line_s_own_pace(start):
+def test_commands_reach_the_pico_at_line_speed(start):
     board, protocol = start(b"", "paced"), Protocol()
     board.pass_time(1.0)
     for counter in (1, 2):
@@ -236,7 +236,7 @@ def test_commands_reach_it_at_the_line_s_own_pace(start):
     assert [it.signals["counter"] for it in said if it is not None and it.name == "ANSWER"] == [1, 2]
 
 
-def test_a_core_that_hangs_is_reset_and_the_wheels_rest(start):
+def test_hung_core_is_reset_and_the_wheels_stop(start):
     board = start()
     press(board)
     board.pass_time(1.5)

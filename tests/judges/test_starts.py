@@ -71,7 +71,7 @@ def is_alive(board: Board, link: str) -> bool:
 
 @pytest.mark.parametrize("fills", FILLS)
 @pytest.mark.parametrize(("name", "link"), IMAGES)
-def test_an_image_starts(name, link, fills, tmp_path):
+def test_image_starts_with_any_content_of_its_store(name, link, fills, tmp_path):
     board = Board(name, link, tmp_path)
     fill(board, name, fills)
 
@@ -80,7 +80,7 @@ def test_an_image_starts(name, link, fills, tmp_path):
 
 @pytest.mark.parametrize("fills", ["blank", "full"])
 @pytest.mark.parametrize("link", ["pins", "mute", "body"])
-def test_a_stand_alone_robot_survives_a_beat_in_an_erase(link, fills, tmp_path):
+def test_stand_alone_robot_survives_a_beat_during_an_erase(link, fills, tmp_path):
     """LabWired erases in no time, so the beat is made pending in each erase, as it would be after 5 of its 20 ms."""
     board = Board("blue_pill", link, tmp_path)
     fill(board, "blue_pill", fills)
@@ -142,7 +142,7 @@ def differences(
 
 
 @pytest.mark.parametrize(("board", "link"), SLCAN)
-def test_an_slcan_image_answers_400_ticks_as_the_host_does(board, link, exchanges, tmp_path):
+def test_slcan_image_answers_400_ticks_as_the_host_does(board, link, exchanges, tmp_path):
     judged = Board(board, link, tmp_path)
     judged.listen("30ms")
 
@@ -150,14 +150,14 @@ def test_an_slcan_image_answers_400_ticks_as_the_host_does(board, link, exchange
 
 
 @pytest.mark.parametrize(("board", "link"), BXCAN)
-def test_a_bxcan_image_answers_300_ticks_as_the_host_does(board, link, exchanges, tmp_path):
+def test_bxcan_image_answers_300_ticks_as_the_host_does(board, link, exchanges, tmp_path):
     judged = Board(board, link, tmp_path)
     judged.listen("30ms")
 
     assert list(differences(judged, first(exchanges, 300))) == []
 
 
-def test_a_byte_of_the_log_that_was_changed_is_a_difference(exchanges, tmp_path):
+def test_changed_byte_of_the_log_is_reported_as_a_difference(exchanges, tmp_path):
     judged = Board("blue_pill", "bxcan", tmp_path)
     judged.listen("30ms")
     *same, (asked, (answer, *more)) = first(exchanges, 5)
@@ -168,7 +168,7 @@ def test_a_byte_of_the_log_that_was_changed_is_a_difference(exchanges, tmp_path)
     assert found == [(asked, [answer, *more], [changed, *more])]
 
 
-def test_a_robot_rests_when_the_senses_stop(exchanges, tmp_path):
+def test_robot_stops_when_the_senses_end(exchanges, tmp_path):
     judged = Board("blue_pill", "slcan", tmp_path)
     judged.listen("30ms")
     moving = list(differences(judged, first(exchanges, 10), "20ms"))
@@ -181,5 +181,5 @@ def test_a_robot_rests_when_the_senses_stop(exchanges, tmp_path):
     assert [(it["reason"], it["left"], it["right"]) for it in drives[:1]] == [(Reason.SILENCE, 0, 0)]
 
 
-def test_the_plug_in_of_labwired_does_not_turn_what_it_lacks_into_a_skip(request):
+def test_labwired_plugin_that_turns_missing_parts_into_skips_is_off(request):
     assert not request.config.pluginmanager.has_plugin("labwired")

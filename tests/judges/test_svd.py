@@ -15,7 +15,7 @@ def found():
     return [difference for judge in JUDGES for difference in judge(read_table(TEXT))]
 
 
-def test_the_chips_are_as_their_svd_files_say(found):
+def test_chips_match_their_svd_files(found):
     assert unexplained(found, EXCEPTIONS) == []
 
 
@@ -30,7 +30,7 @@ def test_the_chips_are_as_their_svd_files_say(found):
     ],
     ids=["base", "offset", "bits", "reset value", "emulated offset"],
 )
-def test_a_fact_that_differs_is_named(judge, fact, changed, difference):
+def test_changed_svd_fact_is_named(judge, fact, changed, difference):
     assert TEXT.count(fact) == 1
 
     names = [name for name, _ in judge(read_table(TEXT.replace(fact, changed)))]
@@ -38,18 +38,18 @@ def test_a_fact_that_differs_is_named(judge, fact, changed, difference):
     assert difference in names
 
 
-def test_a_field_that_the_svd_files_do_not_have_is_an_error():
+def test_field_that_the_svd_files_lack_is_an_error():
     with pytest.raises(KeyError, match="AFIOEN"):
         list(drivers(read_table(TEXT.replace(" AFIOEN=0:0", ""))))
 
 
-def test_a_difference_without_an_exception_is_named(found):
+def test_difference_without_an_exception_is_named(found):
     without = {it: why for it, why in EXCEPTIONS.items() if it != "stm32g431 emulated RCC.CR"}
 
     assert unexplained(found, without) == ["stm32g431 emulated RCC.CR: 1280 after power-up, SVD {99}"]
 
 
-def test_an_exception_that_covers_nothing_is_named(found):
+def test_unneeded_exception_is_named(found):
     wrong = {**EXCEPTIONS, "stm32f103 base RCC": "it is right"}
 
     assert unexplained(found, wrong) == ["the exception stm32f103 base RCC is not needed"]

@@ -21,7 +21,7 @@ def compiler(tmp_path_factory):
 
 
 @pytest.mark.parametrize("name", FUZZED)
-def test_no_input_does_harm(compiler, name):
+def test_fuzzing_finds_no_fault_in_a_part(compiler, name):
     program = compiler.build(name, [HERE / f"{name}.c", *FUZZED[name]])
 
     few = FEWER if name in (*PARTS, "boot") else FEW
@@ -40,7 +40,7 @@ def test_no_input_does_harm(compiler, name):
         ("while (any_u8() != 9) ;", "timeout"),
     ],
 )
-def test_what_can_go_wrong_is_found(body, found, tmp_path, monkeypatch):
+def test_fuzzer_finds_overrun_overflow_and_endless_loop(body, found, tmp_path, monkeypatch):
     monkeypatch.setattr(c_fuzzer, "TIMEOUT_S", 1)
     canary = tmp_path / "canary.c"
     canary.write_text(f'#include "tests/proof/any/any.h"\nvoid exercise(void)\n{{\n{body}\n}}\n')
@@ -97,7 +97,7 @@ int __wrap_flash_write(unsigned page, uint32_t offset, const uint32_t words[], u
         ("flash", "flash_write", WRITE),
     ],
 )
-def test_the_fuzzer_finds_planted_faults(compiler, tmp_path, name, function, lines):
+def test_fuzzer_finds_planted_faults(compiler, tmp_path, name, function, lines):
     wrong = tmp_path / "wrong.c"
     wrong.write_text(lines)
     sources = [HERE / f"{name}.c", wrong, *FUZZED[name]]
@@ -109,20 +109,20 @@ def test_the_fuzzer_finds_planted_faults(compiler, tmp_path, name, function, lin
     assert "deadly signal" in ended.stderr
 
 
-def test_a_target_is_fuzzed_by_name_and_a_find_is_repeated(tmp_path, capsys):
+def test_targets_are_fuzzed_by_name_and_a_kept_input_is_repeated(tmp_path, capsys):
     assert fuzz.main("--seconds", "1", "memory", "slcan", "--folder", str(tmp_path)) == 0
     assert "no harm" in capsys.readouterr().out
     kept = next((tmp_path / "slcan/corpus").iterdir())
     assert fuzz.main("--repeat", str(kept), "--folder", str(tmp_path)) == 0
 
 
-def test_an_unknown_target_is_named_and_those_that_there_are(capsys):
+def test_unknown_target_is_refused_with_the_known_ones(capsys):
     with pytest.raises(SystemExit):
         fuzz.main("wires")
     assert "no target wires; there are core, " in capsys.readouterr().err
 
 
-def test_harm_is_shown_with_the_command_that_repeats_it(tmp_path, capsys, monkeypatch):
+def test_crash_is_printed_with_the_command_that_repeats_it(tmp_path, capsys, monkeypatch):
     monkeypatch.setitem(fuzz.READERS, "memory", Reader([b"\0"], lambda data, _folder: 1 / data[0]))
 
     assert fuzz.main("memory", "--seconds", "1", "--folder", str(tmp_path)) == 1
@@ -140,7 +140,7 @@ SLOW = ("dbc", "words")
 
 
 @pytest.mark.parametrize("name", READERS)
-def test_what_is_damaged_is_read_or_refused_in_one_line(tmp_path, name):
+def test_damaged_input_is_read_or_refused_in_one_line(tmp_path, name):
     most = FEWER_BYTES if name in SLOW else FEW_BYTES
 
     done = ReaderFuzzer(READERS[name], tmp_path, seed=1).run(lambda tried: tried < most)
@@ -150,7 +150,7 @@ def test_what_is_damaged_is_read_or_refused_in_one_line(tmp_path, name):
 
 
 @pytest.mark.parametrize("name", READERS)
-def test_the_samples_themselves_are_read(tmp_path, name):
+def test_undamaged_samples_are_read(tmp_path, name):
     for sample in READERS[name].samples:
         READERS[name].read(sample, tmp_path)
 
@@ -170,7 +170,7 @@ def fuzz_a_little(reader, folder, seed):
 
 
 @pytest.mark.parametrize("trouble", ["ZeroDivisionError: not a number", "not one line", "no end within"])
-def test_what_can_go_wrong_is_found_and_kept(tmp_path, monkeypatch, trouble):
+def test_reader_fuzzer_finds_and_keeps_each_kind_of_failure(tmp_path, monkeypatch, trouble):
     monkeypatch.setattr(readers, "TIMEOUT_S", 0.2)
     reader = Reader([b"a = 1\n"], chokes)
     seeds = count()
@@ -182,7 +182,7 @@ def test_what_can_go_wrong_is_found_and_kept(tmp_path, monkeypatch, trouble):
     assert trouble in harm(reader, done.find.read_bytes(), tmp_path)
 
 
-def test_inputs_that_take_new_ways_are_kept_for_the_next_call(tmp_path):
+def test_inputs_with_new_coverage_are_kept_for_the_next_call(tmp_path):
     reader = READERS["order"]
     first = ReaderFuzzer(reader, tmp_path, seed=1).run(lambda tried: tried < FEW_BYTES)
 

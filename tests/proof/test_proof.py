@@ -62,7 +62,7 @@ def reached(report: str) -> int:
 
 
 @pytest.mark.parametrize("part", PARTS)
-def test_no_input_leads_astray(analyse, part):
+def test_part_raises_no_alarm_for_any_input(analyse, part):
     report = analyse([HERE / f"{part}.c", *PARTS[part]], PRECISION[part])
 
     assert complaints(report) == []
@@ -80,13 +80,13 @@ def test_no_input_leads_astray(analyse, part):
         ("int any = any_u8();\n//@ assert even: any % 2 == 0;\n", "got status unknown"),
     ],
 )
-def test_what_can_go_wrong_is_found(analyse, body, complaint, tmp_path):
+def test_analyser_finds_each_kind_of_fault(analyse, body, complaint, tmp_path):
     canary = with_body(tmp_path, body)
 
     assert [line for line in complaints(analyse([canary])) if complaint in line]
 
 
-def test_the_types_are_those_of_an_arm(analyse, tmp_path):
+def test_analyser_has_the_types_of_a_32_bit_arm(analyse, tmp_path):
     body = "char any = (char)any_u8();\n//@ assert any >= 0 && sizeof(void *) == 4;\n"
 
     assert complaints(analyse([with_body(tmp_path, body)])) == []
@@ -170,7 +170,7 @@ def touches(path: str, whole: str) -> bool:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_what_must_not_change_stays_as_it_was(frama_c, parsed, name):
+def test_protected_state_of_a_case_is_never_written(frama_c, parsed, name):
     report = frama_c("-load", parsed, *ANALYSIS, "-main", name)
     may_be_written = written(report)
 
@@ -180,14 +180,14 @@ def test_what_must_not_change_stays_as_it_was(frama_c, parsed, name):
     assert "0 alarms generated" in report
 
 
-def test_an_assertion_that_does_not_hold_is_found(frama_c, parsed):
+def test_false_assertion_is_found(frama_c, parsed):
     report = frama_c("-load", parsed, *ANALYSIS, "-main", "any_drive_is_at_rest")
 
     assert "[eva:alarm]" in report
     assert "assertion 'at_rest' got status unknown" in report
 
 
-def test_paths_are_read_as_they_are_written():
+def test_paths_of_nested_zones_are_read():
     zone = "robot{.a;{.b.c;.d{.e;.f}}}"
 
     assert list(paths(zone)) == ["robot.a", "robot.b.c", "robot.d.e", "robot.d.f"]

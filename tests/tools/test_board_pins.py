@@ -34,11 +34,11 @@ def change(root: Path, old: str, new: str) -> None:
 
 
 @pytest.mark.parametrize("board", sorted(all_boards()))
-def test_each_board_has_pins_that_its_chip_has(board: str) -> None:
+def test_board_has_pins_that_its_chip_has(board: str) -> None:
     assert len(read_pins(board).signals) >= 3
 
 
-def test_a_blue_pill_is_a_robot() -> None:
+def test_blue_pill_has_the_pins_of_a_robot() -> None:
     pins = read_pins("blue_pill")
     assert pins.remap == 2 << 13 | 1 << 8
     assert pins.channels["BATTERY"] == 5
@@ -66,14 +66,14 @@ def test_a_blue_pill_is_a_robot() -> None:
         ("(OCTET_LED PC13)", "(OCTET_LED 13)", "no pin for LED"),
     ],
 )
-def test_pins_that_cannot_be_are_refused_by_name(root: Path, old: str, new: str, why: str) -> None:
+def test_impossible_pins_are_refused_by_name(root: Path, old: str, new: str, why: str) -> None:
     change(root, old, new)
     with pytest.raises(UsageError) as refused:
         read_pins("blue_pill", root)
     assert why in str(refused.value)
 
 
-def test_a_board_that_is_refused_is_not_built(root: Path, tmp_path: Path) -> None:
+def test_refused_board_gets_no_header(root: Path, tmp_path: Path) -> None:
     change(root, "(OCTET_BUTTON PB0)", "(OCTET_BUTTON PB10)")
     header = tmp_path / "board_pins.h"
     done = subprocess.run(
@@ -86,7 +86,7 @@ def test_a_board_that_is_refused_is_not_built(root: Path, tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("option", ["--c", "--drawings"])
-def test_an_output_that_cannot_be_written_is_refused_in_one_line(option: str) -> None:
+def test_unwritable_output_is_refused_in_one_line(option: str) -> None:
     command = [sys.executable, ROOT / "tools/pins", "blue_pill", option, ROOT / "README.md/a"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
 

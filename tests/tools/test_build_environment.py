@@ -43,11 +43,11 @@ def test_flags_of_the_environment_reach_no_build(configured: Path) -> None:
     assert CANARY not in (configured / "build.ninja").read_text()
 
 
-def test_flags_that_reach_a_build_are_seen(tmp_path: Path) -> None:
+def test_flags_given_to_cmake_reach_the_build(tmp_path: Path) -> None:
     assert CANARY in configure(tmp_path / "build", "host", f"-DCMAKE_C_FLAGS=-D{CANARY}")
 
 
-def test_places_of_the_environment_mislead_no_compiler(configured: Path, misled: dict[str, str]) -> None:
+def test_search_paths_of_the_environment_mislead_no_build(configured: Path, misled: dict[str, str]) -> None:
     target, *_ = [
         line.split()[1].rstrip(":")
         for line in (configured / "build.ninja").read_text().splitlines()
@@ -62,7 +62,7 @@ def test_places_of_the_environment_mislead_no_compiler(configured: Path, misled:
 
 
 @pytest.mark.parametrize("compiler", ["gcc", "arm-none-eabi-gcc"])
-def test_places_that_mislead_a_compiler_are_noticed(compiler: str, misled: dict[str, str], tmp_path: Path) -> None:
+def test_search_paths_mislead_a_bare_compiler(compiler: str, misled: dict[str, str], tmp_path: Path) -> None:
     source = tmp_path / "one.c"
     source.write_text("#include <stdint.h>\nint32_t one;\n")
 
@@ -72,7 +72,7 @@ def test_places_that_mislead_a_compiler_are_noticed(compiler: str, misled: dict[
 
 
 @pytest.mark.parametrize("compiles", [True, False])
-def test_compiler_and_linker_are_called_without_them(configured: Path, compiles: bool) -> None:
+def test_compiler_and_linker_run_without_search_paths_of_the_environment(configured: Path, compiles: bool) -> None:
     listed = ["ninja", "-C", configured, "-t", "commands"]
     lines = subprocess.run(listed, capture_output=True, text=True, check=True).stdout.splitlines()
     calls = [line for line in lines if re.search(r"/(cc|arm-none-eabi-gcc) ", line)]

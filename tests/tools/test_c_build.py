@@ -45,7 +45,7 @@ def outcome(folder: Path, tests: str) -> tuple[bool, str]:
     return ran.returncode == 0, ran.stdout
 
 
-def test_tests_run_because_they_are_there_in_the_order_of_their_lines(tmp_path):
+def test_c_tests_run_unlisted_in_the_order_of_their_lines(tmp_path):
     body = "{ TEST_ASSERT_TRUE(1); }"
     passed, said = outcome(tmp_path, f"TEST(b)\n{body}\nTEST(a)\n{body}\nTEST(c)\n{body}\n")
 
@@ -53,7 +53,7 @@ def test_tests_run_because_they_are_there_in_the_order_of_their_lines(tmp_path):
     assert re.findall(r"canary\.c:(\d+):(\w+):PASS", said) == [("2", "test_b"), ("4", "test_a"), ("6", "test_c")]
 
 
-def test_set_up_and_tear_down_are_called_where_there_are_any(tmp_path):
+def test_set_up_and_tear_down_run_around_each_c_test(tmp_path):
     passed, _ = outcome(
         tmp_path,
         """
@@ -68,7 +68,7 @@ def test_set_up_and_tear_down_are_called_where_there_are_any(tmp_path):
     assert passed
 
 
-def test_a_preparation_is_that_of_the_tests_below_it(tmp_path):
+def test_before_each_applies_to_the_tests_below_it(tmp_path):
     passed, _ = outcome(
         tmp_path,
         """
@@ -100,7 +100,7 @@ def test_a_preparation_is_that_of_the_tests_below_it(tmp_path):
         pytest.param("static bool never(void) { return false; }\nTEST_IF(a, never) {}", id="that never applies"),
     ],
 )
-def test_one_does_not(tmp_path, tests):
+def test_c_program_fails_if_a_test_fails_or_does_not_run(tmp_path, tests):
     assert not outcome(tmp_path, tests)[0]
 
 
@@ -112,20 +112,20 @@ def test_one_does_not(tmp_path, tests):
         pytest.param("static void test_a(void) {}", "test_a. defined but not used", id="one beside TEST"),
     ],
 )
-def test_it_is_refused_when_compiling(tmp_path, tests, complaint):
+def test_malformed_c_test_does_not_compile(tmp_path, tests, complaint):
     result = built(tmp_path, tests)
 
     assert result.returncode != 0
     assert re.search(complaint, result.stdout)
 
 
-def test_every_c_test_is_added_so():
+def test_c_tests_are_not_added_with_add_test():
     adding = [path for path in sorted(ROOT.glob("tests/**/CMakeLists.txt")) if "add_test(NAME" in path.read_text()]
 
     assert adding == []
 
 
-def test_no_c_test_is_listed_by_hand():
+def test_c_tests_are_not_listed_by_hand():
     listing = [path for path in sorted(ROOT.glob("tests/**/*.c")) if "RUN_TEST(" in path.read_text()]
 
     assert listing == []
@@ -141,7 +141,7 @@ target_link_libraries(canary PRIVATE octet_warnings)
 
 
 @pytest.mark.parametrize(("option", "succeeds"), [("-DOCTET_WERROR=ON", False), ("-DOCTET_WERROR=OFF", True)])
-def test_a_warning_is_shown_and_is_an_error_if_asked_for(tmp_path: Path, option: str, succeeds: bool) -> None:
+def test_compiler_warning_is_shown_and_an_error_only_on_request(tmp_path: Path, option: str, succeeds: bool) -> None:
     (tmp_path / "CMakeLists.txt").write_text(WARNS)
     (tmp_path / "canary.c").write_text("int undeclared(void) { return 0; }\n")
     subprocess.run(["cmake", "-G", "Ninja", "-S", tmp_path, "-B", tmp_path, option], check=True, capture_output=True)
@@ -152,7 +152,7 @@ def test_a_warning_is_shown_and_is_an_error_if_asked_for(tmp_path: Path, option:
     assert "-Wmissing-prototypes" in done.stdout
 
 
-def test_a_manual_build_of_the_tests_has_warnings_as_errors() -> None:
+def test_preset_of_the_c_tests_has_warnings_as_errors() -> None:
     command = ["cmake", "--preset", "host-san", "-N"]
     listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
 
@@ -183,13 +183,13 @@ def error_of(request: int, kind: int, *launcher: str | Path) -> int:
         (PTRACE_GETREGSET + 1, NT_X86_XSTATE, errno.ESRCH),
     ],
 )
-def test_only_reading_the_extended_state_fails(request_number, kind, error):
+def test_legacy_fpu_fails_only_reads_of_the_extended_state(request_number, kind, error):
     assert error_of(request_number, kind, LEGACY_FPU) == error
 
 
-def test_without_it_the_kernel_answers():
+def test_kernel_answers_without_legacy_fpu():
     assert error_of(PTRACE_GETREGSET, NT_X86_XSTATE) == errno.ESRCH
 
 
-def test_the_exit_code_is_the_command_s():
+def test_legacy_fpu_returns_the_exit_code_of_its_command():
     assert subprocess.run([LEGACY_FPU, "sh", "-c", "exit 7"], check=False).returncode == 7

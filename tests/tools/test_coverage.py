@@ -45,14 +45,14 @@ def missing_after(built: Path, *runs: str) -> list[str]:
     return [f"{gap.line}: {gap.what}" for gap in measure(built, built / "build").gaps]
 
 
-def test_all_is_shown_or_has_its_reason():
+def test_c_code_is_covered_or_has_a_reason():
     result = subprocess.run([ROOT / "tools" / "coverage"], capture_output=True, text=True, check=False)
 
     assert result.returncode == 0, result.stderr
     assert "\n0 complaints" in result.stdout
 
 
-def test_runs_that_show_all_leave_no_gap(built):
+def test_runs_that_cover_all_conditions_leave_no_gap(built):
     assert missing_after(built, *ENOUGH) == []
 
 
@@ -68,14 +68,14 @@ def test_runs_that_show_all_leave_no_gap(built):
         (("000", "101", "110", "001"), [f"4: never decides: {B}"]),
     ],
 )
-def test_what_no_run_shows_is_a_gap(built, runs, missing):
+def test_uncovered_condition_is_a_gap(built, runs, missing):
     assert missing_after(built, *runs) == missing
 
 
 @pytest.mark.parametrize(
     ("prefix", "missing"), [(COPY, []), ("other_", ["10: never reached: void other_step(void)"])]
 )
-def test_a_copy_of_the_core_under_other_names_leaves_no_gap(built, prefix, missing):
+def test_copy_of_the_core_under_its_prefix_leaves_no_gap(built, prefix, missing):
     source = built / "firmware" / "a.c"
     source.write_text(f"{SOURCE}void {prefix}step(void);\nvoid {prefix}step(void)\n{{\n}}\n")
     subprocess.run((CLANG, *FLAGS, "-o", "test_a", source), cwd=built / "build", check=True)
@@ -83,25 +83,25 @@ def test_a_copy_of_the_core_under_other_names_leaves_no_gap(built, prefix, missi
     assert missing_after(built, *ENOUGH) == missing
 
 
-def test_runs_add_up(built):
+def test_coverage_of_several_runs_adds_up(built):
     for run in ENOUGH[:-1]:
         assert missing_after(built, run) != []
     assert missing_after(built, ENOUGH[-1]) == []
 
 
-def test_totals_are_those_of_all_conditions(built):
+def test_totals_count_all_conditions(built):
     missing_after(built, "000", "110")
     totals = measure(built, built / "build").totals
 
     assert [(totals[kind]["count"], totals[kind]["covered"]) for kind in ("branches", "mcdc")] == [(6, 4), (3, 1)]
 
 
-def test_a_build_whose_tests_have_not_run_is_an_error(built):
+def test_build_whose_tests_have_not_run_is_an_error(built):
     with pytest.raises(VerifyError, match="no test has left coverage data"):
         measure(built, built / "build")
 
 
-def test_a_decision_that_cannot_be_measured_is_reported(tmp_path):
+def test_unmeasurable_decision_is_reported(tmp_path):
     source = tmp_path / "a.c"
     source.write_text("int is(int x);\nint a(int x, int y) { return x && is(x && y); }\n")
 
@@ -112,7 +112,7 @@ def test_a_decision_that_cannot_be_measured_is_reported(tmp_path):
     assert NOT_MEASURED in said
 
 
-def test_a_build_that_broke_off_warns_again(tmp_path, monkeypatch):
+def test_failed_build_is_removed_so_that_it_warns_again(tmp_path, monkeypatch):
     script = script_named("coverage")
     monkeypatch.setattr(script, "BUILD", tmp_path / "coverage")
 
@@ -143,7 +143,7 @@ def test_a_build_that_broke_off_warns_again(tmp_path, monkeypatch):
         ),
     ],
 )
-def test_a_gap_needs_a_reason_and_a_reason_a_gap(tmp_path, text, complaints):
+def test_gap_needs_a_reason_and_a_reason_a_gap(tmp_path, text, complaints):
     table = tmp_path / "table.toml"
     table.write_text(ROW.format(text, "a canary"))
 
@@ -169,7 +169,7 @@ def measured(folder: Path, numbers: list[int], expected: list[int]) -> tuple[dic
     return measure_python(folder, Path(sys.executable), ["package"], ["test_sign.py"], folder / "measure")
 
 
-def test_all_is_taken_or_has_its_reason():
+def test_python_code_is_covered_or_has_a_reason():
     command = [ROOT / "tools" / "coverage", "python", "--gate"]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
 
@@ -184,7 +184,7 @@ def test_tests_that_take_every_branch_leave_no_gap(tmp_path):
     assert table.split("TOTAL")[1].split()[:5] == ["6", "0", "4", "0", "100%"]
 
 
-def test_a_branch_or_a_line_that_no_test_takes_is_a_gap_even_if_a_comment_excuses_it(tmp_path):
+def test_untaken_branch_or_line_is_a_gap_despite_a_comment(tmp_path):
     files, _ = measured(tmp_path, [-5], [-1])
 
     assert [str(gap) for gap in python_gaps(tmp_path, files)] == [
@@ -193,6 +193,6 @@ def test_a_branch_or_a_line_that_no_test_takes_is_a_gap_even_if_a_comment_excuse
     ]
 
 
-def test_a_failing_test_is_reported(tmp_path):
+def test_failing_test_is_reported(tmp_path):
     with pytest.raises(VerifyError, match="coverage run failed"):
         measured(tmp_path, [1], [2])

@@ -49,7 +49,7 @@ def flash(*options: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run([ROOT / "tools" / "flash", *options], capture_output=True, text=True, check=False)
 
 
-def test_every_board_has_a_chip_and_its_links() -> None:
+def test_boards_have_their_chips_and_links() -> None:
     assert {board.name: (board.chip, *board.links) for board in BOARDS.values()} == {
         "blue_pill": ("stm32f103", "bxcan", "slcan", "pins", "mute", "body"),
         "feather_stm32f405": ("stm32f405", "bxcan", "slcan"),
@@ -59,7 +59,7 @@ def test_every_board_has_a_chip_and_its_links() -> None:
     }
 
 
-def test_every_board_has_a_preset_of_its_name() -> None:
+def test_boards_have_a_preset_of_their_name() -> None:
     presets = json.loads((ROOT / "CMakePresets.json").read_text())
     hidden = {preset["name"] for preset in presets["configurePresets"] if preset.get("hidden")}
     for kind in ("configurePresets", "buildPresets"):
@@ -67,16 +67,16 @@ def test_every_board_has_a_preset_of_its_name() -> None:
         assert names == {"host", "host-san", "page", *BOARDS}
 
 
-def test_every_chip_is_known_to_the_programs() -> None:
+def test_chips_of_all_boards_have_an_id() -> None:
     assert {board.chip for board in BOARDS.values()} == CHIP_IDS.keys()
 
 
-def test_a_board_that_does_not_exist_is_refused() -> None:
+def test_unknown_board_is_refused() -> None:
     with pytest.raises(FlashError, match="no board nosuch; there are blue_pill, feather"):
         choose_board("nosuch", BOARDS)
 
 
-def test_a_link_that_does_not_exist_is_refused() -> None:
+def test_unknown_link_is_refused() -> None:
     with pytest.raises(FlashError, match="no image usb for blue_pill; there are bxcan, slcan"):
         build(BOARDS["blue_pill"], "usb", 1, 500_000)
     with pytest.raises(
@@ -86,7 +86,7 @@ def test_a_link_that_does_not_exist_is_refused() -> None:
 
 
 @pytest.mark.parametrize(("configured_s", "stays"), [(1, False), (3, True)])
-def test_a_toolchain_that_changed_is_configured_anew(
+def test_changed_toolchain_file_is_configured_anew(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, configured_s: int, stays: bool
 ) -> None:
     folder = tmp_path / "build/flash/blue_pill"
@@ -103,18 +103,18 @@ def test_a_toolchain_that_changed_is_configured_anew(
     assert (folder / "CMakeCache.txt").exists() == stays
 
 
-def test_an_image_says_what_it_is(tmp_path: Path) -> None:
+def test_image_states_its_identity(tmp_path: Path) -> None:
     image = identify(image_file(tmp_path, "blue_pill", "stm32f103"), BOARDS["blue_pill"])
     assert (image.chip, image.version, image.dbc) == ("stm32f103", "1.0-3-gabc", "7827")
     assert (image.node, image.bitrate) == ("2", "250000")
 
 
-def test_an_image_for_another_board_is_refused(tmp_path: Path) -> None:
+def test_image_for_another_board_is_refused(tmp_path: Path) -> None:
     with pytest.raises(FlashError, match="is for olimex_stm32_h405, not for blue_pill"):
         identify(image_file(tmp_path, "olimex_stm32_h405", "stm32f405"), BOARDS["blue_pill"])
 
 
-def test_a_file_that_is_no_image_is_refused(tmp_path: Path) -> None:
+def test_file_that_is_no_image_is_refused(tmp_path: Path) -> None:
     (tmp_path / "some.elf").write_bytes(b"\x7fELF")
     with pytest.raises(FlashError, match="is not an Octet image"):
         identify(tmp_path / "some.elf", BOARDS["blue_pill"])
@@ -131,12 +131,12 @@ def test_probes_are_found_among_other_devices(tmp_path: Path) -> None:
     assert [str(probe) for probe in find_probes(tmp_path)] == ["stlink:A1", "cmsis-dap:B2", "jlink:C3"]
 
 
-def test_without_usb_there_is_no_probe(tmp_path: Path) -> None:
+def test_system_without_usb_has_no_probe(tmp_path: Path) -> None:
     assert find_probes(tmp_path / "none") == []
 
 
 @pytest.mark.parametrize("wanted", [None, "stlink", "stlink:A1"])
-def test_the_only_probe_is_chosen(wanted: str | None) -> None:
+def test_single_probe_is_chosen(wanted: str | None) -> None:
     assert choose_probe(wanted, [STLINK]) == STLINK
 
 
@@ -151,22 +151,22 @@ def test_the_only_probe_is_chosen(wanted: str | None) -> None:
         ("serial", [], "PATH is missing"),
     ],
 )
-def test_a_choice_that_is_none_is_refused(wanted: str | None, found: list[Probe], reason: str) -> None:
+def test_impossible_choice_of_a_probe_is_refused(wanted: str | None, found: list[Probe], reason: str) -> None:
     with pytest.raises(FlashError, match=reason):
         choose_probe(wanted, found)
 
 
 @pytest.mark.parametrize(("probe", "program"), [(STLINK, "openocd"), (Probe("serial", "/dev/null"), "stm32flash")])
-def test_the_program_follows_from_the_probe(probe: Probe, program: str) -> None:
+def test_probe_determines_the_program(probe: Probe, program: str) -> None:
     assert make_plan(image_for("stm32f103"), probe, has=bool).program == program
 
 
-def test_pyocd_does_where_openocd_is_missing() -> None:
+def test_pyocd_is_used_where_openocd_is_missing() -> None:
     plan = make_plan(image_for("stm32f405"), STLINK, has=lambda program: program == "pyocd")
     assert plan.write[:6] == ["pyocd", "load", "-u", "A1", "-t", "stm32f405rg"]
 
 
-def test_without_a_program_it_says_which_is_needed() -> None:
+def test_missing_program_is_named() -> None:
     with pytest.raises(FlashError, match="stlink needs openocd or pyocd"):
         make_plan(image_for("stm32f405"), STLINK, has=lambda _: False)
 
@@ -176,17 +176,17 @@ def plan_with(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, script: str) -> P
     return make_plan(image_for("stm32f405"), STLINK)
 
 
-def test_the_right_chip_is_accepted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_matching_chip_is_accepted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     check_chip(plan_with(tmp_path, monkeypatch, "echo Info : clock; echo chip=0x10076413"), "stm32f405")
 
 
-def test_a_wrong_chip_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_wrong_chip_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     plan = plan_with(tmp_path, monkeypatch, "echo chip=0x20036410")
     with pytest.raises(FlashError, match=r"the chip behind the probe is 0x410, not stm32f405 \(0x413\)"):
         check_chip(plan, "stm32f405")
 
 
-def test_a_chip_that_does_not_answer_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_chip_that_does_not_answer_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     plan = plan_with(tmp_path, monkeypatch, "echo Error: init mode failed >&2; exit 1")
     with pytest.raises(
         FlashError,
@@ -211,7 +211,7 @@ REPORTED = {
 
 
 @pytest.mark.parametrize("sentence", REPORTED)
-def test_a_known_trouble_gets_a_sentence_and_the_line_that_shows_it(sentence: str) -> None:
+def test_known_error_is_explained_with_the_line_that_shows_it(sentence: str) -> None:
     told = explain(REPORTED[sentence])
 
     assert sentence in told
@@ -219,18 +219,18 @@ def test_a_known_trouble_gets_a_sentence_and_the_line_that_shows_it(sentence: st
     assert [other for other in REPORTED if other in told] == [sentence]
 
 
-def test_a_trouble_that_is_not_known_is_the_last_line() -> None:
+def test_unknown_error_is_reported_by_its_last_line() -> None:
     assert explain("Info : fine\nError: the moon is full\n\n") == "Error: the moon is full"
     assert explain("\n") == "no output"
 
 
-def test_a_write_that_fails_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_failed_write_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     plan = plan_with(tmp_path, monkeypatch, "echo '** Verify Failed **'; exit 1")
     with pytest.raises(FlashError, match=r"openocd did not write the image \(exit code 1\): \*\* Verify Failed"):
         write(plan)
 
 
-def test_a_dry_run_says_what_it_would_do_and_calls_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_dry_run_prints_its_steps_and_calls_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     called = tmp_path / "called"
     installed(tmp_path, monkeypatch, stm32flash=f"touch {called}")
     image = image_file(tmp_path, "blue_pill", "stm32f103")
@@ -242,7 +242,7 @@ def test_a_dry_run_says_what_it_would_do_and_calls_nothing(tmp_path: Path, monke
     assert not called.exists()
 
 
-def test_nothing_is_written_to_another_chip(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_flash_writes_nothing_to_another_chip(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     calls = tmp_path / "calls"
     installed(tmp_path, monkeypatch, stm32flash=f"echo $* >>{calls}; echo 'Device ID    : 0x0413 (STM32F40xxx)'")
     image = image_file(tmp_path, "blue_pill", "stm32f103")
@@ -253,7 +253,7 @@ def test_nothing_is_written_to_another_chip(tmp_path: Path, monkeypatch: pytest.
     assert "the chip behind the probe is 0x413, not stm32f103 (0x410)" in result.stderr
 
 
-def test_a_dry_run_needs_no_probe(tmp_path: Path) -> None:
+def test_dry_run_needs_no_probe(tmp_path: Path) -> None:
     image = image_file(tmp_path, "blue_pill", "stm32f103")
 
     result = flash("blue_pill", "bxcan", f"--image={image}", "--dry-run", "--probe=jlink")
@@ -263,14 +263,14 @@ def test_a_dry_run_needs_no_probe(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("words", "names"), [(["nucleo"], "nucleo_g431rb"), (["blue_pill"], "bxcan, slcan, pins")])
-def test_a_board_or_an_image_that_is_not_named_is_answered_with_those_there_are(words: list[str], names: str) -> None:
+def test_incomplete_board_or_missing_link_is_answered_with_the_choices(words: list[str], names: str) -> None:
     result = flash(*words)
 
     assert (result.returncode, result.stderr.count("\n")) == (2, 1)
     assert names in result.stderr
 
 
-def test_an_image_built_earlier_keeps_its_node(tmp_path: Path) -> None:
+def test_image_built_earlier_refuses_another_node(tmp_path: Path) -> None:
     result = flash("blue_pill", "bxcan", f"--image={tmp_path}", "--node=2")
 
     assert result.returncode == 2
@@ -278,7 +278,7 @@ def test_an_image_built_earlier_keeps_its_node(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("words", ["nucleo bxcan", "blue_pill fdcan", "blue_pill bxcan --image tools/flash"])
-def test_a_wrong_choice_is_one_line_and_ends_with_2(words: str) -> None:
+def test_wrong_choice_prints_one_line_and_ends_with_2(words: str) -> None:
     result = flash(*words.split())
     assert (result.returncode, result.stdout, result.stderr.count("\n")) == (2, "", 1)
 
@@ -295,7 +295,7 @@ def drive(
     return made
 
 
-def test_a_pico_is_found_among_other_drives_and_gets_its_image(tmp_path: Path) -> None:
+def test_pico_is_found_among_other_drives_and_gets_its_image(tmp_path: Path) -> None:
     drive(tmp_path, "other", "Board-ID: SAMD21G18A-Feather-v0\n")
     pico = drive(tmp_path, "RPI RP2")
     uf2 = tmp_path / "octet-pico-slcan.uf2"
@@ -308,7 +308,7 @@ def test_a_pico_is_found_among_other_drives_and_gets_its_image(tmp_path: Path) -
     assert (pico / uf2.name).read_bytes() == b"blocks"
 
 
-def test_without_a_pico_it_is_said_what_to_press(tmp_path: Path) -> None:
+def test_missing_pico_is_reported_with_the_button_to_hold(tmp_path: Path) -> None:
     with pytest.raises(FlashError, match="hold the Pico's BOOTSEL button while you plug in its USB cable"):
         find_drive(tmp_path / "mounts")
 
@@ -319,13 +319,13 @@ def test_several_picos_are_named(tmp_path: Path) -> None:
         find_drive(tmp_path / "mounts")
 
 
-def test_a_pico_that_is_unplugged_meanwhile_is_told(tmp_path: Path) -> None:
+def test_pico_unplugged_during_the_copy_is_reported(tmp_path: Path) -> None:
     (tmp_path / "some.uf2").touch()
     with pytest.raises(FlashError, match=r"cannot copy .*some.uf2 to .*gone \(No such file or directory\): hold"):
         write_to_drive(tmp_path / "some.uf2", tmp_path / "gone")
 
 
-def test_a_pico_without_a_drive_ends_in_one_line(tmp_path: Path) -> None:
+def test_pico_without_a_drive_ends_with_one_line(tmp_path: Path) -> None:
     image = image_file(tmp_path, "pico", "rp2040")
     image.with_suffix(".uf2").touch()
 
@@ -336,14 +336,14 @@ def test_a_pico_without_a_drive_ends_in_one_line(tmp_path: Path) -> None:
     assert (result.returncode, result.stdout, result.stderr.count("\n")) == (1, "", 1)
 
 
-def test_a_pico_takes_a_probe_too_and_no_serial_port() -> None:
+def test_pico_takes_a_probe_but_no_serial_port() -> None:
     image = image_for("rp2040")
     assert "target/rp2040.cfg" in make_plan(image, Probe("cmsis-dap", ""), has=bool).write
     with pytest.raises(FlashError, match="no boot loader on a serial port"):
         make_plan(image, Probe("serial", "/dev/null"), has=bool)
 
 
-def test_a_behaviour_that_makes_a_mistake_is_not_flashed(tmp_path: Path) -> None:
+def test_faulty_behaviour_is_not_flashed(tmp_path: Path) -> None:
     text = (ROOT / "host_sim/program/own/mine.c").read_text()
     (tmp_path / "mine.c").write_text(text.replace("brain->awaits = NOTHING;", "brain->own[pattern + 8] = 1;"))
 
@@ -354,7 +354,7 @@ def test_a_behaviour_that_makes_a_mistake_is_not_flashed(tmp_path: Path) -> None
     assert done.stderr.endswith("it has to drive a simulated robot for a minute first\n")
 
 
-def test_an_image_has_its_behaviour_built_in(tmp_path: Path) -> None:
+def test_image_built_earlier_refuses_a_behaviour(tmp_path: Path) -> None:
     done = flash("blue_pill", "--image", str(tmp_path / "a.elf"), "--profile", "mine.c")
 
     assert done.returncode == 2

@@ -73,7 +73,7 @@ def test_help_needs_nothing(tree, word):
 
 
 @pytest.mark.parametrize("arguments", [[], ["--anew"], ["jammy"], ["Trixie"], ["--new", "trixie"]])
-def test_a_system_that_is_not_supported_is_answered_in_one_line_with_those_that_are(tree, arguments):
+def test_unsupported_system_is_answered_with_the_supported_ones(tree, arguments):
     done = tree.fresh(*arguments)
 
     assert done.returncode == 2
@@ -82,14 +82,14 @@ def test_a_system_that_is_not_supported_is_answered_in_one_line_with_those_that_
     assert tree.calls.read_text() == ""
 
 
-def test_without_root_it_says_how_to_call_it(tree):
+def test_call_without_root_names_the_sudo_command(tree):
     done = tree.fresh("trixie", ID="1000")
 
     assert (done.returncode, done.stderr) == (2, "fresh: making a system needs root: sudo tools/fresh trixie\n")
     assert not (tree.folder / "build").exists()
 
 
-def test_a_machine_that_has_no_debian_archive_is_told_what_might_do(tree):
+def test_machine_without_a_debian_archive_is_refused_with_advice(tree):
     tree.lists.write_text("http://archive.test/ubuntu noble main\n")
 
     done = tree.fresh("trixie")
@@ -111,7 +111,7 @@ def test_a_machine_that_has_no_debian_archive_is_told_what_might_do(tree):
         ("sid", "deb http://archive.test/debian/ sid main\n"),
     ],
 )
-def test_the_system_has_the_archives_of_this_machine(tree, system, sources):
+def test_new_system_has_the_archives_of_this_machine(tree, system, sources):
     assert tree.fresh(system).returncode == 0
 
     assert (tree.folder / f"build/fresh/{system}/etc/apt/sources.list").read_text() == sources
@@ -120,7 +120,7 @@ def test_the_system_has_the_archives_of_this_machine(tree, system, sources):
     )
 
 
-def test_without_commands_it_runs_those_of_the_readme(tree):
+def test_call_without_commands_runs_those_of_the_readme(tree):
     done = tree.fresh("trixie")
 
     assert [line.split(" took ")[0] for line in done.stderr.splitlines() if " took " in line] == [
@@ -129,7 +129,7 @@ def test_without_commands_it_runs_those_of_the_readme(tree):
     ]
 
 
-def test_each_command_runs_and_those_that_failed_are_named(tree):
+def test_all_commands_run_and_the_failed_ones_are_named(tree):
     done = tree.fresh("trixie", "this fails", "this not")
 
     assert done.returncode == 1
@@ -137,7 +137,7 @@ def test_each_command_runs_and_those_that_failed_are_named(tree):
     assert done.stderr.splitlines()[-1] == "fresh: trixie: failed: this fails"
 
 
-def test_a_system_that_was_not_made_whole_is_made_again_and_one_that_is_whole_is_not(tree):
+def test_incomplete_system_is_made_again_and_a_complete_one_is_kept(tree):
     broken = Path(f"{tree.calls}.broken")
     broken.touch()
     done = tree.fresh("trixie", "true")

@@ -86,12 +86,12 @@ OTHER = {
 
 
 @pytest.mark.parametrize("change", SAME.values(), ids=SAME)
-def test_a_change_that_moves_no_bit_keeps_the_hash(change, tmp_path):
+def test_change_that_moves_no_bit_keeps_the_hash(change, tmp_path):
     assert hash_of(change(tmp_path), tmp_path) == generated.LAYOUT_HASH
 
 
 @pytest.mark.parametrize(("old", "new"), OTHER.values(), ids=OTHER)
-def test_a_change_that_moves_a_bit_changes_the_hash(old, new, tmp_path):
+def test_change_that_moves_a_bit_changes_the_hash(old, new, tmp_path):
     # A comment or value table of what is no longer there would not be read at all.
     bare = re.sub(r"^(CM_|VAL_) .*\n", "", TEXT, flags=re.MULTILINE)
     assert hash_of(bare, tmp_path) == generated.LAYOUT_HASH
@@ -99,7 +99,7 @@ def test_a_change_that_moves_a_bit_changes_the_hash(old, new, tmp_path):
     assert hash_of(changed(old, new, bare), tmp_path) != generated.LAYOUT_HASH
 
 
-def test_parameters_survive_another_tool(tmp_path):
+def test_parameters_survive_conversion_by_another_tool(tmp_path):
     path = tmp_path / "converted.dbc"
     path.write_bytes(converted(tmp_path))
 
@@ -128,7 +128,7 @@ UNFIT = {
 
 
 @pytest.mark.parametrize(("old", "new", "words"), UNFIT.values(), ids=UNFIT)
-def test_a_dbc_that_contradicts_itself_is_refused(old, new, words, tmp_path):
+def test_contradictory_dbc_is_refused(old, new, words, tmp_path):
     path = tmp_path / "unfit.dbc"
     text = changed(old, new)
     path.write_text(
@@ -168,7 +168,7 @@ def test_words_that_do_not_fit_the_dbc_are_refused(old, new, words, tmp_path):
         read(DBC, path)
 
 
-def test_a_refusal_is_one_line_and_leaves_no_file(tmp_path):
+def test_refusal_prints_one_line_and_leaves_no_file(tmp_path):
     (tmp_path / "octet.dbc").write_text(changed('2 "never"', '98 "never"'))
     command = [sys.executable, ROOT / "tools/generate", "--dbc", tmp_path / "octet.dbc", "--c", tmp_path / "words.h"]
 
@@ -179,7 +179,7 @@ def test_a_refusal_is_one_line_and_leaves_no_file(tmp_path):
     assert not (tmp_path / "words.h").exists()
 
 
-def test_what_was_generated_is_what_the_files_say_today():
+def test_generated_files_are_up_to_date():
     robot = read(DBC, WORDS)
 
     assert (ROOT / "host_sim/protocol/generated.py").read_text() == to_python.module(robot)
@@ -187,7 +187,7 @@ def test_what_was_generated_is_what_the_files_say_today():
     assert (ROOT / "host_sim/web/generated_types.ts").read_text() == to_types.module()
 
 
-def test_a_type_of_the_page_is_the_python_type():
+def test_types_of_the_page_match_the_python_types():
     lines = to_types.module().splitlines()
 
     for line in (
@@ -197,7 +197,7 @@ def test_a_type_of_the_page_is_the_python_type():
         assert f"  {line};" in lines
 
 
-def test_each_export_to_typescript_is_one_line():
+def test_exports_to_typescript_take_one_line_each():
     lines = to_typescript.module(read(DBC, WORDS)).splitlines()
 
     assert all(line.startswith(("export const ", "/*")) or line == "" for line in lines)

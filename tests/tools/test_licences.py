@@ -30,39 +30,39 @@ def installed_as(script: ModuleType, monkeypatch: pytest.MonkeyPatch, **licences
     monkeypatch.setattr(script, "installed", lambda: {**found, **licences})
 
 
-def test_the_page_is_what_the_packages_say_today(script, capsys):
+def test_licence_page_is_up_to_date(script, capsys):
     assert (script.main(), capsys.readouterr().err) == (0, "")
 
 
-def test_a_package_without_a_row_is_noticed_where_it_is_installed(script, capsys):
+def test_installed_package_without_a_row_is_reported(script, capsys):
     script.PAGE.write_text(PAGE.replace("| numpy |", "| nompy |"))
 
     assert script.main() == 1
     assert "not up to date" in capsys.readouterr().err
 
 
-def test_a_package_without_a_row_is_noticed_where_it_is_not_installed(script, monkeypatch, capsys):
+def test_uninstalled_package_without_a_row_is_reported(script, monkeypatch, capsys):
     monkeypatch.setattr(script, "locked", lambda: {"no-such-package": "run"})
 
     assert script.main() == 1
     assert "no-such-package is not installed here and has no row yet" in capsys.readouterr().err
 
 
-def test_a_licence_that_has_changed_is_noticed(script, monkeypatch):
+def test_changed_licence_is_detected(script, monkeypatch):
     installed_as(script, monkeypatch, numpy="MIT")
 
     assert script.main() == 1
 
 
 @pytest.mark.parametrize(("package", "licence"), [("numpy", "Proprietary"), ("numpy", "MIT AND GPL-2.0-only")])
-def test_a_licence_that_was_not_judged_fit_is_named(script, monkeypatch, capsys, package, licence):
+def test_unapproved_licence_is_named(script, monkeypatch, capsys, package, licence):
     installed_as(script, monkeypatch, **{package: licence})
 
     assert script.main() == 1
     assert f"{package}: {licence.split()[-1]} is not among" in capsys.readouterr().err
 
 
-def test_without_check_the_page_is_written(script, monkeypatch):
+def test_call_without_check_writes_the_page(script, monkeypatch):
     script.PAGE.write_text(PAGE.replace("| numpy | BSD", "| numpy | ABC"))
     monkeypatch.setattr(sys, "argv", ["tools/licences"])
 
@@ -81,7 +81,7 @@ def unpinned(lock: str) -> list[str]:
     return [item.split()[0] for item in items if not pinned.match(item)]
 
 
-def test_the_lock_files_pin_by_hash_and_name_no_address() -> None:
+def test_lock_files_pin_by_hash_and_name_no_address() -> None:
     for path in LOCKS:
         text = path.read_text()
         assert "==" in text
@@ -89,7 +89,7 @@ def test_the_lock_files_pin_by_hash_and_name_no_address() -> None:
         assert unpinned(text) == []
 
 
-def test_the_lock_file_of_node_pins_by_hash_and_names_no_address() -> None:
+def test_lock_file_of_node_pins_by_hash_and_names_no_address() -> None:
     (path,) = ROOT.glob("requirements/*/package-lock.json")
     text = path.read_text()
     packages = [it for name, it in json.loads(text)["packages"].items() if name]
@@ -98,7 +98,7 @@ def test_the_lock_file_of_node_pins_by_hash_and_names_no_address() -> None:
     assert [it["integrity"].partition("-")[0] for it in packages] == ["sha512"]
 
 
-def test_a_package_without_a_hash_or_a_version_is_noticed() -> None:
+def test_package_without_a_hash_or_a_version_is_detected() -> None:
     lock = re.sub(r"^(numpy==\S+).*(?:\n .*)*", r"\1", RUN.read_text(), count=1, flags=re.MULTILINE)
     assert unpinned(f"{lock}numpy>=1 --hash=sha256:0\n")[1:] == ["numpy>=1"]
     assert unpinned(lock)[0].startswith("numpy==")
@@ -114,10 +114,10 @@ def megabytes(locks: Sequence[Path]) -> float:
     return sum(file.stat().st_size for file in files if file.exists()) / 1e6
 
 
-def test_a_run_installs_less_than_200_mb() -> None:
+def test_run_stage_installs_less_than_200_mb() -> None:
     pip = 20
     assert 50 < megabytes([RUN]) < 200 - pip
 
 
-def test_a_run_that_installed_what_the_tests_need_would_be_noticed() -> None:
+def test_packages_of_all_stages_exceed_200_mb() -> None:
     assert megabytes(LOCKS) > 200

@@ -57,7 +57,7 @@ def run_until(project: Project, name: str, happened: Callable[[], bool]) -> Any:
     return results[name]
 
 
-def test_at_a_limit_what_has_run_is_counted_and_what_runs_is_named(project, monkeypatch):
+def test_stage_at_a_limit_counts_its_tests_and_names_the_running_one(project, monkeypatch):
     monkeypatch.setenv("PYTEST_XDIST_AUTO_NUM_WORKERS", "1")
     hangs = project.folder / "hangs"
     project.python_tests(PASSES, PASSES, HANGS.format(note=str(hangs)))
@@ -68,7 +68,7 @@ def test_at_a_limit_what_has_run_is_counted_and_what_runs_is_named(project, monk
     assert result.why == "stopped: it happened during tests/test_2.py::test_that_hangs"
 
 
-def test_at_a_limit_the_c_tests_are_counted_as_well(project):
+def test_c_stage_stopped_at_a_limit_counts_its_tests(project):
     hangs = project.folder / "hangs"
     project.c_tests(one="true", two=f"touch '{hangs}'; sleep 1000", three="true")
 
@@ -87,7 +87,7 @@ def test_stopping_a_stage_ends_its_processes(project):
     assert soon(lambda: not alive(int(note.read_text())))
 
 
-def test_a_stage_that_the_time_limit_leaves_no_time_does_not_begin_and_says_why(project):
+def test_stage_without_time_left_does_not_begin_and_says_why(project):
     project.c_tests(one="true")
 
     code, said = project.run("c", "--time-limit=0")
@@ -96,7 +96,7 @@ def test_a_stage_that_the_time_limit_leaves_no_time_does_not_begin_and_says_why(
     assert "did not begin: the time limit of 0 min was reached (--time-limit)" in said
 
 
-def test_a_stage_in_which_nothing_happens_any_more_is_stopped(project):
+def test_stalled_stage_is_stopped(project):
     project.c_tests(one="sleep 1000")
 
     code, said = project.run("c", "--stall-limit=0.02")
@@ -105,7 +105,7 @@ def test_a_stage_in_which_nothing_happens_any_more_is_stopped(project):
     assert "stopped: no test began or ended for 0.02 min (--stall-limit)" in said
 
 
-def test_each_test_that_begins_or_ends_begins_the_stall_limit_anew(tmp_path, monkeypatch):
+def test_begin_or_end_of_a_test_restarts_the_stall_limit(tmp_path, monkeypatch):
     report, now_s = tmp_path / "report", [0.0]
     monkeypatch.setattr("tools.testing.limits.time.monotonic", lambda: now_s[0])
     steps = run_within(Limits(NO_LIMIT, 1.0, begun=0.0), ["sleep", "1000"], [report])
@@ -123,7 +123,7 @@ def test_each_test_that_begins_or_ends_begins_the_stall_limit_anew(tmp_path, mon
     assert ended.value.value == (False, "no test began or ended for 1 min (--stall-limit)")
 
 
-def test_ended_from_outside_it_leaves_nothing_behind(project):
+def test_terminated_run_leaves_no_process_behind(project):
     notes = [project.folder / "c_pid", project.folder / "python_pid"]
     project.c_tests(one=f"echo $$ >'{notes[0]}'; exec sleep 1000")
     project.python_tests(HANGS.format(note=str(notes[1])))
@@ -136,7 +136,7 @@ def test_ended_from_outside_it_leaves_nothing_behind(project):
 
 
 @pytest.mark.parametrize("tool", ["test", "prove"])
-def test_a_second_one_in_the_same_checkout_is_refused_and_the_first_goes_on(project, tool):
+def test_second_run_in_a_checkout_is_refused_and_the_first_goes_on(project, tool):
     note, leave = project.folder / "pid", project.folder / "leave"
     project.c_tests(one=f"echo $$ >'{note}'; until [ -e '{leave}' ]; do sleep 0.05; done")
     first = subprocess.Popen(project.command("c"), stdout=subprocess.PIPE, text=True)
@@ -177,7 +177,7 @@ def run_pytest(folder: Path, tests: Iterable[str], *options: str) -> subprocess.
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
 
 
-def test_each_skip_fails_the_run_and_is_named(tmp_path):
+def test_skipped_test_fails_the_run_and_is_named(tmp_path):
     done = run_pytest(tmp_path, [*SKIPS.values(), PASSES])
 
     assert done.returncode != 0
@@ -185,25 +185,25 @@ def test_each_skip_fails_the_run_and_is_named(tmp_path):
     assert done.stdout.count("skipped, which counts as failed: bus: there is none") >= len(SKIPS)
 
 
-def test_a_whole_file_that_is_skipped_fails_the_run_and_is_named(tmp_path):
+def test_skipped_file_fails_the_run_and_is_named(tmp_path):
     done = run_pytest(tmp_path, [SKIPPED_FILE])
 
     assert done.returncode != 0
     assert "skipped, which counts as failed: bus: there is none" in done.stdout
 
 
-def test_a_skip_that_the_caller_allowed_by_name_does_not_fail_the_run(tmp_path):
+def test_allowed_skip_does_not_fail_the_run(tmp_path):
     done = run_pytest(tmp_path, [*SKIPS.values(), SKIPPED_FILE, PASSES], "--allow-missing=bus")
 
     assert done.returncode == 0
     assert f"1 passed, {len(SKIPS) + 1} skipped" in done.stdout
 
 
-def test_allowing_one_name_allows_no_other(tmp_path):
+def test_allowed_name_allows_no_other(tmp_path):
     assert run_pytest(tmp_path, [SKIPS["in a test"]], "--allow-missing=browser").returncode != 0
 
 
-def test_an_expected_failure_fails_the_run_whatever_the_caller_allowed(tmp_path):
+def test_expected_failure_fails_the_run_whatever_is_allowed(tmp_path):
     done = run_pytest(tmp_path, [*EXPECTED_FAILURES.values(), PASSES], "--allow-missing=bus")
 
     assert done.stdout.splitlines()[-1].startswith("2 failed, 1 passed, 1 error in")

@@ -45,13 +45,13 @@ def check(tmp_path):
     return run
 
 
-def test_the_images_have_no_deviation_without_a_row_and_no_row_without_a_deviation():
+def test_deviations_of_the_images_match_the_rows():
     code, said = misra()
 
     assert (code, said.splitlines()[-1].split(", ")[1]) == (0, "0 complaints"), said
 
 
-def test_a_row_too_few_and_rows_too_many_are_found_in_the_images(tmp_path):
+def test_missing_and_unneeded_rows_are_found_in_the_images(tmp_path):
     rows = tmp_path / "rows.txt"
     kept = (
         (ROOT / "tools/verify/misra.txt").read_text().replace("misra-c2012-19.2:hal/flash_store/flash_store.c\n", "")
@@ -69,18 +69,18 @@ def test_a_row_too_few_and_rows_too_many_are_found_in_the_images(tmp_path):
     assert "misra-c2012-2.1:hal/gone.c is no source that is checked" in said
 
 
-def test_only_what_needs_an_operating_system_is_left_out():
+def test_only_sources_that_need_an_operating_system_are_left_out():
     checked = {Path(command["file"]) for command in MISRA["built_sources"]()}
     sources = {path for folder in MISRA["OURS"] for path in (ROOT / folder).rglob("*.c")}
 
     assert {path.relative_to(ROOT).as_posix() for path in sources - checked} == OF_A_SYSTEM
 
 
-def test_a_source_that_keeps_the_rules_passes(check):
+def test_source_that_keeps_the_rules_passes(check):
     assert check(CLEAN) == (0, "1 sources, 0 complaints\n")
 
 
-def test_a_deviation_is_reported_with_its_line_and_needs_its_row(check):
+def test_deviation_is_reported_with_its_line_and_needs_its_row(check):
     code, said = check(OCTAL)
 
     assert code == 1
@@ -90,21 +90,21 @@ def test_a_deviation_is_reported_with_its_line_and_needs_its_row(check):
 
 
 @pytest.mark.parametrize("row", ["misra-c2012-7.1:{folder}/other.c", "misra-c2012-7.1:*/source.c"])
-def test_a_row_that_cppcheck_would_not_miss_fails(check, row):
+def test_row_for_no_checked_source_fails(check, row):
     code, said = check(OCTAL, row)
 
     assert code == 1
     assert "is no source that is checked" in said
 
 
-def test_a_row_that_fits_nothing_fails(check):
+def test_row_that_matches_no_deviation_fails(check):
     code, said = check(CLEAN, "misra-c2012-7.2:{folder}/source.c")
 
     assert code == 1
     assert "Unmatched suppression: misra-c2012-7.2" in said
 
 
-def test_a_source_that_cannot_be_parsed_fails(check):
+def test_unparsable_source_fails(check):
     code, said = check("int broken(void) { return (1; }\n")
 
     assert code == 1

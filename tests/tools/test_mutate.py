@@ -30,13 +30,13 @@ def mutate(*words: str) -> tuple[int, str]:
     return done.returncode, done.stdout + done.stderr
 
 
-def test_enough_mutants_of_the_source_whose_turn_it_is_are_killed():
+def test_tests_kill_enough_mutants_of_the_chosen_source():
     code, said = mutate("--turn")
 
     assert code == 0, said
 
 
-def test_mutants_that_no_test_kills_are_printed_and_fail():
+def test_surviving_mutants_are_printed_and_fail():
     code, said = mutate("--test=can_body", "hal/flash_store/crc32.c")
 
     assert code == 1
@@ -45,17 +45,17 @@ def test_mutants_that_no_test_kills_are_printed_and_fail():
     assert said.endswith(f"crc32.c: at least {TABLE['hal/flash_store/crc32.c']} % must be killed\n")
 
 
-def test_a_source_without_a_test_fails():
+def test_source_without_a_test_fails():
     name = "hal/port/cortex_m/startup.c"
 
     assert mutate(name) == (1, f"{name}: no C test is built from it\n{name}: at least 95 % must be killed\n")
 
 
-def test_a_source_that_is_only_in_a_program_is_tested_too():
+def test_source_that_is_only_in_a_program_has_a_test():
     assert len(MUTATE["tests_of"](ROOT / "firmware/main.c", ["main"])) == 1
 
 
-def test_a_source_must_reach_its_row_of_the_table():
+def test_source_must_reach_its_row_of_the_table():
     table = {"high.c": 99, "low.c": 80}
 
     assert MUTATE["misses"]({"high.c": 99.0, "low.c": 80.9}, table, strict=False) == []
@@ -66,7 +66,7 @@ def test_a_source_must_reach_its_row_of_the_table():
     ]
 
 
-def test_a_pass_over_all_sources_misses_those_without_a_row_or_below_95_percent():
+def test_strict_pass_fails_sources_without_a_row_or_below_95_percent():
     percents = {"high.c": 99.0, "low.c": 80.9, "none.c": 100.0}
 
     assert MUTATE["misses"](percents, {"high.c": 99, "low.c": 80}, strict=True) == [
@@ -75,19 +75,19 @@ def test_a_pass_over_all_sources_misses_those_without_a_row_or_below_95_percent(
     ]
 
 
-def test_the_commit_chooses_the_turn_and_each_source_has_one():
+def test_commit_hash_chooses_each_source_in_turn():
     turns = [MUTATE["turn"](("b.c", "a.c"), f"{number:040x}\n") for number in (0, 1, 2)]
 
     assert turns == ["a.c", "b.c", "a.c"]
 
 
-def test_each_source_has_a_row_that_reaches_the_bar():
+def test_table_has_a_row_that_reaches_the_bar_for_each_source():
     sources = {str(file.relative_to(ROOT)) for folder in MUTATE["FOLDERS"] for file in (ROOT / folder).rglob("*.c")}
 
     assert {name for name, percent in TABLE.items() if MUTATE["BAR"] <= percent <= 100} == sources
 
 
-def test_each_line_of_code_has_mutants_even_beside_a_comment(tmp_path):
+def test_line_of_code_beside_a_comment_has_mutants(tmp_path):
     source = tmp_path / "sum.c"
     source.write_text(SOURCE)
 
@@ -98,7 +98,7 @@ def test_each_line_of_code_has_mutants_even_beside_a_comment(tmp_path):
 
 
 @pytest.mark.parametrize("folder", MUTATE["FOLDERS"])
-def test_each_folder_is_there(folder):
+def test_mutated_folder_has_c_sources(folder):
     assert list((ROOT / folder).glob("*.c"))
 
 
@@ -114,7 +114,7 @@ def chosen() -> list[Fault]:
 
 
 @pytest.mark.parametrize("fault", chosen(), ids=lambda fault: fault.file)
-def test_a_planted_fault_is_found_and_the_tree_as_it_is_passes(fault):
+def test_planted_fault_is_found_and_the_unchanged_tree_passes(fault):
     with copy_of_the_tree() as tree:
         assert is_found(fault, tree)
         assert not is_found(fault._replace(new=fault.old), tree)

@@ -117,13 +117,13 @@ def test_help_needs_no_set_up(words: str, sources: Path, tmp_path: Path) -> None
     assert words.split(maxsplit=1)[0] in done.stdout
 
 
-def test_each_tool_is_asked_for_help() -> None:
+def test_help_is_tested_for_each_tool() -> None:
     tools = {path.name for path in (ROOT / "tools").iterdir() if path.is_file() and os.access(path, os.X_OK)}
     assert tools - {"setup"} == {words.split()[0] for words in HELP}
 
 
 @pytest.mark.parametrize("words", WRONG)
-def test_a_mistake_is_told_before_anything_is_set_up(words: str, sources: Path) -> None:
+def test_mistake_is_reported_before_anything_is_set_up(words: str, sources: Path) -> None:
     done = call(sources, f"octet {words}")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("octet: ")
@@ -146,7 +146,7 @@ def test_octet_sets_up_what_the_options_need(words: str, with_python: Path) -> N
     assert done.stdout.splitlines() == [f"sets up: {STAGES[words]}", f"-m host_sim {words}"], done.stderr
 
 
-def test_the_benchmark_needs_what_the_tests_need(with_python: Path) -> None:
+def test_bench_sets_up_what_the_tests_need(with_python: Path) -> None:
     assert call(with_python, "bench --json").stdout.splitlines() == [
         "sets up: tests web vcan",
         "-m host_sim.lab.bench --json",
@@ -160,7 +160,7 @@ def test_failed_setup_runs_no_command(with_python: Path, tmp_path: Path) -> None
     assert (done.returncode, done.stdout, done.stderr) == (7, "", "")
 
 
-def test_a_python_that_is_too_old_is_named(sources: Path, tmp_path: Path) -> None:
+def test_outdated_python_is_refused_with_the_required_version(sources: Path, tmp_path: Path) -> None:
     source = (sources / "tools/launch.py").read_text()
     folder = shutil.copytree(sources, tmp_path / "tree")
     (folder / "tools/launch.py").write_text(source.replace("(3, 10)", "(4, 10)"))
@@ -169,7 +169,7 @@ def test_a_python_that_is_too_old_is_named(sources: Path, tmp_path: Path) -> Non
     assert done.stderr.startswith("octet: python3 must be 4.10 or newer; here it is 3.")
 
 
-def test_without_python_the_package_is_named(sources: Path, tmp_path: Path) -> None:
+def test_missing_python_is_reported_with_its_package(sources: Path, tmp_path: Path) -> None:
     for program in ("bash", "env", "dirname", "readlink"):
         (tmp_path / program).symlink_to(str(shutil.which(program)))
     done = call(sources, "run", PATH=str(tmp_path))
@@ -177,7 +177,7 @@ def test_without_python_the_package_is_named(sources: Path, tmp_path: Path) -> N
     assert done.stderr == "octet: python3 is missing. To install, as root: apt-get install python3\n"
 
 
-def test_the_words_of_the_command_line_are_those_that_are_generated() -> None:
+def test_words_of_the_command_line_match_the_generated_ones() -> None:
     assert words.NODE_MAX == generated.NODE_MAX
     assert list(words.PROFILES) == list(generated.PROFILES)
     described = read(PROTOCOL / "octet.dbc", PROTOCOL / "robot.toml").parameters
@@ -185,7 +185,7 @@ def test_the_words_of_the_command_line_are_those_that_are_generated() -> None:
     assert tuple(FAULTS) == FAULT_NAMES
 
 
-def test_a_package_that_is_gone_from_the_venv_is_one_line() -> None:
+def test_package_missing_from_the_venv_is_reported_in_one_line() -> None:
     without = "import runpy, sys; sys.modules['can'] = None; runpy.run_module('host_sim', run_name='__main__')"
     words = ("run", "--bus", "socketcan:nowhere")
     done = subprocess.run(
@@ -213,21 +213,21 @@ def programs(source: str) -> list[str]:
 BUILDS = re.compile(r'\[ROOT / "tools(/|" / ")(octet|run|setup|size)"')
 
 
-def test_no_test_builds_anew_what_others_run_meanwhile():
+def test_tests_do_not_rebuild_what_others_run_meanwhile():
     assert [path.name for path in (ROOT / "tests").rglob("test_*.py") if BUILDS.search(path.read_text())] == []
 
 
 @pytest.mark.parametrize("text", ['"tools/run", *words]', '"tools" / "size"]'])
-def test_a_test_that_builds_is_noticed(text):
+def test_line_of_a_test_that_builds_is_detected(text):
     assert BUILDS.search(f"[ROOT / {text}")
 
 
-def test_a_parser_without_a_name_is_found():
+def test_parser_without_a_name_is_found():
     assert programs("argparse.ArgumentParser(description=__doc__)") == [""]
 
 
 @pytest.mark.parametrize("name", TOOLS)
-def test_its_usage_begins_with_its_path(name):
+def test_usage_of_a_tool_begins_with_its_path(name):
     source = (ROOT / "tools" / name).read_text()
 
     assert set(programs(source)) <= {f"tools/{name}"}

@@ -59,34 +59,34 @@ def found_for(project: Path, changed: str) -> tuple[set[str], int]:
     return found[changed], farther
 
 
-def test_a_module_concerns_the_tests_nearest_to_it_and_the_others_are_counted(project):
+def test_changed_module_selects_its_nearest_tests_and_counts_the_others(project):
     assert found_for(project, "host_sim/world/near.py") == ({"tests/world/test_far.py"}, 1)
 
 
-def test_a_module_that_nobody_imports_concerns_the_tests_of_its_name(project):
+def test_module_that_nobody_imports_selects_the_tests_of_its_name(project):
     assert found_for(project, "host_sim/world/lonely.py") == ({"tests/world/test_lonely_things.py"}, 0)
 
 
-def test_a_test_that_has_changed_concerns_itself(project):
+def test_changed_test_selects_itself(project):
     found, _ = found_for(project, "tests/runs/test_far_runs.py")
 
     assert found == {"tests/runs/test_far_runs.py"}
 
 
-def test_a_file_concerns_the_tests_that_name_it_and_not_those_that_name_one_like_it(project):
+def test_changed_file_selects_only_tests_that_name_exactly_it(project):
     assert found_for(project, "tools/words") == ({"tests/tools/test_words.py"}, 0)
 
 
 @pytest.mark.parametrize("changed", ["core/storage.ts", "core/model.ts", "texts/de.json", "style.css"])
-def test_what_a_page_is_made_of_concerns_the_tests_of_the_page(project, changed):
+def test_source_of_a_page_selects_the_tests_of_the_page(project, changed):
     assert found_for(project, f"host_sim/web/{changed}") == ({"tests/web/test_page.py"}, 0)
 
 
-def test_a_file_of_no_page_concerns_no_test_of_a_page(project):
+def test_file_of_no_page_selects_no_test_of_a_page(project):
     assert found_for(project, "host_sim/web/core/alone.ts") == (set(), 0)
 
 
-def test_a_document_concerns_the_tests_of_the_documents(project):
+def test_document_selects_the_tests_of_the_documents(project):
     assert found_for(project, "docs/words.md") == ({"tests/docs/test_links.py"}, 0)
 
 
@@ -102,11 +102,11 @@ def test_a_document_concerns_the_tests_of_the_documents(project):
         ("LICENSE", (), (), False),
     ],
 )
-def test_a_changed_file_of_code_without_a_test_is_named(path, tests, of_c, is_named):
+def test_changed_code_without_a_test_is_named(path, tests, of_c, is_named):
     assert quick.untested({path: set(tests)}, set(of_c)) == [path] * is_named
 
 
-def test_a_changed_file_without_a_test_ends_with_exit_code_1(monkeypatch, capsys):
+def test_changed_code_without_a_test_ends_with_exit_code_1(monkeypatch, capsys):
     monkeypatch.setattr(quick, "changed_files", lambda _root: ["host_sim/alone.ts"])
     monkeypatch.setattr(quick, "python_tests", lambda _root, _changed: ({"host_sim/alone.ts": set()}, 0))
     monkeypatch.setattr(quick, "run_stages", lambda _stages, _arguments: 0)
@@ -138,7 +138,7 @@ def test_new_and_changed_files_count_as_changed(project):
     ],
 )
 @pytest.mark.parametrize("name", ["here", "in a folder"])
-def test_a_c_source_concerns_the_tests_that_are_made_of_it(name, changed, tests, tmp_path, monkeypatch):
+def test_c_source_selects_the_tests_built_from_it(name, changed, tests, tmp_path, monkeypatch):
     build = tmp_path / name / "build/host-san"
     build.mkdir(parents=True)
     source = tmp_path / name
@@ -151,12 +151,12 @@ def test_a_c_source_concerns_the_tests_that_are_made_of_it(name, changed, tests,
 
 
 @pytest.mark.parametrize(("test", "is_one"), [("slcan", True), ("link_contract_fd", True), ("slcan_decoder2", False)])
-def test_each_test_of_a_program_is_run(test, is_one):
+def test_selection_matches_all_tests_of_a_program(test, is_one):
     assert bool(re.search(quick.selection(["slcan", "link_contract"]), test)) == is_one
 
 
 @pytest.mark.parametrize("changed", ["hal/protocol/octet.dbc", "hal/protocol/robot.toml", "hal/link/slcan.c"])
-def test_what_c_is_made_of_is_tested_in_c(changed, monkeypatch):
+def test_source_of_c_code_selects_the_c_stage(changed, monkeypatch):
     monkeypatch.setattr(quick, "set_up", lambda stages: stages)
     monkeypatch.setattr(affected, "c_tests", lambda _build, _changed: ["one"])
 
@@ -173,5 +173,5 @@ def test_what_c_is_made_of_is_tested_in_c(changed, monkeypatch):
         ("studies", "tests/web/test_types.py", False),
     ],
 )
-def test_a_stage_has_the_tests_of_its_folders_that_no_other_stage_names(name, test, is_one):
+def test_stage_has_the_tests_of_its_folders_that_no_other_stage_names(name, test, is_one):
     assert stage_paths.is_of(name, test) == is_one

@@ -61,7 +61,7 @@ def missing(folder: Path) -> list[str]:
     return lines
 
 
-def test_nothing_is_missing_of_a_checkout_that_can_be_released(checkout):
+def test_releasable_checkout_lacks_nothing(checkout):
     assert missing(checkout) == []
 
 
@@ -75,7 +75,7 @@ def test_nothing_is_missing_of_a_checkout_that_can_be_released(checkout):
         ("pyproject.toml", 'version = "2.2"\n', "wheels"),
     ],
 )
-def test_a_file_that_names_another_version_is_found(checkout, name, text, title):
+def test_file_with_another_version_is_found(checkout, name, text, title):
     write(checkout, name, text)
     commit(checkout, "tools: change one")
 
@@ -83,20 +83,20 @@ def test_a_file_that_names_another_version_is_found(checkout, name, text, title)
 
 
 @pytest.mark.parametrize("subject", ["Change something", "tools: " + "x" * 66, "Tools: change one"])
-def test_a_subject_that_is_not_as_agreed_is_found(checkout, subject):
+def test_malformed_commit_subject_is_found(checkout, subject):
     commit(checkout, subject)
 
     assert missing(checkout) == ["subjects of commits"]
 
 
-def test_uncommitted_changes_and_the_tag_are_found(checkout):
+def test_uncommitted_changes_and_an_existing_tag_are_found(checkout):
     git(checkout, "tag", "v2.1")
     write(checkout, "README.md", "more\n")
 
     assert missing(checkout) == ["no uncommitted changes", "no tag yet"]
 
 
-def test_this_checkout_has_one_version_and_subjects_as_agreed():
+def test_project_has_one_version_and_well_formed_subjects():
     assert {"one version everywhere", "subjects of commits"}.isdisjoint(missing(ROOT))
 
 
@@ -176,11 +176,11 @@ RIGHT = ["1 1 1", "10"]
 """Blocked in front, the robot turns left; blocked front-left, the brain turns right by ten degrees."""
 
 
-def test_a_project_fetches_the_robot(tmp_path):
+def test_foreign_project_fetches_the_robot(tmp_path):
     assert outcome(tmp_path, FETCHED) == RIGHT
 
 
-def test_a_project_finds_the_installed_robot(tmp_path):
+def test_foreign_project_finds_the_installed_robot(tmp_path):
     (commands,) = re.findall(r"^```sh by-hand\n(cmake -B build/package .*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
     prefix = tmp_path / "prefix"
     for line in commands.replace("build/package", str(tmp_path / "package")).splitlines():
@@ -197,18 +197,18 @@ def test_a_project_finds_the_installed_robot(tmp_path):
 
 
 @pytest.mark.parametrize("how", [FETCHED + "add_subdirectory(none)\n", "find_package(Octet 2.0 REQUIRED)\n"])
-def test_what_is_not_there_is_not_found(tmp_path, how):
+def test_foreign_project_fails_on_a_missing_folder_or_version(tmp_path, how):
     with pytest.raises(AssertionError):
         outcome(tmp_path, how)
 
 
-def test_each_build_tells_editors_how_it_compiles():
+def test_build_tells_editors_how_it_compiles():
     entries = json.loads((ROOT / "build/host/compile_commands.json").read_text())
 
     assert {"robot.c", "exchange.c", "world.c"} <= {Path(entry["file"]).name for entry in entries}
 
 
-def test_a_fresh_clone_says_what_to_run_first(tmp_path):
+def test_fresh_clone_says_to_run_setup_first(tmp_path):
     clone, programs = tmp_path / "a clone", tmp_path / "bin"
     subprocess.run(["git", "clone", "-q", "--shared", ROOT, clone], check=True)
     programs.mkdir()
@@ -222,7 +222,7 @@ def test_a_fresh_clone_says_what_to_run_first(tmp_path):
     assert "run tools/setup first" in " ".join(done.stderr.split())
 
 
-def test_with_its_environment_a_fresh_clone_configures(tmp_path):
+def test_fresh_clone_with_its_venv_configures(tmp_path):
     clone = tmp_path / "a clone"
     subprocess.run(["git", "clone", "-q", "--shared", ROOT, clone], check=True)
     (clone / ".venv").symlink_to(ROOT / ".venv")
@@ -246,7 +246,7 @@ def script(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     return module
 
 
-def test_there_is_no_gap(script, capsys):
+def test_requirements_have_no_gap(script, capsys):
     result = script.main()
     out, err = capsys.readouterr()
 
@@ -265,7 +265,7 @@ def test_there_is_no_gap(script, capsys):
         ("- **", "- ", "requirements.md has no requirement"),
     ],
 )
-def test_a_gap_is_named(script, capsys, before, after, complaint):
+def test_gap_in_the_requirements_is_named(script, capsys, before, after, complaint):
     assert before in REQUIREMENTS
     script.PAGE.write_text(REQUIREMENTS.replace(before, after))
 
@@ -273,7 +273,7 @@ def test_a_gap_is_named(script, capsys, before, after, complaint):
     assert complaint in capsys.readouterr().err.splitlines()
 
 
-def test_a_requirement_without_a_test_is_named(script, capsys):
+def test_requirement_without_a_test_is_named(script, capsys):
     item = REQUIREMENTS[REQUIREMENTS.index("- **C1**") :]
     tests = item[item.index("Tests:") : item.index("- **C2**")]
     script.PAGE.write_text(REQUIREMENTS.replace(tests, "\n"))
@@ -282,13 +282,13 @@ def test_a_requirement_without_a_test_is_named(script, capsys):
     assert "C1: names no test" in capsys.readouterr().err.splitlines()
 
 
-def test_a_call_and_a_declaration_are_no_definition(script, tmp_path):
+def test_call_and_declaration_are_no_definition(script, tmp_path):
     (tmp_path / "a.c").write_text("int one(void);\nint two(void)\n{\n    return one();\n}\n")
 
     assert script.functions(tmp_path, ["*.c"]).keys() == {"two"}
 
 
-def test_a_c_test_is_a_definition(script, tmp_path):
+def test_c_test_is_a_definition(script, tmp_path):
     (tmp_path / "a.c").write_text("TEST(one)\n{\n}\nTEST_IF(two, is_pair)\n{\n    TEST_ASSERT(1);\n}\n")
 
     assert script.functions(tmp_path, ["*.c"]).keys() == {"test_one", "test_two"}

@@ -34,13 +34,13 @@ def rooms(tmp_path):
     return tmp_path, run
 
 
-def test_a_checkout_without_changes_differs_in_no_room(rooms):
+def test_unchanged_checkout_differs_in_no_room(rooms):
     _, run = rooms
 
     assert run() == {"product": ["2", "15", "5", "+0", "+0", "+0"], "tests": ["0", "0", "0", "+0", "+0", "+0"]}
 
 
-def test_a_commit_that_does_not_exist_is_refused_in_one_line(rooms):
+def test_unknown_commit_is_refused_in_one_line(rooms):
     path, _ = rooms
 
     done = subprocess.run([path / "tools/rooms", "--since", "nonsense"], capture_output=True, text=True, check=False)
@@ -48,7 +48,7 @@ def test_a_commit_that_does_not_exist_is_refused_in_one_line(rooms):
     assert (done.returncode, done.stderr) == (2, "tools/rooms: there is no commit nonsense: see git log\n")
 
 
-def test_each_room_counts_files_lines_and_statements(rooms):
+def test_room_counts_files_lines_and_statements(rooms):
     _, run = rooms
 
     assert run("--all")["host_sim/world"] == ["1", "8", "2", "+0", "+0", "+0"]
@@ -98,7 +98,7 @@ def judge(command: tuple[str, ...], path: Path) -> int:
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_a_fault_is_found(folder, name):
+def test_stage_command_finds_a_fault(folder, name):
     path = folder / "planted.py"
     path.write_text(FINE.get(name, '"""A module."""\n'))
     assert judge(COMMANDS[name], path) == 0
@@ -109,7 +109,7 @@ def test_a_fault_is_found(folder, name):
 
 
 @pytest.mark.parametrize("stage", ["extend-include", "files"])
-def test_every_script_in_python_is_checked(stage):
+def test_python_scripts_are_all_checked(stage):
     named = re.search(rf"^{stage} = \[(.*)\]$", (ROOT / "pyproject.toml").read_text(), re.MULTILINE)
     scripts = [
         it
@@ -122,7 +122,7 @@ def test_every_script_in_python_is_checked(stage):
     assert {f'"tools/{it.name}"' for it in scripts if not it.suffix} <= set(named[1].split(", "))
 
 
-def test_every_script_for_a_shell_is_checked():
+def test_shell_scripts_are_all_checked():
     scripts = [it for it in (ROOT / "tools").iterdir() if it.is_file() and b"bash\n" in it.read_bytes()[:25]]
 
     assert {f"tools/{it.name}" for it in scripts} <= set(COMMANDS["shellchecktools/setup"])

@@ -21,21 +21,21 @@ def tree(tmp_path: Path) -> Tree:
     return Tree(tmp_path)
 
 
-def test_the_first_call_sets_up_and_names_each_step(tree: Tree) -> None:
+def test_first_call_sets_up_and_names_each_step(tree: Tree) -> None:
     done, calls = tree.setup()
     assert done.returncode == 0
     assert {"python3", "python", "cmake", "esbuild", "ninja"} == set(calls)
     assert [line.split()[1] for line in done.stderr.splitlines()] == ["installing", "registering", "building"]
 
 
-def test_the_second_call_only_asks_ninja_and_says_nothing(tree: Tree) -> None:
+def test_second_call_only_asks_ninja_and_prints_nothing(tree: Tree) -> None:
     tree.setup()
     done, calls = tree.setup()
     assert calls == ["ninja"]
     assert done.stdout + done.stderr == ""
 
 
-def test_a_module_of_the_pages_that_changed_is_bundled_anew(tree: Tree) -> None:
+def test_changed_module_of_the_pages_is_bundled_anew(tree: Tree) -> None:
     tree.setup()
     (tree.folder / "host_sim/web/page.ts").write_text("export const page = 1;\n")
 
@@ -43,21 +43,21 @@ def test_a_module_of_the_pages_that_changed_is_bundled_anew(tree: Tree) -> None:
     assert tree.setup()[1] == ["ninja"]
 
 
-def test_the_stages_that_read_sources_only_need_no_compiler(tree: Tree) -> None:
+def test_stages_that_only_read_sources_need_no_compiler(tree: Tree) -> None:
     for stage in ("lint", "types"):
         done, calls = tree.setup(stage)
         assert done.returncode == 0
         assert "cmake" not in calls
 
 
-def test_the_stages_of_c_tests_build_what_they_run_and_no_image(tree: Tree) -> None:
+def test_c_stage_builds_its_tests_and_no_image(tree: Tree) -> None:
     done, _ = tree.setup("c")
     assert done.returncode == 0
     assert tree.built() == ["build/host-san"]
     assert (tree.folder / "build/unity/unity.c").exists()
 
 
-def test_what_is_fetched_is_newer_than_what_was_built_from_an_older_one(tree: Tree) -> None:
+def test_fetched_source_has_the_time_of_its_fetch(tree: Tree) -> None:
     tree.setup("c")
     began = (tree.folder / "build/setup.lock").stat().st_mtime
     assert (tree.folder / "build/unity/unity.c").stat().st_mtime >= began
@@ -71,14 +71,14 @@ def test_warnings_are_errors_from_the_first_stage_of_tests_on(tree: Tree) -> Non
     assert "cmake" not in tree.setup("c")[1]
 
 
-def test_a_warning_of_a_compiler_is_shown_and_goes_on(tree: Tree) -> None:
+def test_compiler_warning_is_shown_and_stops_nothing(tree: Tree) -> None:
     (tree.bin / "ninja").write_text(STAND_IN + 'echo "[1/2] cc x.c"; echo "x.c:1:5: warning: unused"\n')
     done, _ = tree.setup("run")
     assert done.returncode == 0
     assert done.stderr.splitlines()[-1] == "x.c:1:5: warning: unused"
 
 
-def test_what_is_compiled_is_said_once_for_each_folder(tree: Tree) -> None:
+def test_compilation_is_announced_once_for_each_folder(tree: Tree) -> None:
     tree.setup("images")
     (tree.bin / "ninja").write_text(STAND_IN + 'echo "[1/2] Building x.o"; echo "[2/2] Building y.o"\n')
 
@@ -89,7 +89,7 @@ def test_what_is_compiled_is_said_once_for_each_folder(tree: Tree) -> None:
     assert said == [f"octet: compiling in build/{board}, which takes a while" for board in boards]
 
 
-def test_a_toolchain_that_changed_is_configured_anew(tree: Tree) -> None:
+def test_changed_toolchain_file_is_configured_anew(tree: Tree) -> None:
     tree.setup("images")
     (tree.folder / "tools/cmake/wasm32.cmake").write_text("# another one")
 
@@ -98,7 +98,7 @@ def test_a_toolchain_that_changed_is_configured_anew(tree: Tree) -> None:
     assert sorted(tree.built()) == ["build/blue_pill", "build/feather_stm32f405", "build/nucleo_g431rb", "build/pico"]
 
 
-def test_a_build_that_fails_fails_the_set_up_and_the_others_end(tree: Tree) -> None:
+def test_failed_build_fails_the_setup_and_lets_the_others_end(tree: Tree) -> None:
     (tree.bin / "cmake").write_text(STAND_IN + '[ "$2" != build/blue_pill ]\n')
     done, _ = tree.setup("images")
     assert done.returncode == 1
@@ -106,7 +106,7 @@ def test_a_build_that_fails_fails_the_set_up_and_the_others_end(tree: Tree) -> N
     assert not (tree.folder / "build/blue_pill/stamp").exists()
 
 
-def test_an_interrupted_set_up_is_repaired(tree: Tree) -> None:
+def test_interrupted_setup_is_repaired(tree: Tree) -> None:
     with tree.offline("requirements/run.lock"):
         assert tree.setup()[0].returncode != 0
     done, calls = tree.setup()
@@ -114,7 +114,7 @@ def test_an_interrupted_set_up_is_repaired(tree: Tree) -> None:
     assert calls.count("cmake") == 1
 
 
-def test_an_interrupted_compilation_is_not_reported_as_a_failure(tree: Tree) -> None:
+def test_interrupted_compilation_is_not_reported_as_a_failure(tree: Tree) -> None:
     (tree.bin / "ninja").write_text("#!/bin/sh\necho 'ninja: build stopped'\nkill -INT 0\nexit 130\n")
     done = subprocess.run(
         [tree.folder / "tools/setup"],
@@ -132,7 +132,7 @@ def test_an_interrupted_compilation_is_not_reported_as_a_failure(tree: Tree) -> 
     assert "build stopped" not in done.stderr
 
 
-def test_without_a_network_the_last_line_says_what_to_do_and_nothing_is_left_of_the_call(tree: Tree) -> None:
+def test_setup_without_a_network_says_what_to_do_and_leaves_nothing(tree: Tree) -> None:
     with tree.offline("requirements/run.lock"):
         done, _ = tree.setup()
 
@@ -144,7 +144,7 @@ def test_without_a_network_the_last_line_says_what_to_do_and_nothing_is_left_of_
     assert [path.name for path in tree.folder.glob("build/setup.*")] == ["setup.lock"]
 
 
-def test_a_moved_folder_is_repaired_without_a_network(tree: Tree) -> None:
+def test_moved_folder_is_repaired_without_a_network(tree: Tree) -> None:
     tree.setup()
     tree.folder = tree.folder.rename(tree.folder.with_name("moved"))
     done, calls = tree.setup()
@@ -153,7 +153,7 @@ def test_a_moved_folder_is_repaired_without_a_network(tree: Tree) -> None:
     assert "cmake" in calls
 
 
-def test_scripts_run_where_they_end_up_and_after_each_move(tree: Tree) -> None:
+def test_scripts_of_the_venv_run_after_each_move(tree: Tree) -> None:
     for name in ("there", "a tree again", "there"):
         tree.setup()
         script = tree.folder / ".venv/bin/script"
@@ -163,14 +163,14 @@ def test_scripts_run_where_they_end_up_and_after_each_move(tree: Tree) -> None:
         tree.folder = tree.folder.rename(tree.folder.with_name(name))
 
 
-def test_a_changed_lock_file_is_installed(tree: Tree) -> None:
+def test_changed_lock_file_is_installed(tree: Tree) -> None:
     tree.setup()
     tree.change("requirements/run.lock")
     tree.setup()
     assert tree.installed() == ["requirements/run.lock"]
 
 
-def test_a_working_venv_stays_until_the_new_one_is_whole(tree: Tree) -> None:
+def test_working_venv_stays_until_the_new_one_is_complete(tree: Tree) -> None:
     tree.setup()
     (tree.folder / ".venv/old").touch()
     tree.change("requirements/run.lock")
@@ -181,7 +181,7 @@ def test_a_working_venv_stays_until_the_new_one_is_whole(tree: Tree) -> None:
     assert not (tree.folder / ".venv/old").exists()
 
 
-def test_a_swap_that_was_broken_off_is_undone(tree: Tree) -> None:
+def test_interrupted_swap_of_the_venv_is_undone(tree: Tree) -> None:
     tree.setup()
     (tree.folder / ".venv").rename(tree.folder / ".venv.old")
     tree.setup()
@@ -189,14 +189,14 @@ def test_a_swap_that_was_broken_off_is_undone(tree: Tree) -> None:
     assert (tree.folder / ".venv").exists()
 
 
-def test_a_stage_installs_only_what_it_needs(tree: Tree) -> None:
+def test_stage_installs_only_what_it_needs(tree: Tree) -> None:
     tree.setup("emulator")
     assert tree.installed() == ["requirements/run.lock", "requirements/emulator.lock"]
     assert tree.setup("emulator")[1] == ["ninja"]
 
 
 @pytest.mark.parametrize("name", ["export", "study"])
-def test_extra_libraries_stand_apart_and_are_installed_once(tree: Tree, name: str) -> None:
+def test_extra_libraries_have_their_own_folder_and_are_installed_once(tree: Tree, name: str) -> None:
     tree.setup(name)
     assert tree.installed() == ["requirements/run.lock", f"requirements/{name}.lock"]
     (line,) = [line for line in tree.calls.read_text().splitlines() if line.endswith(f" requirements/{name}.lock")]
@@ -204,14 +204,14 @@ def test_extra_libraries_stand_apart_and_are_installed_once(tree: Tree, name: st
     assert tree.setup(name)[1] == ["ninja"]
 
 
-def test_a_cluster_is_for_studies(tree: Tree) -> None:
+def test_cluster_stage_installs_studies_too(tree: Tree) -> None:
     tree.setup("cluster")
     first, *both = tree.installed()
     assert first == "requirements/run.lock"
     assert sorted(both) == ["requirements/cluster.lock", "requirements/study.lock"]
 
 
-def test_exports_whose_installation_was_broken_off_are_installed_again(tree: Tree) -> None:
+def test_interrupted_installation_of_exports_is_repeated(tree: Tree) -> None:
     with tree.offline("requirements/export.lock"):
         assert tree.setup("export")[0].returncode != 0
     assert tree.setup("run")[1] == ["ninja"]
@@ -219,13 +219,13 @@ def test_exports_whose_installation_was_broken_off_are_installed_again(tree: Tre
     assert tree.installed() == ["requirements/export.lock"]
 
 
-def test_a_later_stage_adds_to_what_is_there(tree: Tree) -> None:
+def test_later_stage_adds_to_the_installed_ones(tree: Tree) -> None:
     tree.setup("run")
     tree.setup("emulator")
     assert tree.installed() == ["requirements/emulator.lock"]
 
 
-def test_a_new_venv_has_the_stages_of_the_old_one(tree: Tree) -> None:
+def test_new_venv_has_the_stages_of_the_old_one(tree: Tree) -> None:
     tree.setup("emulator")
     tree.change("requirements/run.lock")
     tree.setup("run")
@@ -233,7 +233,7 @@ def test_a_new_venv_has_the_stages_of_the_old_one(tree: Tree) -> None:
     assert tree.setup("emulator")[1] == ["ninja"]
 
 
-def test_a_stage_that_was_broken_off_is_resumed(tree: Tree) -> None:
+def test_interrupted_stage_is_resumed(tree: Tree) -> None:
     with tree.offline("requirements/emulator.lock"):
         assert tree.setup("emulator")[0].returncode != 0
     assert tree.setup("run")[1] == ["ninja"]
@@ -241,7 +241,7 @@ def test_a_stage_that_was_broken_off_is_resumed(tree: Tree) -> None:
     assert tree.installed() == ["requirements/emulator.lock"]
 
 
-def test_a_stage_that_does_not_exist_is_answered_with_those_there_are(tree: Tree) -> None:
+def test_unknown_stage_is_answered_with_the_known_ones(tree: Tree) -> None:
     done, calls = tree.setup("run", "tets")
     assert done.returncode == 2
     assert calls == []
@@ -255,7 +255,7 @@ def test_help_lists_the_stages_and_sets_nothing_up(tree: Tree, word: str) -> Non
     assert "page:" in done.stdout
 
 
-def test_what_cannot_be_installed_is_named_with_the_command(tree: Tree) -> None:
+def test_uninstallable_packages_are_named_with_the_command(tree: Tree) -> None:
     for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "readlink", "rm"):
         (tree.bin / name).symlink_to(str(shutil.which(name)))
     for name in ("cmake", *INSTALLERS):
@@ -265,13 +265,13 @@ def test_what_cannot_be_installed_is_named_with_the_command(tree: Tree) -> None:
     assert "apt-get install gcc cmake\n" in done.stderr
 
 
-def test_packages_alone_are_installed_without_a_venv_or_a_build(tree: Tree) -> None:
+def test_packages_option_needs_no_venv_and_no_build(tree: Tree) -> None:
     done, calls = tree.setup("--packages", "c")
     assert (done.returncode, set(calls) - {"python3"}) == (0, set())  # python3 is asked whether it can make a venv
     assert not (tree.folder / ".venv").exists()
 
 
-def test_packages_alone_that_cannot_be_installed_are_named(tree: Tree) -> None:
+def test_packages_option_names_uninstallable_packages(tree: Tree) -> None:
     for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "readlink", "rm"):
         (tree.bin / name).symlink_to(str(shutil.which(name)))
     for name in ("cmake", *INSTALLERS):
@@ -281,7 +281,7 @@ def test_packages_alone_that_cannot_be_installed_are_named(tree: Tree) -> None:
     assert "apt-get install gcc cmake\n" in done.stderr
 
 
-def test_packages_whose_installation_was_killed_are_installed_by_the_next_call(tree: Tree) -> None:
+def test_killed_installation_of_packages_is_repeated_by_the_next_call(tree: Tree) -> None:
     for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "mktemp", "readlink", "rm", "sed", "cp"):
         (tree.bin / name).symlink_to(str(shutil.which(name)))
     gcc = tree.bin / "gcc"
@@ -297,7 +297,7 @@ def test_packages_whose_installation_was_killed_are_installed_by_the_next_call(t
     assert [done.stderr for done, _ in ended[1:]] == ["octet: installing gcc with apt-get\n", ""]
 
 
-def test_a_set_up_that_is_somebody_elses_is_said_in_a_line_with_whose_it_is(tree: Tree) -> None:
+def test_incomplete_setup_of_another_user_is_reported_with_its_owner(tree: Tree) -> None:
     with TemporaryDirectory() as place:  # whose path, unlike tmp_path's, is open to others
         folder = Path(shutil.copytree(tree.folder / "tools", Path(place) / "tools")).parent
         shutil.copytree(tree.folder / "requirements", folder / "requirements")
@@ -316,7 +316,7 @@ def test_a_set_up_that_is_somebody_elses_is_said_in_a_line_with_whose_it_is(tree
 
 
 @pytest.mark.parametrize(("changed", "code"), [("", 0), ("firmware/robot.c", 1)])
-def test_a_set_up_of_somebody_else_can_be_used_while_it_is_whole(tree: Tree, changed: str, code: int) -> None:
+def test_setup_of_another_user_can_be_used_while_it_is_complete(tree: Tree, changed: str, code: int) -> None:
     with TemporaryDirectory() as place:  # whose path is open to others
         tree.folder = Path(shutil.move(tree.folder, Path(place) / "a tree"))
         tree.setup()
@@ -338,7 +338,7 @@ def test_a_set_up_of_somebody_else_can_be_used_while_it_is_whole(tree: Tree, cha
     assert ("something is missing there" in done.stderr) == bool(changed)
 
 
-def test_settings_of_pip_that_install_elsewhere_do_not_count(tree: Tree) -> None:
+def test_settings_of_pip_that_install_elsewhere_are_ignored(tree: Tree) -> None:
     stand_in = tree.bin / "python3"
     stand_in.write_text(stand_in.read_text() + '[[ "$*" != *install* ]] || env >"$CALLS.env"\n')
     tree.environment = {"PIP_USER": "1", "PIP_TARGET": "/elsewhere", "PIP_CONSTRAINT": "/none", "PIP_CACHE_DIR": "/c"}
@@ -353,7 +353,7 @@ def test_settings_of_pip_that_install_elsewhere_do_not_count(tree: Tree) -> None
     ]
 
 
-def test_a_tree_registered_under_an_earlier_name_has_one_distribution_again(tree: Tree) -> None:
+def test_tree_registered_under_an_earlier_name_has_one_distribution_again(tree: Tree) -> None:
     tree.setup()
     shutil.rmtree(tree.folder / ".venv/lib")
     packages = tree.folder / ".venv/lib/python3.11/site-packages"
@@ -374,7 +374,7 @@ def test_a_tree_registered_under_an_earlier_name_has_one_distribution_again(tree
     assert ours.entry_points["octet"].group == "can.interface"
 
 
-def test_python_finds_this_folder_whatever_its_path_and_the_locale(tmp_path: Path) -> None:
+def test_python_finds_a_folder_with_umlauts_in_the_c_locale(tmp_path: Path) -> None:
     folder = tmp_path / "\u00fcml\u00e4ut"
     folder.mkdir()
     (folder / "octet_here.py").touch()

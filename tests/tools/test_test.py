@@ -20,7 +20,7 @@ def project(tmp_path: Path) -> Project:
     return Project(tmp_path)
 
 
-def test_tests_that_pass_are_counted(project):
+def test_passed_tests_are_counted(project):
     project.python_tests(PASSES, PASSES, PASSES)
     project.c_tests(one="true", two="true")
 
@@ -29,7 +29,7 @@ def test_tests_that_pass_are_counted(project):
     assert (code, last(said)) == (0, "5 passed, 0 failed")
 
 
-def test_tests_that_do_not_pass_are_counted_as_failed(project):
+def test_failed_and_skipped_tests_are_counted_as_failed(project):
     project.python_tests(PASSES, FAILS, SKIPS, TEARDOWN_FAILS)
 
     code, said = project.run("python")
@@ -37,7 +37,7 @@ def test_tests_that_do_not_pass_are_counted_as_failed(project):
     assert (code, last(said)) == (1, "1 passed, 3 failed")
 
 
-def test_a_file_that_cannot_be_read_is_counted_as_failed(project):
+def test_broken_test_file_is_counted_as_failed(project):
     project.python_tests(PASSES, BROKEN)
 
     code, said = project.run("python")
@@ -46,7 +46,7 @@ def test_a_file_that_cannot_be_read_is_counted_as_failed(project):
     assert last(said).endswith(", 1 failed")
 
 
-def test_a_skip_that_the_caller_allowed_is_named(project):
+def test_allowed_skip_is_named(project):
     project.python_tests(PASSES, SKIPS)
 
     code, said = project.run("python", "--allow-missing=bus")
@@ -55,7 +55,7 @@ def test_a_skip_that_the_caller_allowed_is_named(project):
     assert "skipped, as allowed: tests/test_1.py::test_that_skips: bus: there is none" in said
 
 
-def test_a_c_test_that_fails_is_counted(project):
+def test_failed_c_test_is_counted(project):
     project.c_tests(one="true", two="false", three="true")
 
     code, said = project.run("c")
@@ -63,7 +63,7 @@ def test_a_c_test_that_fails_is_counted(project):
     assert (code, last(said)) == (1, "2 passed, 1 failed")
 
 
-def test_a_program_that_ends_during_a_test_as_if_all_were_well_fails(project):
+def test_exit_during_a_test_as_if_all_were_well_fails_the_stage(project):
     project.python_tests(PASSES, ENDS, PASSES)
     script = project.stages()
     report = script.REPORTS / "bus.jsonl"
@@ -80,7 +80,7 @@ def test_a_program_that_ends_during_a_test_as_if_all_were_well_fails(project):
 
 
 @pytest.mark.parametrize("stage", ["c", "python"])
-def test_a_stage_without_a_test_fails(stage, project):
+def test_stage_without_a_test_fails(stage, project):
     project.c_tests()
 
     code, said = project.run(stage)
@@ -88,7 +88,7 @@ def test_a_stage_without_a_test_fails(stage, project):
     assert (code, last(said)) == (1, "0 passed, 1 failed")
 
 
-def test_a_stage_whose_tests_are_only_listed_fails(project, monkeypatch):
+def test_stage_whose_tests_are_only_collected_fails(project, monkeypatch):
     monkeypatch.setenv("PYTEST_ADDOPTS", "--collect-only")
     project.python_tests(PASSES)
 
@@ -97,7 +97,7 @@ def test_a_stage_whose_tests_are_only_listed_fails(project, monkeypatch):
     assert (code, last(said)) == (1, "0 passed, 1 failed")
 
 
-def test_other_stages_run_beside_the_python_tests_and_their_output_stays_together(project):
+def test_stages_beside_the_python_tests_keep_their_output_together(project):
     ended = project.folder / "ended"
     project.c_tests(one=f"touch '{ended}'")
     project.python_tests(WAITS.format(note=str(ended)))
@@ -109,7 +109,7 @@ def test_other_stages_run_beside_the_python_tests_and_their_output_stays_togethe
     assert said.index("\n== c\n") < said.index("100% tests passed") < said.index("1 passed in")
 
 
-def test_a_stage_whose_set_up_fails_is_not_run_and_the_others_are(project):
+def test_stage_whose_setup_fails_is_not_run_and_the_others_are(project):
     project.program("tools/setup", '[[ " $* " != *" python "* ]]')
     project.c_tests(one="true")
 
@@ -129,14 +129,14 @@ def test_repeated_runs_are_counted_and_those_that_failed_are_numbered(project):
     assert (code, last(said)) == (1, "1 of 3 runs passed; failed: 2, 3")
 
 
-def test_busy_loops_end_with_what_they_are_beside(project):
+def test_busy_loops_end_with_the_runs_beside_them(project):
     with project.stages().busy(2) as loops:
         assert [loop.poll() for loop in loops] == [None, None]
 
     assert [loop.returncode for loop in loops] == [-signal.SIGKILL] * 2
 
 
-def test_each_stage_is_set_up_for_itself_alone(project):
+def test_setup_is_called_only_for_the_requested_stage(project):
     asked = project.folder / "asked"
     project.program("tools/setup", f"echo \"$@\" >>'{asked}'")
     project.c_tests(one="true")
@@ -146,7 +146,7 @@ def test_each_stage_is_set_up_for_itself_alone(project):
     assert asked.read_text() == "c\n"
 
 
-def test_a_stage_of_tools_prove_that_cannot_be_set_up_costs_no_other(project):
+def test_stage_of_prove_whose_setup_fails_stops_no_other(project):
     project.program("tools/setup", '[[ " $* " != *" eva "* ]]')
     test = project.folder / "tests/proof/test_fuzz.py"
     test.parent.mkdir(exist_ok=True)
@@ -159,7 +159,7 @@ def test_a_stage_of_tools_prove_that_cannot_be_set_up_costs_no_other(project):
     assert project.run("eva", "fuzz", "--allow-missing=eva", tool="prove")[0] == 0
 
 
-def test_while_one_stage_of_tools_prove_takes_long_the_next_ones_run_beside_it(project):
+def test_stages_of_prove_run_beside_a_long_one(project):
     ended = project.folder / "ended"
     notes = f"import pathlib\ndef test_that_notes():\n    pathlib.Path({str(ended)!r}).touch()\n"
     for folder, text in {"campaign": WAITS.format(note=str(ended)), "study": PASSES, "export": notes}.items():
@@ -173,7 +173,7 @@ def test_while_one_stage_of_tools_prove_takes_long_the_next_ones_run_beside_it(p
 
 
 @pytest.mark.parametrize("path", stage_paths.named())
-def test_what_a_stage_is_to_run_exists(path):
+def test_path_of_a_stage_exists(path):
     assert (ROOT / path).exists()
 
 
@@ -184,7 +184,7 @@ def test_tools_setup_has_each_stage():
     assert proving.split() == list(stage_paths.PROVE)
 
 
-def test_each_test_has_one_stage():
+def test_test_files_belong_to_one_stage_each():
     files = [path.relative_to(ROOT).as_posix() for path in (ROOT / "tests").rglob("test_*.py")]
     named = set(stage_paths.named())
     assert len(named) == len(stage_paths.named())
@@ -193,7 +193,7 @@ def test_each_test_has_one_stage():
     assert {path: own for path, own in stages.items() if len(own) > 1} == {}
 
 
-def test_what_a_stage_names_within_the_folder_of_another_is_left_out_there(project):
+def test_path_of_another_stage_is_left_out_of_a_folder(project):
     project.program(".venv/bin/mypy", "exit 0")
     files = {"web/test_browsers": FAILS, "web/test_pages": PASSES, "report/test_laboratory": PASSES}
     for name, text in files.items():

@@ -43,21 +43,21 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Finished:
     return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
 
 
-def test_the_exit_code_comes_through(finished: Finished) -> None:
+def test_exit_code_of_the_command_is_returned(finished: Finished) -> None:
     assert finished.returncode == 3
 
 
-def test_arguments_folder_and_environment_come_through(finished: Finished) -> None:
+def test_arguments_folder_and_environment_reach_the_command(finished: Finished) -> None:
     assert finished.stdout.startswith('<a b\'c><><$HOME "*"\n></')
     assert re.search(r"/a folder\d><two\nlines>$", finished.stdout)
 
 
-def test_the_bus_is_there_and_nothing_else_is_in_the_error_output(finished: Finished) -> None:
+def test_bus_exists_and_error_output_has_nothing_else(finished: Finished) -> None:
     assert finished.stderr.startswith("vcan0 ")
     assert finished.stderr.count("\n") == 1
 
 
-def test_a_quarter_of_a_megabyte_comes_through_unharmed() -> None:
+def test_output_of_256_kib_is_unchanged() -> None:
     data = "".join(f"{number:015}\n" for number in range(16384))
     script = "for number in range(16384): print(f'{number:015}')"
     assert subprocess.check_output([WITH_VCAN, "python3", "-c", script], text=True) == data
@@ -75,7 +75,7 @@ until [ -e {other}.said ]; do sleep 0.05; done
 """
 
 
-def test_two_at_once_do_not_hear_each_other(tmp_path: Path) -> None:
+def test_simultaneous_calls_have_separate_buses(tmp_path: Path) -> None:
     names = ("101", "102")
     scripts = [TALK.format(me=me, other=other) for me, other in (names, names[::-1])]
 
@@ -99,7 +99,7 @@ def test_with_vcan_ends_the_processes_that_it_started(tmp_path: Path) -> None:
     assert soon(lambda: not any(alive(pid) for pid in family))
 
 
-def test_the_next_call_removes_the_folder_of_one_that_was_killed_and_of_no_other(tmp_path: Path, way: str) -> None:
+def test_next_call_removes_only_the_folder_of_a_killed_one(tmp_path: Path, way: str) -> None:
     started, goes_on = tmp_path / "started", tmp_path / "goes on"
     wait = f"while [ ! -e '{goes_on}' ]; do sleep 0.05; done; exit 5"
     first = subprocess.Popen([WITH_VCAN, "bash", "-c", wait])
@@ -138,7 +138,7 @@ def as_an_ordinary_user() -> Iterator[tuple[Path, Sequence[str]]]:
         yield Path(folder), become
 
 
-def test_an_ordinary_user_owns_its_files_and_may_set_up_the_bus(as_an_ordinary_user) -> None:
+def test_ordinary_user_owns_its_files_and_may_set_up_the_bus(as_an_ordinary_user) -> None:
     folder, become = as_an_ordinary_user
     script = "touch file; test -O file && test -O . && ip link set vcan0 down && ip link set vcan0 up"
 
@@ -168,7 +168,7 @@ def missing(*launcher: str, **environment: str) -> str:
 
 
 @pytest.mark.parametrize("word", ["-h", "--help"])
-def test_help_says_what_it_is_for(word: str) -> None:
+def test_help_says_what_with_vcan_is_for(word: str) -> None:
     done = subprocess.run([WITH_VCAN, word], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.startswith("tools/with-vcan COMMAND...: runs a command where the CAN bus vcan0 exists.")
@@ -179,7 +179,7 @@ def test_forbidden_tracing_is_named() -> None:
     assert "ptrace" not in missing()
 
 
-def test_a_missing_command_is_named_with_its_package() -> None:
+def test_missing_command_is_named_with_its_package() -> None:
     hidden = {
         "BASH_FUNC_command%%": '() { [ "$*" != "-v ip" ] && builtin command "$@"; }'
     }  # asked instead of bash's own
@@ -196,7 +196,7 @@ def changed(folder: Path, old: str, new: str) -> Path:
     return folder / "with-vcan"
 
 
-def test_what_fails_inside_is_named(tmp_path: Path, way: str) -> None:
+def test_failure_inside_user_mode_linux_is_named(tmp_path: Path, way: str) -> None:
     broken = changed(tmp_path, "net/can/can-raw", "net/can/nosuch")
 
     done = subprocess.run([broken, "true"], capture_output=True, text=True, check=False)
@@ -207,7 +207,7 @@ def test_what_fails_inside_is_named(tmp_path: Path, way: str) -> None:
     assert "panic" not in done.stderr.lower()
 
 
-def test_no_program_uses_what_corrupts_the_kernel(way: str) -> None:
+def test_user_mode_linux_has_io_uring_disabled(way: str) -> None:
     """io_uring, in kernels that can do without it."""
     look = "cat /proc/sys/kernel/io_uring_disabled || echo 2"
     disabled = subprocess.check_output([WITH_VCAN, "bash", "-c", look], text=True, stderr=subprocess.DEVNULL)
@@ -215,7 +215,7 @@ def test_no_program_uses_what_corrupts_the_kernel(way: str) -> None:
     assert way != "user-mode-linux" or disabled == "2\n"
 
 
-def test_a_kernel_that_fails_after_the_command_takes_nothing_from_its_exit_code(tmp_path: Path, way: str) -> None:
+def test_kernel_failure_after_the_command_keeps_its_exit_code(tmp_path: Path, way: str) -> None:
     broken = changed(tmp_path, "  wait %1 %2\n", "  echo c >/proc/sysrq-trigger\n")
 
     done = subprocess.run([broken, "bash", "-c", "exit 3"], capture_output=True, text=True, check=False)
@@ -253,7 +253,7 @@ else:
 
 
 @pytest.mark.parametrize("code", ["4", ""], ids=["ended", "killed"])
-def test_what_the_kernel_left_behind_ends_with_it(tmp_path: Path, code: str) -> None:
+def test_processes_left_by_the_kernel_end_with_the_call(tmp_path: Path, code: str) -> None:
     with_vcan = changed(tmp_path, "way=$(how)\nif", "way=user-mode-linux\nif")
     noted, fake = tmp_path / "noted", tmp_path / "linux.uml"
     fake.write_text(LEAVES_ONE.format(noted=noted, code=code))
@@ -277,7 +277,7 @@ def descendants(pid: int) -> list[int]:
     return children + [pid for child in children for pid in descendants(child)]
 
 
-def test_the_quick_way_is_the_way_unless_that_starts_another_kernel(way: str) -> None:
+def test_quick_way_is_empty_if_the_way_starts_another_kernel(way: str) -> None:
     quick = subprocess.check_output([WITH_VCAN, "--quick-way"], text=True).strip()
 
     assert quick == (way if way in ("present", "namespace") else "")

@@ -66,24 +66,24 @@ IN_A_CHECKOUT = {"debug", "grade", "new"}
 """The commands that need the sources."""
 
 
-def test_each_command_is_tried():
+def test_uses_cover_each_command():
     assert commands() == set(USES) | IN_A_CHECKOUT | {"check-wiring"}
 
 
-def test_a_behaviour_in_c_needs_a_checkout(octet, tmp_path):
+def test_behaviour_in_c_needs_a_checkout(octet, tmp_path):
     done = octet("new", "mine.c")
 
     assert (done.returncode, (tmp_path / "mine.c").exists()) == (1, False)
     assert "need a checkout of Octet with gcc" in done.stderr
 
 
-def test_a_new_robot_that_is_not_there_is_named(octet):
+def test_check_wiring_names_a_missing_port(octet):
     done = octet("check-wiring", "nowhere")
 
     assert (done.returncode, done.stderr) == (2, "octet: cannot open nowhere: No such file or directory\n")
 
 
-def test_a_debugger_needs_a_checkout(octet):
+def test_debug_needs_a_checkout(octet):
     octet(*RUN.split())
 
     done = octet("debug", "out/run.log")
@@ -93,7 +93,7 @@ def test_a_debugger_needs_a_checkout(octet):
 
 
 @pytest.mark.parametrize("name", sorted({*USES} - {*SERVING}))
-def test_a_command_does_what_that_of_a_checkout_does(name, octet, tmp_path):
+def test_command_of_the_wheel_succeeds_and_names_no_tool_of_a_checkout(name, octet, tmp_path):
     (tmp_path / "plan.toml").write_text(PLAN)
     assert "tools/" not in octet(*RUN.split()[:-1]).stdout
 
@@ -103,7 +103,7 @@ def test_a_command_does_what_that_of_a_checkout_does(name, octet, tmp_path):
     assert "tools/octet" not in done.stdout + done.stderr or name == "protocol"
 
 
-def test_a_run_is_that_of_the_checkout(octet, tmp_path):
+def test_run_of_the_wheel_has_the_log_digest_of_the_checkout(octet, tmp_path):
     octet(*RUN.split(), "--out", "here")
     octet_process(*RUN.split(), "--out", tmp_path / "there").check_returncode()
 
@@ -113,7 +113,7 @@ def test_a_run_is_that_of_the_checkout(octet, tmp_path):
 
 
 @pytest.mark.parametrize("name", SERVING)
-def test_a_command_serves_its_page(name, environment, tmp_path):
+def test_command_of_the_wheel_serves_its_page(name, environment, tmp_path):
     command, browser = [environment / "bin/octet", *USES[name].split()], build_opener(HTTPCookieProcessor())
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, text=True) as watched:
         address = next(found[0] for line in watched.stdout if (found := re.search(r"http://\S+", line)))
@@ -124,7 +124,7 @@ def test_a_command_serves_its_page(name, environment, tmp_path):
     assert 'id="arena' in unpacked(page)
 
 
-def test_the_api_has_the_name_of_the_project(environment, tmp_path):
+def test_api_has_the_name_of_the_project(environment, tmp_path):
     program = "import octet_robot as it; print(len(it.run(it.RunConfig(environments=1, limit_s=1)).log_sha256))"
 
     done = subprocess.check_output([environment / "bin/python", "-c", program], cwd=tmp_path, text=True)
@@ -150,7 +150,7 @@ def install(environment: Path, extra: str) -> str:
     return f"not installed: run {environment}/bin/python -m pip install 'octet-robot[{extra}]'\n"
 
 
-def test_a_run_needs_no_extra(bare, environment):
+def test_run_needs_no_extra(bare, environment):
     ran = bare(*RUN.split()[:-1])
 
     assert (ran.returncode, ran.stderr) == (0, "")
@@ -172,7 +172,7 @@ def test_a_run_needs_no_extra(bare, environment):
         ("export out/run.log --parquet run.parquet", "asammdf, numpy and pyarrow", "export"),
     ],
 )
-def test_a_refusal_names_all_that_is_missing_and_one_extra(words, packages, extra, bare, environment):
+def test_refusal_names_all_missing_packages_and_one_extra(words, packages, extra, bare, environment):
     bare(*RUN.split())
 
     refused = bare(*words.split())
@@ -182,7 +182,7 @@ def test_a_refusal_names_all_that_is_missing_and_one_extra(words, packages, extr
     assert refused.stderr == f"octet: this needs {packages}, which {verb} {install(environment, extra)}"
 
 
-def test_nothing_is_written_beside_the_program(environment, octet):
+def test_commands_write_nothing_beside_the_program(environment, octet):
     before = {path: path.stat().st_mtime_ns for path in environment.rglob("*") if path.suffix != ".pyc"}
 
     octet(*RUN.split())
@@ -193,13 +193,13 @@ def test_nothing_is_written_beside_the_program(environment, octet):
     assert {**after, **dict.fromkeys(folders)} == {**before, **dict.fromkeys(folders)}
 
 
-def test_a_home_that_cannot_be_written_stops_no_run(octet):
+def test_unwritable_home_stops_no_run(octet):
     nowhere = {**os.environ, "HOME": "/dev/null", "XDG_STATE_HOME": "/dev/null"}
 
     assert octet(*RUN.split(), env=nowhere).stderr == ""
 
 
-def test_two_versions_live_beside_each_other(wheel, tmp_path):
+def test_different_versions_work_side_by_side(wheel, tmp_path):
     def version(name: str) -> str:
         variables = {
             **os.environ,
@@ -217,7 +217,7 @@ def test_two_versions_live_beside_each_other(wheel, tmp_path):
     assert "0.9" in version("old")
 
 
-def test_pip_says_that_a_wheel_is_for_another_system(wheel, tmp_path):
+def test_pip_refuses_a_wheel_for_another_system(wheel, tmp_path):
     other = shutil.copy(wheel, tmp_path / "octet_robot-1.0-py3-none-win_amd64.whl")
     command = [sys.executable, "-m", "pip", "install", "--no-index", "--no-deps", "--target", tmp_path / "in", other]
 
@@ -227,7 +227,7 @@ def test_pip_says_that_a_wheel_is_for_another_system(wheel, tmp_path):
     assert "is not a supported wheel on this platform" in done.stderr
 
 
-def test_the_commands_of_the_page_do_what_it_says(wheel, tmp_path):
+def test_commands_of_the_python_page_write_what_it_says(wheel, tmp_path):
     page = (ROOT / "docs/python.md").read_text()
     (block,) = re.findall(r"^```sh from-a-wheel\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
     shutil.copy(wheel, tmp_path)
@@ -246,7 +246,7 @@ def test_the_commands_of_the_page_do_what_it_says(wheel, tmp_path):
     assert (tmp_path / "octet.html").exists()
 
 
-def test_the_wheel_is_small_and_carries_man_pages_and_completions(wheel, environment):
+def test_wheel_is_small_and_has_man_pages_and_completions(wheel, environment):
     assert wheel.stat().st_size < 1_800_000
     page = (environment / "share/man/man1/octet-run.1").read_text()
     assert "tools/" not in page.replace("host_sim/tree/tools", "")
@@ -270,7 +270,7 @@ def digests(site: Path, cwd: Path) -> list[str]:
     return re.findall(r'"log_sha256": "(\w+)"', said)
 
 
-def test_the_wheel_gives_the_bytes_of_the_checkout(wheel: Path, tmp_path: Path):
+def test_runs_of_the_wheel_have_the_log_digests_of_the_checkout(wheel: Path, tmp_path: Path):
     site = tmp_path / "site"
     with ZipFile(wheel) as files:
         files.extractall(site)
@@ -281,7 +281,7 @@ def test_the_wheel_gives_the_bytes_of_the_checkout(wheel: Path, tmp_path: Path):
     assert len(set(ours)) == len(SEEDS)
 
 
-def test_the_page_gives_the_bytes_of_the_checkout(tmp_path: Path):
+def test_runs_of_the_page_have_the_log_digests_of_the_checkout(tmp_path: Path):
     runs = run_in_page(tmp_path, *(experiment("article", seed, limit_ticks=LIMIT_S * 50) for seed in SEEDS))
 
     assert [digest_of(run["log"].encode("latin1")) for run in runs] == digests(ROOT, tmp_path)
@@ -327,7 +327,7 @@ def missing_from(script: str, shell: str, options_of_commands: dict[str, list[st
     return wanted - words
 
 
-def test_the_man_pages_explain_the_options_of_each_command_and_no_other(environment: Path, options_of_commands):
+def test_man_pages_explain_the_options_of_each_command_and_no_other(environment: Path, options_of_commands):
     pages = {path.stem: path.read_text() for path in (environment / "share/man/man1").glob("octet*.1")}
 
     assert len(options_of_commands) > 15
@@ -336,14 +336,14 @@ def test_the_man_pages_explain_the_options_of_each_command_and_no_other(environm
     }
 
 
-def test_an_option_that_a_man_page_lacks_is_noticed():
+def test_option_in_an_example_of_a_man_page_is_not_explained():
     page = ".TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nshow it\n.TP\noctet run \\fB\\-\\-robots\\fR 3\nthree robots\n"
 
     assert options_of_page(page) == {"-h", "--help"}
 
 
 @pytest.mark.parametrize("shell", COMPLETIONS)
-def test_the_completions_know_each_command_and_each_option(environment: Path, options_of_commands, shell):
+def test_completions_know_each_command_and_each_option(environment: Path, options_of_commands, shell):
     script = (environment / "share" / COMPLETIONS[shell]).read_text()
 
     assert missing_from(script, shell, options_of_commands) == set()

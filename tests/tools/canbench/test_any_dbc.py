@@ -113,7 +113,7 @@ def heard_back(file, profile, echo):
 
 
 @pytest.mark.parametrize("profile", ["none", "j1850"])
-def test_every_classic_message_of_cantools_files_is_heard_back_or_refused_by_name(files, echo, profile):
+def test_classic_messages_of_cantools_files_are_echoed_or_refused_by_name(files, echo, profile):
     unreadable = {file.name for file in files if file.name in refusal(lambda: Messages(file, profile))}  # noqa: B023
     told = [heard_back(file, profile, echo) for file in files if file.name not in unreadable]
     heard, refused = (sum(some, Counter()) for some in zip(*told, strict=True))
@@ -141,7 +141,7 @@ def test_29_bit_identifiers_are_sent_and_heard(tmp_path, echo, device, monkeypat
         assert "18FEF1FE#0000000019000000 EEC1 speed=800" in "\n".join(bench.lines())
 
 
-def test_a_device_need_not_flag_an_identifier_over_11_bits(tmp_path):
+def test_device_need_not_flag_an_identifier_over_11_bits(tmp_path):
     file = written(tmp_path, 'BO_ 2566844927 FANX: 1 FAN\n SG_ state : 0|8@1+ (1,0) [0|255] "" HOST\n')
     (tmp_path / "fan.c").write_text(
         ECHO.split("static", maxsplit=1)[0]
@@ -175,7 +175,7 @@ def test_motorola_checksums_and_counters_are_where_cantools_reads_them(tmp_path,
     assert [messages.decode(frame)[1] for frame in frames] == told
 
 
-def test_a_forged_motorola_counter_is_the_one_asked_for(tmp_path):
+def test_forged_motorola_counter_is_the_requested_one(tmp_path):
     file = written(tmp_path, MOTOROLA.format(bits=8, counter=15))
     messages = Messages(file, "j1850")
     for count in range(16):
@@ -193,7 +193,7 @@ MULTIPLEXED = """BO_ 80 WANTED: 4 HOST
 """
 
 
-def test_a_multiplexer_selects_the_signals_that_are_given(tmp_path, echo):
+def test_multiplexer_selects_the_given_signals(tmp_path, echo):
     with a_bench(written(tmp_path, MULTIPLEXED), echo, profile="j1850") as bench:
         bench.send("WANTED")
         bench.send("WANTED", level=7)
@@ -212,7 +212,7 @@ def test_a_multiplexer_selects_the_signals_that_are_given(tmp_path, echo):
             bench.send("WANTED", kind=4)
 
 
-def test_of_a_file_with_oddities_only_the_odd_messages_are_refused(tmp_path, echo):
+def test_only_invalid_messages_of_a_file_are_refused(tmp_path, echo):
     file = written(
         tmp_path,
         'BO_ 80 WANTED: 4 HOST\n SG_ all_bits : 16|16@1+ (1,0) [0|65535] "" FAN\n'
@@ -248,9 +248,7 @@ def test_of_a_file_with_oddities_only_the_odd_messages_are_refused(tmp_path, ech
         ("(1,20) [20|275]", 'BA_DEF_ SG_ "GenSigStartValue" INT 0 255;\nBA_ "GenSigStartValue" SG_ 82 temp 5;\n', 25),
     ],
 )
-def test_a_cyclic_message_in_which_0_cannot_be_encoded_starts_with_what_is_allowed(
-    tmp_path, echo, signal, attributes, value
-):
+def test_cyclic_message_starts_with_an_allowed_value_where_0_is_none(tmp_path, echo, signal, attributes, value):
     file = written(
         tmp_path,
         f'BO_ 82 TEMP: 2 HOST\n SG_ temp : 0|8@1+ {signal} "C" FAN\nBO_ 81 FAN_STATE: 2 FAN\n'
@@ -264,7 +262,7 @@ def test_a_cyclic_message_in_which_0_cannot_be_encoded_starts_with_what_is_allow
         assert bench["TEMP.temp"] == value
 
 
-def test_a_data_id_may_be_hexadecimal_and_one_that_is_no_number_refuses_its_message(tmp_path):
+def test_hexadecimal_data_id_is_read_and_a_non_number_is_refused(tmp_path):
     text = 'BO_ 80 WANTED: 4 HOST\n SG_ crc : 0|8@1+ (1,0) [0|255] "" FAN\nBA_DEF_ BO_ "DataID" STRING ;\n'
     frames = []
     for told in ("0x1A2", "418", "none of it"):
@@ -279,7 +277,7 @@ def test_a_data_id_may_be_hexadecimal_and_one_that_is_no_number_refuses_its_mess
     assert frames[0].data[0] != 0
 
 
-def test_a_value_may_be_named_as_the_file_names_it(tmp_path, echo):
+def test_value_may_be_given_by_its_name_in_the_file(tmp_path, echo):
     file = written(
         tmp_path, 'BO_ 80 WANTED: 1 HOST\n SG_ mode : 0|8@1+ (1,0) [0|3] "" FAN\nVAL_ 80 mode 2 "FAST" 1 "SLOW";\n'
     )
@@ -293,7 +291,7 @@ def test_a_value_may_be_named_as_the_file_names_it(tmp_path, echo):
                 bench.send("WANTED", mode=value)
 
 
-def test_an_identifier_of_two_messages_is_refused_for_the_second(tmp_path):
+def test_second_message_of_an_identifier_is_refused(tmp_path):
     messages = Messages(
         written(tmp_path, "BO_ 80 FIRST: 1 HOST\nBO_ 80 SECOND: 1 HOST\nBO_ 2147483728 THIRD: 1 HOST\n"), "none"
     )

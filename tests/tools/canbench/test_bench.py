@@ -37,7 +37,7 @@ def open_bench():
         bench.close()
 
 
-def test_the_rest_of_the_bus_is_sent_at_its_cycle_time(open_bench):
+def test_messages_of_other_nodes_are_sent_at_their_cycle_time(open_bench):
     bench = open_bench()
     bench.run(ms=95)
 
@@ -47,7 +47,7 @@ def test_the_rest_of_the_bus_is_sent_at_its_cycle_time(open_bench):
     assert sum(way == "to" for _, way, _ in bench._frames) == 5
 
 
-def test_without_a_node_only_what_is_named_is_sent(open_bench):
+def test_bench_without_a_node_sends_only_named_messages(open_bench):
     bench = open_bench(node="")
     bench.run(ms=50)
     bench.send("SETPOINT", speed=1)
@@ -55,7 +55,7 @@ def test_without_a_node_only_what_is_named_is_sent(open_bench):
     assert [at_ms for at_ms, way, _ in bench._frames if way == "to"] == [50]
 
 
-def test_what_the_device_says_has_its_time(open_bench):
+def test_received_signals_have_their_times(open_bench):
     bench = open_bench()
     bench.send_cyclic("SETPOINT", speed=800)
     bench.run(ms=30)
@@ -64,7 +64,7 @@ def test_what_the_device_says_has_its_time(open_bench):
     assert bench["STATUS.speed"] == bench.history("STATUS.speed")[-1][1] > 0
 
 
-def test_time_passes_until_the_device_says_what_is_wanted(open_bench):
+def test_run_until_waits_for_the_wanted_value_up_to_its_limit(open_bench):
     bench = open_bench()
     bench.send_cyclic("SETPOINT", speed=800)
 
@@ -76,7 +76,7 @@ def test_time_passes_until_the_device_says_what_is_wanted(open_bench):
         bench.run_until("STATUS.sped", lambda _: True, 50)
 
 
-def test_what_is_misspelt_is_said_before_anything_was_heard(open_bench):
+def test_misspelt_name_is_refused_before_any_frame_is_received(open_bench):
     bench = open_bench()
 
     with pytest.raises(UsageError, match="STATUS has no signal sped; it has"):
@@ -85,12 +85,12 @@ def test_what_is_misspelt_is_said_before_anything_was_heard(open_bench):
         bench.history("STATS.speed")
 
 
-def test_time_does_not_pass_backward(open_bench):
+def test_run_refuses_a_negative_time(open_bench):
     with pytest.raises(UsageError, match="backward: -5 ms"):
         open_bench().run(ms=-5)
 
 
-def test_the_same_seed_makes_the_same_faults(open_bench):
+def test_same_seed_makes_the_same_faults(open_bench):
     found = []
     for seed in (1, 1, 2):
         bench = open_bench("drop:30%/to", "corrupt:10%/from", seed=seed)
@@ -108,7 +108,7 @@ def test_delays_pass_in_simulated_time(open_bench):
     assert [heard.at_ms for heard in bench.heard] == [35, 45, 55]
 
 
-def test_each_device_is_as_at_power_up(open_bench):
+def test_device_of_a_new_bench_is_as_at_power_up(open_bench):
     first, second = open_bench(), open_bench()
     first.send_cyclic("SETPOINT", speed=1000)
     first.run(ms=300)
@@ -118,7 +118,7 @@ def test_each_device_is_as_at_power_up(open_bench):
     assert second["STATUS.speed"] == 0
 
 
-def test_a_forged_frame_is_taken_for_a_true_one(open_bench):
+def test_forged_frame_is_accepted_as_undamaged(open_bench):
     bench = open_bench("forge:SETPOINT@5-9/to", "forge:STATUS@5-9/from")
     bench.run(ms=400)
 
@@ -134,7 +134,7 @@ while frame := bus.recv(16):
 """
 
 
-def test_a_program_is_a_device(open_bench, tmp_path, monkeypatch):
+def test_program_serves_as_a_device(open_bench, tmp_path, monkeypatch):
     monkeypatch.setattr(devices, "START_S", 0.0)
     (tmp_path / "echo.py").write_text(ECHO)
     bench = open_bench(device=f"{sys.executable} echo.py", folder=tmp_path, crc="none", node="")
@@ -147,7 +147,7 @@ def test_a_program_is_a_device(open_bench, tmp_path, monkeypatch):
     assert bench["STATUS.speed"] == 7
 
 
-def test_a_program_does_not_hear_at_once_what_a_late_machine_owes_it(tmp_path, monkeypatch):
+def test_program_device_keeps_real_time_after_a_delay(tmp_path, monkeypatch):
     monkeypatch.setattr(devices, "START_S", 0.0)
     (tmp_path / "echo.py").write_text(ECHO)
     with closing(open_device(f"{sys.executable} echo.py", tmp_path)) as device:
@@ -175,12 +175,12 @@ def wrong(text, message):
         wrong("image:blue_pill:no.elf", "there is no image .*no.elf"),
     ],
 )
-def test_something_that_is_no_device_is_reported(open_bench, device, message):
+def test_invalid_device_is_reported(open_bench, device, message):
     with pytest.raises(UsageError, match=message):
         open_bench(device=device)
 
 
-def test_a_library_without_the_required_functions_is_reported(open_bench, tmp_path):
+def test_library_without_the_required_functions_is_reported(open_bench, tmp_path):
     (tmp_path / "other.c").write_text("int tick(void) { return 0; }\n")
 
     with pytest.raises(UsageError, match="does not have both of receive and tick"):
@@ -188,7 +188,7 @@ def test_a_library_without_the_required_functions_is_reported(open_bench, tmp_pa
 
 
 @pytest.mark.parametrize("count", [17, -1])
-def test_an_invalid_result_of_a_tick_is_reported(open_bench, tmp_path, count):
+def test_invalid_result_of_a_tick_is_reported(open_bench, tmp_path, count):
     (tmp_path / "mad.c").write_text(SPEEDING.format(count))
     bench = open_bench(device="mad.c", folder=tmp_path)
 
@@ -196,12 +196,12 @@ def test_an_invalid_result_of_a_tick_is_reported(open_bench, tmp_path, count):
         bench.run(ms=5)
 
 
-def test_a_program_that_ends_at_once_is_reported(open_bench):
+def test_program_that_ends_at_once_is_reported(open_bench):
     with pytest.raises(UsageError, match=r"the device .* ended with exit code 3 and printed no bus"):
         open_bench(device="sh -c 'echo no bus; exit 3'")
 
 
-def test_a_program_that_ends_later_is_reported(open_bench, monkeypatch):
+def test_program_that_ends_later_is_reported(open_bench, monkeypatch):
     monkeypatch.setattr(devices, "START_S", 0.0)
     bench = open_bench(device="sh -c 'sleep 0.3; exit 3'")
 
@@ -209,7 +209,7 @@ def test_a_program_that_ends_later_is_reported(open_bench, monkeypatch):
         bench.run(ms=60_000)
 
 
-def test_a_device_that_never_answers_is_reported(open_bench, tmp_path):
+def test_device_that_never_answers_is_reported(open_bench, tmp_path):
     (tmp_path / "mute.c").write_text(SPEEDING.format(0))
     bench = open_bench(device="mute.c", folder=tmp_path)
     bench.run(ms=100)
@@ -218,7 +218,7 @@ def test_a_device_that_never_answers_is_reported(open_bench, tmp_path):
         bench["STATUS.speed"]
 
 
-def test_a_name_that_the_dbc_lacks_is_reported(open_bench):
+def test_name_missing_from_the_dbc_is_reported(open_bench):
     bench = open_bench()
     bench.run(ms=20)
 
@@ -238,7 +238,7 @@ def test_a_name_that_the_dbc_lacks_is_reported(open_bench):
 
 
 @pytest.mark.vcan
-def test_a_program_is_a_device_on_vcan():
+def test_program_serves_as_a_device_on_vcan():
     heater = MOTOR.parent / "heater"
     command = f"{sys.executable} heater.py"
     messages = Messages(heater / "heater.dbc", "none")

@@ -18,11 +18,11 @@ VECTORS = [  # of another implementation, autosar-e2e
 
 
 @pytest.mark.parametrize(("profile", "data", "ids", "count", "crc"), VECTORS, ids=[each[0] for each in VECTORS])
-def test_crcs_are_those_of_the_profiles(profile, data, ids, count, crc):
+def test_crcs_match_those_of_another_implementation(profile, data, ids, count, crc):
     assert PROFILES[profile].crc(data, ids, count) == crc
 
 
-def test_counters_go_round_as_the_profile_has_them():
+def test_counters_wrap_around_at_the_span_of_the_profile():
     for profile, span in (("e2e1", 15), ("e2e2", 16), ("none", 16)):
         messages = Messages(DBC, profile)
         counts = [messages.frame("SETPOINT", {}).data[1] & 15 for _ in range(40)]
@@ -30,7 +30,7 @@ def test_counters_go_round_as_the_profile_has_them():
         assert counts == [n % span for n in range(40)]
 
 
-def test_a_frame_is_read_as_it_was_written_and_a_damaged_one_is_not():
+def test_frame_is_decoded_as_encoded_and_a_damaged_one_is_refused():
     messages = Messages(DBC, "j1850")
     frame = messages.frame("SETPOINT", {"speed": -1234})
 
@@ -41,7 +41,7 @@ def test_a_frame_is_read_as_it_was_written_and_a_damaged_one_is_not():
     assert messages.decode(frame._replace(id=0x700)) is None
 
 
-def test_data_ids_stand_in_the_dbc(tmp_path):
+def test_data_ids_are_read_from_the_dbc(tmp_path):
     told = 'BA_DEF_ BO_ "DataID" INT 0 65535;\nBA_DEF_DEF_ "DataID" 0;\nBA_ "DataID" BO_ 256 291;\n'
     (tmp_path / "told.dbc").write_text(DBC.read_text() + told)
 
@@ -52,7 +52,7 @@ def test_data_ids_stand_in_the_dbc(tmp_path):
 
 
 @pytest.mark.parametrize("text", ["", "BO_ nonsense", "\x00\xff", 'VERSION ""\n'])
-def test_an_invalid_dbc_file_is_reported(tmp_path, text):
+def test_invalid_dbc_file_is_reported(tmp_path, text):
     (tmp_path / "bad.dbc").write_text(text)
 
     with pytest.raises(UsageError, match=r"bad\.dbc (is not a DBC file|has no messages)"):

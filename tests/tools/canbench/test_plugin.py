@@ -20,7 +20,7 @@ def run_pytest(folder, *words, plugin=("-p", "tools.pytest_canbench.plugin"), pa
     return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
 
 
-def test_only_a_fault_shows_the_bug_of_the_motor(tmp_path):
+def test_only_the_test_with_faults_shows_the_bug_of_the_motor(tmp_path):
     done = run_pytest(tmp_path, EXAMPLES / "motor", "--can-shrink")
 
     assert done.returncode == 1
@@ -30,14 +30,14 @@ def test_only_a_fault_shows_the_bug_of_the_motor(tmp_path):
     assert re.search(r"^ +990 ms from 200#\w+ STATUS crc=\d+ counter=\d+ speed=\d+ refused=31$", done.stdout, re.M)
 
 
-def test_the_heater_is_a_good_one(tmp_path):
+def test_heater_example_passes(tmp_path):
     done = run_pytest(tmp_path, EXAMPLES / "heater")
 
     assert done.returncode == 0, done.stdout
     assert "3 passed" in done.stdout
 
 
-def test_a_robot_is_a_device_like_any_other(tmp_path):
+def test_robot_example_passes(tmp_path):
     done = run_pytest(tmp_path, EXAMPLES / "robot")
 
     assert done.returncode == 0, done.stdout
@@ -54,7 +54,7 @@ def test_that_none_is_refused(can_bench):
 """
 
 
-def test_of_many_faults_the_fewest_are_found(tmp_path):
+def test_shrinking_finds_the_fewest_faults(tmp_path):
     (tmp_path / "pytest.ini").write_text(MOTOR_INI)
     (tmp_path / "test_finding.py").write_text(FINDING)
 
@@ -64,7 +64,7 @@ def test_of_many_faults_the_fewest_are_found(tmp_path):
     assert re.search(r"-+ can_bench, fewest faults -+\ncorrupt@\d+/to\n1 faults", done.stdout), done.stdout
 
 
-def test_what_is_odd_in_a_dbc_file_is_said(tmp_path):
+def test_unusable_message_of_a_dbc_file_causes_a_warning(tmp_path):
     (tmp_path / "motor.dbc").write_text((EXAMPLES / "motor" / "motor.dbc").read_text() + "BO_ 768 LONG: 12 HOST\n")
     (tmp_path / "pytest.ini").write_text(MOTOR_INI)
     (tmp_path / "test_it.py").write_text("def test_it(can_bench):\n    can_bench.run(ms=10)\n")
@@ -99,7 +99,7 @@ def test_faults(can_bench):
         (("-c", "motor.ini", "-k", "faults"), "'nonsense' is not a fault|there is no fault 'nonsense'"),
     ],
 )
-def test_a_mistake_is_reported_in_one_line(tmp_path, words, message):
+def test_mistake_is_reported_in_one_line(tmp_path, words, message):
     (tmp_path / "motor.ini").write_text(MOTOR_INI)
     (tmp_path / "test_wrong.py").write_text(WRONG)
 
@@ -110,7 +110,7 @@ def test_a_mistake_is_reported_in_one_line(tmp_path, words, message):
     assert re.search(rf"^({message})", done.stdout, re.M), done.stdout
 
 
-def test_the_distribution_stands_for_itself(tmp_path):
+def test_installed_plugin_works_without_octet(tmp_path):
     site, elsewhere, project = tmp_path / "site", tmp_path / "elsewhere", tmp_path / "tools" / "pytest_canbench"
     elsewhere.mkdir()
     for folder in (PROJECT, *(ROOT / "host_sim" / name for name in ("base", "transport"))):
