@@ -67,7 +67,7 @@ def _wiring(pins: Pins, rows: int) -> Iterator[str]:
 
 
 _WHEEL_MM, _GAP_MM = (42.0, 19.0), 2.0
-"""Diameter and width of a wheel, and the room around it."""
+"""Diameter and width of a wheel, and the space around it."""
 
 _CASTER_MM, _SPACER_MM = 70.0, 65.0
 """From the centre to the caster, and to the spacers between the plates."""

@@ -16,7 +16,7 @@ WORDS = ("A small robot that", "teaches itself to avoid", "obstacles, with eight
 
 
 def main(file: Path) -> None:
-    """Draws the end of a run beside what this is."""
+    """Draws the end of a run beside a sentence about the project."""
     with TemporaryDirectory() as folder:
         log = Path(folder, "run.log")
         run(RunConfig(seed=333, environments=1), log=str(log))

@@ -107,7 +107,7 @@ class Converter(Peripheral):
             return None
         order = self.order()
         if len(order) != target[1] or len(order) > _PLACES_MAX:
-            raise BoardError(f"ADC1 converts {len(order)} channels in a round, and DMA1 carries {target[1]} off")
+            raise BoardError(f"ADC1 converts {len(order)} channels in a scan, but DMA1 transfers {target[1]}")
         samples = (min(volts.get(channel, 0), _SAMPLE_MAX) for channel in order)
         return target[0], b"".join(sample.to_bytes(2, "little") for sample in samples)
 
@@ -148,12 +148,12 @@ class ConverterF1(Converter):
         if value & _CALIBRATIONS and not before & _ADON:
             raise BoardError("ADC1 was calibrated before it was switched on")
         if before & _CALIBRATIONS:
-            raise BoardError("ADC1 was told to go on while it still calibrated")
+            raise BoardError("ADC1 was told to continue while it was still calibrating")
         if value & _CALIBRATIONS:
             self._calibrated = value & _CALIBRATIONS | (self._calibrated if value & _CALIBRATE else 0)
             self._looks = _LOOKS
         if value & _BEGIN and self._calibrated != _CALIBRATIONS:
-            raise BoardError("ADC1 was begun before it was calibrated")
+            raise BoardError("ADC1 was started before it was calibrated")
         set_up = _ADON | _CONT | _DMA | _SOFTWARE
         begins = value & before & set_up == set_up and value & _BEGIN
         self._begun = bool(begins and self.registers[0x04].value & _SCAN)

@@ -355,7 +355,7 @@ class Core:
         self._pc = self._word(self.vectors + 4 * _HARD_FAULT)
 
     def _stack_registers(self) -> bool:
-        """Returns False if the stack is not in memory; the handler runs all the same."""
+        """Returns False if the stack is not in memory; the handler runs anyway."""
         saved = b"".join(self._uc.reg_read(register).to_bytes(4, "little") for register in _STACKED)
         stack = (self._uc.reg_read(arm.UC_ARM_REG_SP) & ~7) - len(saved)
         self._uc.reg_write(arm.UC_ARM_REG_SP, stack)

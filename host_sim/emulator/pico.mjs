@@ -1,8 +1,8 @@
 // The board of pico_board.mjs in Node. Called as: node pico.mjs LIBRARY IMAGE.bin [stepped] [paced]
 //
-// In and out go what the serial port hears and says, lines of slcan. If nobody speaks to it, it soon stands still, so
-// that a slow machine does not look like silence. With `stepped`, it runs only when told: lines that begin with '!'
-// are for the harness, which answers each. Without `paced`, a byte takes as long as the robot needs to read it.
+// Its standard input and output are the serial line, with slcan text. If nobody sends anything, its time soon stands
+// still, so that a slow machine does not look like silence. With `stepped`, it runs only when told: lines that begin
+// with '!' are orders to this program, which answers each. Without `paced`, a byte takes as long as the robot needs to read it.
 import { readFileSync, readSync, writeSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 import { PicoBoard } from "./pico_board.mjs";
@@ -11,7 +11,7 @@ const [library, imagePath, ...options] = process.argv.slice(2);
 const { RP2040 } = await import(pathToFileURL(library).href);
 const stepped = options.includes("stepped");
 
-const START_NS = 200e6; // it may erase a sector first
+const START_NS = 200e6; // the image may erase a sector first
 const QUIET_NS = 20e6;
 const SLICE_NS = 200e3;
 
@@ -23,7 +23,7 @@ const board = new PicoBoard(RP2040, readFileSync(imagePath), options.includes("p
 let { mcu } = board;
 let spokenTo = START_NS;
 
-/** Orders come two hundred times a second, and a stream would take as long for one as the chip: it waits for each. */
+/** Reads orders synchronously: there are 200 a second, and a stream would take as long for one as the chip. */
 function obey() {
   const buffer = Buffer.alloc(65536);
   for (let count; (count = readSync(0, buffer)); ) {

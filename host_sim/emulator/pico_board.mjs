@@ -1,8 +1,8 @@
-// A Raspberry Pi Pico around rp2040js, an emulator that others keep. What that lacks is here: the boot ROM, a reset,
-// the power, and a serial port that takes its time. pico.mjs runs it in Node, pico_worker.ts in a page.
+// A Raspberry Pi Pico around rp2040js, an emulator that others maintain. What it lacks is here: the boot ROM, resets,
+// power failures, and a serial port in real time. pico.mjs runs it in Node, pico_worker.ts in a page.
 
 const LINE_BAUD = 115200;
-const QUICK_NS = 1000; // a byte, if the line is not paced
+const QUICK_NS = 1000; // for a byte, if the line is not paced
 const HANG_NS = 10e3;
 const SECTOR = 4096;
 const FLASH_SIZE = 16 << 20;
@@ -48,32 +48,32 @@ function fail(why) {
   throw new Error(why);
 }
 
-/** The board. What it does wrong, such as running in a flash that cannot be read, is thrown. */
+/** The board. A fault of the image, such as running in a flash that cannot be read, is thrown as an error. */
 export class PicoBoard {
-  mcu; // a new one after each reset: rp2040js leaves most of one to its user
+  mcu; // a new one after each reset, which rp2040js mostly leaves to its user
   flash = new Uint8Array(FLASH_SIZE).fill(0xff);
-  restart = "power"; // what ends the current one
+  restart = "power"; // the cause of the pending reset
   away = false; // the flash cannot be read
-  operations = 0; // of the flash
-  cut = { at: 0, part: 0 }; // the power goes at this operation, after this part of it
+  operations = 0; // writes and erases of the flash so far
+  cut = { at: 0, part: 0 }; // the power fails at this operation, after this part of it
   cuts = 0;
   line = []; // bytes on their way to the robot
-  sent = []; // bytes in the port's own queue, if it takes its time
+  sent = []; // bytes in the port's own queue, if the line is paced
   moving = false;
   spoken = []; // bytes for whoever listens
-  levels = Array.from({ length: PINS }, (_, pin) => pin < ANALOGUE); // what is wired to each pin drives it so
+  levels = Array.from({ length: PINS }, (_, pin) => pin < ANALOGUE); // to which the wiring drives each pin
   samples = [0, 0, 0, 0, 0];
-  beat = false; // a slice of the PWM has wrapped whose interrupt is enabled
-  high = []; // for how long each pin was driven high, ns, and since when it is
+  beat = false; // a slice of the PWM with an enabled interrupt has wrapped
+  high = []; // how long each pin has been driven high, ns, and the time of its last change
   measured = 0;
-  looked = 0; // up to when PIO has run
+  looked = 0; // time up to which PIO has run
   woke = 0;
-  longest = 0; // that the core did not sleep, ns
+  longest = 0; // longest time without sleep of the core, ns
 
   /**
    * @param RP2040 - The class of rp2040js.
-   * @param image - What is at the beginning of the flash.
-   * @param paced - Whether a byte takes its time on the line; otherwise as long as the robot needs to read it.
+   * @param image - The contents of the flash from its beginning.
+   * @param paced - Whether a byte takes as long as on a real line; otherwise as long as the robot needs to read it.
    */
   constructor(RP2040, image, paced = false) {
     this.RP2040 = RP2040;
@@ -88,14 +88,14 @@ export class PicoBoard {
     if (this.line.length) this.wake();
   }
 
-  /** What it said since it was last asked. */
+  /** What it has said since the last call. */
   takeSpoken() {
     const { spoken } = this;
     this.spoken = [];
     return spoken;
   }
 
-  /** Moves a byte each way, and comes again while there are more. */
+  /** Moves a byte each way, and schedules itself again while there are more. */
   move() {
     const { line, sent, paced } = this;
     const uart = this.mcu.uart[0];
@@ -115,7 +115,7 @@ export class PicoBoard {
     this.moving = true;
   }
 
-  /** What the power cuts off is half done; every cell keeps what it had or gets what it was to get. */
+  /** Changes bytes of the flash. If the power fails meanwhile, each byte has either its old or its new value. */
   alter(begin, values) {
     this.operations++;
     const isCut = this.operations === this.cut.at;
@@ -149,7 +149,7 @@ export class PicoBoard {
     }
   }
 
-  /** Runs PIO, which only repeats itself while nothing at its pins changes, and nobody looks at it. */
+  /** Runs PIO; needed only when a pin changes or a register is read, since otherwise it just repeats itself. */
   runPio(most) {
     for (const machine of this.mcu.pio[0].machines)
       for (let i = 0; machine.enabled && i < most; i++) machine.step();
@@ -163,7 +163,7 @@ export class PicoBoard {
     return Object.getPrototypeOf(pio[0]).readUint32.call(pio[0], offset);
   }
 
-  /** What drives a pin from outside. rp2040js does not tell a slice of the PWM that counts edges: its test is wrong. */
+  /** Drives a pin from outside. Tells a PWM slice that counts edges, since rp2040js has the wrong condition. */
   drive(pin, value) {
     const { gpio, pwm } = this.mcu;
     if (this.levels[pin] === value) return;
@@ -172,7 +172,7 @@ export class PicoBoard {
     if (pin % 2 && gpio[pin].functionSelect === BY_PWM) pwm.channels[(pin >> 1) % 8].gpioBChanged();
   }
 
-  /** An encoder turns, whose channels are at a pin and at the next one. */
+  /** Turns an encoder whose channels are at a pin and at the next one. */
   turn(pin, count) {
     for (let left = Math.abs(count); left > 0; left--) {
       const at = TURN.indexOf(this.levels[pin] | (this.levels[pin + 1] << 1));
@@ -183,19 +183,19 @@ export class PicoBoard {
     }
   }
 
-  /** Who asks for a conversion's end waits for it, which takes fewer instructions and as much time. */
+  /** A poll for the end of a conversion waits for that end: as much time passes, in fewer instructions. */
   readAdc(offset) {
     const { adc, clock } = this.mcu;
     while (adc.busy && offset === ADC_CS) clock.tick(clock.nextAlarm.nanos - clock.nanos);
     return Object.getPrototypeOf(adc).readUint32.call(adc, offset);
   }
 
-  /** @param values - What the ADC reads of each of its inputs from now on. */
+  /** @param values - What the ADC reads at each of its inputs from now on. */
   sample(...values) {
     this.samples = this.mcu.adc.channelValues = [...values, 0];
   }
 
-  /** The share of the time, since it was last asked, in which each pin was driven high. */
+  /** The fraction of the time since the last call in which each pin was driven high. */
   shares() {
     const now = this.mcu.clock.nanos;
     const span = now - this.measured;
@@ -208,23 +208,23 @@ export class PicoBoard {
     });
   }
 
-  /** The core meets a fault; returns where it is. */
+  /** Makes the core fault; returns the address of its next instruction. */
   crash() {
     const at = this.mcu.core.PC;
     this.mcu.core.exceptionEntry(HARD_FAULT);
     return at;
   }
 
-  /** The core hangs. */
+  /** Makes the core hang. */
   hang() {
     this.mcu.core.PC = 0x20030000;
     this.mcu.sramView.setUint16(0x30000, 0xe7fe, true);
   }
 
-  /** Wires around the chip that rp2040js leaves to its user, and what it does otherwise than the chip. */
+  /** Connects what rp2040js leaves to its user, and corrects where it differs from the chip. */
   wire() {
     const { mcu } = this;
-    mcu.pio[0].run = () => {}; // in its own time, which is not the core's
+    mcu.pio[0].run = () => {}; // runPio runs it instead
     mcu.pio[0].readUint32 = (offset) => this.lookAtPio(offset);
     mcu.adc.channelValues = this.samples;
     mcu.adc.readUint32 = (offset) => this.readAdc(offset);
@@ -252,14 +252,14 @@ export class PicoBoard {
     };
   }
 
-  /** What resets the chip, and what it can tell of that afterwards. */
+  /** Connects what resets the chip, and the registers that tell the cause afterwards. */
   wireResets(cause) {
     const { peripherals } = this.mcu;
     const watchdog = peripherals[WATCHDOG];
     watchdog.reason = { force: 2, timer: 1 }[cause] ?? 0;
     watchdog.onWatchdogTrigger = () => {
       this.restart ??= watchdog.reason === 2 ? "force" : "timer";
-      watchdog.timer.enable = watchdog.alarm.enable = false; // else it bites for ever
+      watchdog.timer.enable = watchdog.alarm.enable = false; // otherwise it would fire for ever
     };
     peripherals[CHIP_RESET].readUint32 = () => 1 << 8;
     const resets = peripherals[RESETS];
@@ -277,7 +277,7 @@ export class PicoBoard {
     if (this.line.length) this.wake();
   }
 
-  /** A start as the boot ROM makes it: the second stage is checked, copied to the RAM, and called there. */
+  /** Starts as the boot ROM does: checks the second stage, copies it to the RAM, and calls it there. */
   start() {
     const [before, cause, { flash }] = [this.mcu, this.restart, this];
     Object.assign(this, { restart: null, away: false, moving: false, sent: [] });
@@ -292,7 +292,7 @@ export class PicoBoard {
     this.wireUart();
     this.wire();
     const sum = new DataView(flash.buffer).getUint32(252, true);
-    if (crcOf(flash.subarray(0, 252)) !== sum) fail("the second stage has a wrong sum: the boot ROM does not start it");
+    if (crcOf(flash.subarray(0, 252)) !== sum) fail("the second stage has a wrong checksum: it does not start");
     mcu.sram.set(flash.subarray(0, 256), RAM_TOP - RAM);
     [mcu.core.PC, mcu.core.SP, mcu.core.LR] = [RAM_TOP, RAM_TOP, 0];
   }
@@ -319,12 +319,12 @@ export class PicoBoard {
       const at = core.PC;
       const cycles = core.executeInstruction();
       clock.tick((cycles * 1e9) / mcu.clkSys);
-      if (core.PC === at) clock.tick(HANG_NS); // it hangs: nothing but time goes on
-      if (this.away && core.PC >= FLASH && core.PC < RAM) fail("runs in the flash while that cannot be read");
+      if (core.PC === at) clock.tick(HANG_NS); // it hangs: only time passes
+      if (this.away && core.PC >= FLASH && core.PC < RAM) fail("runs in the flash while it cannot be read");
     }
   }
 
-  /** Runs for a time, through the resets within it, or to the next beat. Returns the time that passed, ns. */
+  /** Runs for a time, with the resets within it, or to the next beat. Returns the time that passed, ns. */
   pass(nanos, toBeat = false) {
     let left = nanos;
     do {

@@ -192,7 +192,7 @@ class Rcc(Peripheral):
     def _write_cr(self, value: int) -> None:
         starts_pll = value & ~self._cr.value & 1 << self.bits[PLL][0]
         if any(not value >> self.bits[source][0] & 1 for source in self._in_use()):
-            raise BoardError("RCC CR was written to stop what the core runs from")
+            raise BoardError("RCC CR was written to stop the clock that the core runs from")
         if starts_pll and not self._ready(self.pll_source()):
             raise BoardError("RCC CR was written to start the PLL from an oscillator that does not run")
         if starts_pll:

@@ -188,7 +188,7 @@ def test_f1_adc_converts_its_sequence_in_order(converter):
     assert made.convert({3: 700}) is None
     made.reset()
     write(made, 0x08, 1)
-    with pytest.raises(BoardError, match="begun before it was calibrated"):
+    with pytest.raises(BoardError, match="started before it was calibrated"):
         write(made, 0x08, SET_UP | BEGIN)
 
 
@@ -196,9 +196,9 @@ def test_f1_adc_converts_its_sequence_in_order(converter):
     ("words", "why"),
     [
         ([0, 1 | CALIBRATE_F1], "calibrated before it was switched on"),
-        ([1 | RESET_CALIBRATION, 1 | CALIBRATE_F1], "while it still calibrated"),
-        ([1 | CALIBRATE_F1, None, None, SET_UP, SET_UP | BEGIN], "begun before it was calibrated"),
-        ([1 | CALIBRATE_F1, None, None, 1 | RESET_CALIBRATION, None, None, SET_UP | BEGIN], "begun before it was"),
+        ([1 | RESET_CALIBRATION, 1 | CALIBRATE_F1], "while it was still calibrating"),
+        ([1 | CALIBRATE_F1, None, None, SET_UP, SET_UP | BEGIN], "started before it was calibrated"),
+        ([1 | CALIBRATE_F1, None, None, 1 | RESET_CALIBRATION, None, None, SET_UP | BEGIN], "started before it was"),
     ],
 )
 def test_invalid_f1_adc_setup_is_refused(converter, words, why):
@@ -223,7 +223,7 @@ def test_adc_with_wrong_dma_length_or_fast_clock_is_refused(converter):
     made, dma = converter
     begin(made)
     write(dma, 0x0C, 3)
-    with pytest.raises(BoardError, match="converts 2 channels in a round, and DMA1 carries 3 off"):
+    with pytest.raises(BoardError, match="converts 2 channels in a scan, but DMA1 transfers 3"):
         made.convert({})
     fast = ConverterF1(0x40012400, lambda: 36_000_000, dma, made._clock)
     with pytest.raises(BoardError, match="36000000 Hz, where 14000000 is allowed"):

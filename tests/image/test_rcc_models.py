@@ -162,7 +162,7 @@ def test_clock_source_of_the_core_cannot_be_stopped(clock, stopped):
     start(rcc, clock, 24)
     write(rcc, 0x04, 4 << 8 | 1 << 16 | 7 << 18 | 2)
 
-    with pytest.raises(BoardError, match="stop what the core runs from"):
+    with pytest.raises(BoardError, match="stop the clock that the core runs from"):
         write(rcc, 0x00, read(rcc, 0x00) & ~(1 << stopped))
     write(rcc, 0x04, 4 << 8 | 1 << 16 | 7 << 18)
     write(rcc, 0x00, 1)

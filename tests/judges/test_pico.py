@@ -112,7 +112,7 @@ def test_second_stage_with_a_wrong_checksum_is_not_started(start):
     flash = bytearray(flash_of())
     flash[8] ^= 1
 
-    with pytest.raises(RobotError, match="the second stage has a wrong sum"):
+    with pytest.raises(RobotError, match="the second stage has a wrong checksum"):
         start(flash=bytes(flash)).order("run", 1)
 
 

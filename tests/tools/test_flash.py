@@ -196,14 +196,14 @@ def test_chip_that_does_not_answer_is_refused(tmp_path: Path, monkeypatch: pytes
 
 
 REPORTED = {
-    "no right to use the probe": "Error: libusb_open() failed with LIBUSB_ERROR_ACCESS\nError: open failed\n",
+    "no permission for the probe": "Error: libusb_open() failed with LIBUSB_ERROR_ACCESS\nError: open failed\n",
     "is a clone": "Warn : UNEXPECTED idcode: 0x2ba01477\nError: expected 1 of 1: 0x1ba01477",
     "read-out protected": "Error: stm32x device protected\nError: failed erasing sectors 0 to 2",
     "has no power": "Info : Target voltage: 0.002410\nError: target voltage may be too low for reliable debugging\n"
     "Error: init mode failed (unable to connect to the target)",
     "does not reach a chip": "Error: init mode failed (unable to connect to the target)\n"
     "in procedure 'init'\n** OpenOCD init failed **",
-    "right to open the serial port": "stm32flash 0.7\n\nFailed to open port: /dev/ttyUSB0\n",
+    "permission to open the serial port": "stm32flash 0.7\n\nFailed to open port: /dev/ttyUSB0\n",
     "boot loader does not answer": "Interface serial_posix: 57600 8E1\nFailed to init device, timeout.\n",
     "cannot be opened": "Info : clock speed 1000 kHz\nError: open failed\nin procedure 'init'\n",
 }

@@ -138,7 +138,7 @@ def test_setup_without_a_network_says_what_to_do_and_leaves_nothing(tree: Tree) 
 
     last = (
         "octet: cannot get the Python packages of requirements/run.lock: "
-        "pip says why above; call again when that is mended, mostly a network"
+        "pip says why above, usually that there is no network; run this again when that is fixed"
     )
     assert (done.returncode, done.stderr.splitlines()[-1]) == (1, last)
     assert [path.name for path in tree.folder.glob("build/setup.*")] == ["setup.lock"]
@@ -309,7 +309,7 @@ def test_incomplete_setup_of_another_user_is_reported_with_its_owner(tree: Tree)
 
     said = (
         r"octet: cannot write to \S+, which is \w+'s, and something is missing there: "
-        r"call as that user, or get a clone of your own\n"
+        r"run this as that user, or in a clone of your own\n"
     )
     assert (done.returncode, done.stdout) == (1, "")
     assert re.fullmatch(said, done.stderr)

@@ -113,7 +113,7 @@ def try_out(own: Path, root: Path = ROOT) -> None:
     """Runs a user's behaviour; what is wrong with it is on standard error.
 
     Raises:
-        FlashError: It is none, or makes a mistake.
+        FlashError: It is not a behaviour, or makes a mistake.
     """
     with TemporaryDirectory() as out:
         words = ["--profile", os.fspath(own), "--environments", "1", "--limit-s", "60", "--quiet", "--out", out]

@@ -118,7 +118,7 @@ def _check_message(message: Message) -> None:
     """The codecs support only little-endian integers."""
     for signal in message.signals:
         if signal.byte_order != "little_endian" or (signal.scale, signal.offset, signal.is_float) != (1, 0, False):
-            raise DescriptionError(f"{message.name}.{signal.name} is not a little-endian whole number as it is")
+            raise DescriptionError(f"{message.name}.{signal.name} is not an unscaled little-endian integer")
 
 
 def _choices(signal: Signal) -> dict[str, int]:
@@ -159,7 +159,7 @@ def _parameters(database: Database, choices: Mapping[str, int]) -> list[Paramete
     for parameter in parameters:
         _check_parameter(parameter)
     if sorted(parameters, key=lambda parameter: parameter.name.startswith(_BODY)) != parameters:
-        raise DescriptionError(f"parameters of the robot stand behind those of a body, {_BODY}..")
+        raise DescriptionError(f"parameters of the robot come after those of a body, {_BODY}..")
     return parameters
 
 

@@ -69,7 +69,7 @@ def test_image_with_another_constant_differs_in_a_named_tick(open_pico):
 def test_image_that_does_not_start_is_reported(open_pico):
     page = open_pico(bytes([image()[0] ^ 1]) + image()[1:])
 
-    wait_for(page, "document.querySelector('#pico-verdict').innerText.includes('the second stage has a wrong sum')")
+    wait_for(page, "document.querySelector('#pico-verdict').innerText.includes('second stage has a wrong checksum')")
 
 
 def test_pico_does_not_run_for_a_robot_with_a_program(open_pico):
