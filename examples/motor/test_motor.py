@@ -3,7 +3,7 @@
 import pytest
 
 
-def test_it_follows_its_set_point(can_bench):
+def test_motor_follows_its_set_point(can_bench):
     can_bench.send_cyclic("SETPOINT", speed=1000)
     can_bench.run(ms=1000)
 
@@ -11,7 +11,7 @@ def test_it_follows_its_set_point(can_bench):
 
 
 @pytest.mark.can_faults("drop:30%/to")
-def test_it_follows_in_spite_of_loss(can_bench):
+def test_motor_follows_despite_lost_set_points(can_bench):
     can_bench.send_cyclic("SETPOINT", speed=1000)
     can_bench.run(ms=1000)
 
@@ -19,7 +19,7 @@ def test_it_follows_in_spite_of_loss(can_bench):
 
 
 @pytest.mark.can_faults("drop@20-/to")
-def test_it_stops_when_the_bus_falls_silent(can_bench):
+def test_motor_stops_when_the_bus_falls_silent(can_bench):
     can_bench.send_cyclic("SETPOINT", speed=1000)
     can_bench.run(ms=1000)
 
@@ -27,7 +27,7 @@ def test_it_stops_when_the_bus_falls_silent(can_bench):
 
 
 @pytest.mark.can_faults("corrupt@20-/to")
-def test_it_stops_when_every_set_point_is_damaged(can_bench):
+def test_motor_stops_when_every_set_point_is_damaged(can_bench):
     can_bench.send_cyclic("SETPOINT", speed=1000)
     can_bench.run(ms=1000)
 

@@ -1,11 +1,11 @@
-"""Tests of a robot on the bench, as of any other device: `pytest examples/robot`. Its time is the wall clock's."""
+"""Tests of a robot on the bench, like any other device: `pytest examples/robot`. It runs in wall-clock time."""
 
 import pytest
 
 SOON_MS = 10_000
 
 
-def test_a_started_robot_answers_senses_with_its_speeds(can_bench):
+def test_started_robot_answers_senses_with_its_speeds(can_bench):
     can_bench.send("COMMAND", opcode="start", owner=1, lockstep=1)
     can_bench.run_until("ANSWER.result", lambda result: result == 0, SOON_MS)
     can_bench.send("SENSES", tick=0)
@@ -13,7 +13,7 @@ def test_a_started_robot_answers_senses_with_its_speeds(can_bench):
 
 
 @pytest.mark.can_faults("corrupt@2-/to")
-def test_a_robot_counts_what_came_damaged_and_stays_at_rest(can_bench):
+def test_robot_reports_damaged_senses_and_stays_at_rest(can_bench):
     can_bench.send("COMMAND", opcode="start", owner=1)
     can_bench.run_until("ANSWER.result", lambda result: result == 0, SOON_MS)
     can_bench.send("SENSES", tick=0)

@@ -25,7 +25,7 @@ def test_only_the_test_with_faults_shows_the_bug_of_the_motor(tmp_path):
 
     assert done.returncode == 1
     assert "1 failed, 3 passed" in done.stdout
-    assert re.findall(r"^FAILED .*::(\w+)", done.stdout, re.M) == ["test_it_stops_when_every_set_point_is_damaged"]
+    assert re.findall(r"^FAILED .*::(\w+)", done.stdout, re.M) == ["test_motor_stops_when_every_set_point_is_damaged"]
     assert "31 faults by 1000 ms: corrupt@20-50/to" in done.stdout
     assert re.search(r"^ +990 ms from 200#\w+ STATUS crc=\d+ counter=\d+ speed=\d+ refused=31$", done.stdout, re.M)
 
