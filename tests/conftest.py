@@ -1,4 +1,4 @@
-"""No test is skipped in silence: a skip is a failure, unless `--allow-missing NAME` allows skips for that reason.
+"""A skipped test counts as failed, unless `--allow-missing NAME` allows skips for that reason.
 
 A test that cannot run says `pytest.skip("NAME: what is missing")`.
 
@@ -6,8 +6,8 @@ With `--progress FILE`, tools/test can tell at any time what has passed and what
 
 Where a shell or nohup had this run ignore Ctrl-C or a hangup, what a test starts does not ignore them.
 
-What Python compiles is kept, here and in each process that a test starts, whatever the environment says: else every
-one of them would compile all libraries anew.
+Python keeps its compiled files, here and in each process that a test starts, whatever the environment says: otherwise
+each of them would compile all libraries again.
 """
 
 import asyncio
@@ -25,7 +25,7 @@ hypothesis.settings.register_profile("octet", deadline=None, derandomize=True)  
 hypothesis.settings.load_profile("octet")
 for _number in (signal.SIGINT, signal.SIGHUP):
     if signal.getsignal(_number) == signal.SIG_IGN:
-        signal.signal(_number, lambda *_: None)  # what is handled is not inherited
+        signal.signal(_number, lambda *_: None)  # child processes do not inherit handlers
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
@@ -108,5 +108,5 @@ class Progress:
 
 def pytest_configure(config: pytest.Config) -> None:
     path = config.getoption("progress")
-    if path and not hasattr(config, "workerinput"):  # what runs in xdist's workers is heard by their controller
+    if path and not hasattr(config, "workerinput"):  # the controller of xdist receives the workers' events
         config.pluginmanager.register(Progress(Path(path)))

@@ -1,8 +1,8 @@
-"""Every C source is part of a unit test, and none of them calls itself through others.
+"""Every C source is part of a unit test, and no calls form a cycle of sources.
 
 A test program calls it, directly or through what it calls. A library that a test is linked with does not count as a
-whole: only those of its sources do that the test's own code leads to, from symbol to symbol. Without rings, who reads
-one source does not have to read them all at once.
+whole: only those of its sources do that the test's own code leads to, from symbol to symbol. Without cycles, a reader
+of one source does not have to read all of them at once.
 """
 
 import json
@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build/host-vcan"
 FOLDERS = ("firmware", "hal", "host_sim")
 
-# What no program of the host can be made of. The tests of images run the first two.
+# Sources that cannot be part of a program on the host. The tests of images run the first two.
 NOT_ON_THE_HOST = {
     "hal/port/cortex_m/startup.c": "written in the core's own assembler, and in symbols of the linker script",
     "hal/port/cortex_m/reset_chip.c": "as above",
@@ -93,7 +93,7 @@ def linked_in(build: Path) -> dict[str, set[str]]:
         if not line.startswith(" "):
             inputs = linked[line.removesuffix(":")] = set()
         elif line.startswith("  outputs:"):
-            inputs = set()  # what is made of it is of no interest
+            inputs = set()  # its outputs are of no interest
         elif line.startswith("    ") and "||" not in line:  # those are made before it, and no part of it
             inputs.add(line.split()[-1])
     return linked

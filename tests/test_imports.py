@@ -1,4 +1,4 @@
-"""The floors of host_sim, as pyproject.toml has them: an import that goes up is found."""
+"""The layers of host_sim, as pyproject.toml defines them: an import of a higher layer is found."""
 
 import shutil
 import subprocess
@@ -107,11 +107,11 @@ ELSEWHERE = {
     "subprocess",
     "tomllib",
 }
-"""What only other runs and other commands need, or a run later than in its first tick."""
+"""Modules that only other runs and other commands need, or a run after its first tick."""
 
 
 def loaded_at_the_first_tick(folder: Path, first: str = "") -> set[str]:
-    """What of all this a run in this process has loaded then."""
+    """The modules of ELSEWHERE that a run in this process has loaded at its first tick."""
     module = "host_sim.lab.bench.first_tick"
     script = f"{first}\nimport runpy; runpy.run_module({module!r}, run_name='__main__', alter_sys=True)"
     command = [sys.executable, "-c", script, str(folder), *ELSEWHERE]
@@ -120,7 +120,7 @@ def loaded_at_the_first_tick(folder: Path, first: str = "") -> set[str]:
 
 
 def test_in_process_run_loads_only_modules_that_it_needs(tmp_path):
-    loaded_at_the_first_tick(tmp_path)  # the first run after a build reads C code, and keeps what it read
+    loaded_at_the_first_tick(tmp_path)  # the first run after a build parses C declarations, and caches them
 
     assert loaded_at_the_first_tick(tmp_path) == set()
 

@@ -1,4 +1,4 @@
-"""The floors of the C code: an include only goes down, as `MAY_INCLUDE` has it."""
+"""The layers of the C code: includes only go down, as `MAY_INCLUDE` allows."""
 
 import re
 import shutil
@@ -49,7 +49,7 @@ GENERATED = ("octet.h", "board_pins.h", "build_id.h", "robot_words.h")
 
 
 def includes(root: Path) -> list[tuple[str, str]]:
-    """Every include between our own files: who, and whom."""
+    """Every include between our own files: the includer, and the included."""
     files = sorted(file for folder in FOLDERS for file in (root / folder).rglob("*.[ch]"))
     found = [
         (file.relative_to(root).as_posix(), name) for file in files for name in INCLUDE.findall(file.read_text())

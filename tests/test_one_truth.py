@@ -1,4 +1,4 @@
-"""No number, word or rule of the robot's stands twice: beside octet.dbc and robot.toml, or in two languages.
+"""No number, word or rule of the robot is written twice: beside octet.dbc and robot.toml, or in two languages.
 
 Three ways of copying a number or a word are found: a constant with the name of a word that is given a number, an enum
 of the robot's that is written out, and the name of a pattern in a string. Tests may name the numbers that they
@@ -21,8 +21,8 @@ SUFFIXES = {".c", ".h", ".py", ".ts", ".html", ""}
 NOT_SCANNED = (
     "host_sim/protocol/generated.py",
     "host_sim/web/generated.ts",
-    "tests/firmware/oracles/",  # a second opinion has numbers of its own
-    "tools/robot_words/",  # what the numbers are written with
+    "tests/firmware/oracles/",  # an independent implementation has numbers of its own
+    "tools/robot_words/",  # the generators
 )
 
 
@@ -39,7 +39,7 @@ PREFIXED = "|".join(
     f"{name.upper()}_(?:{either(words)})" for name, words in {**ROBOT.enums, "profile": ROBOT.profiles}.items()
 )
 CONSTANT = f"(?:{PREFIXED}|(?:TURN_)?(?:{PLAIN}))"
-# Words that mean nothing else, so that they are telling in any spelling; left and right are also wheels.
+# Words that mean nothing else, in any spelling; left and right are also wheels.
 TELLING = "|".join(word for name in ("reason", "result") for word in ROBOT.enums[name] if "_" in word)
 CAMEL = "|".join(re.sub(r"_(\w)", lambda match: match[1].upper(), word) for word in TELLING.split("|"))
 COPIES = {
@@ -60,7 +60,7 @@ COPIES = {
 
 
 def copies_in(text: str) -> list[str]:
-    """What is copied in a text, each with how."""
+    """The copies in a text, each with its kind."""
     return [f"{what}: {match[0].strip()}" for what, pattern in COPIES.items() for match in pattern.finditer(text)]
 
 
@@ -143,11 +143,11 @@ TWINS = {
     "host_sim/web/talk/eliza.ts": "tests/web/talk/test_same_answers.py",
     "host_sim/web/talk/facts.ts": "tests/web/talk/test_same_answers.py",
 }
-"""What is still written in two languages: each with the test that holds both to the same results."""
+"""Code that still exists in two languages: each with the test that compares the results of both."""
 
 
 def twins(texts: Mapping[str, str]) -> set[str]:
-    """The files that say to be another one's twin, in another language; where a line ends does not matter."""
+    """The files whose comments name a twin in another language; line breaks do not matter."""
     return {file for file, text in texts.items() if _is_twin(file, " ".join(text.replace("*", " ").split()))}
 
 
@@ -186,7 +186,7 @@ READS = {
     ".c": re.compile(r"CLOCK_REALTIME|\b(gettimeofday|localtime|gmtime|time|ftime|clock)\s*\("),
     ".py": re.compile(r"\btime\.(time|time_ns|localtime|gmtime|strftime)\b|\bdate(time)?\.(now|utcnow|today)\b"),
 }
-"""What reads it, by the ends of files' names."""
+"""Patterns of code that reads the wall clock, by suffix of the file."""
 
 ALLOWED = {
     "host_sim/lab/campaign/host_events.py": "sets it, for those who read it",

@@ -1,4 +1,4 @@
-"""A folder is small enough to find a file in it by guessing, and a file large enough to be one.
+"""A folder is small enough to find a file in it by guessing, and a file is not too small.
 
 No folder has more than `FILES_MAX` files. A module under `LINES_MIN` lines that only one other file
 imports is part of that one. No line of the product's C is longer than ruff allows Python.
@@ -42,7 +42,7 @@ def imported(file: str, text: str) -> set[str]:
 
 
 def too_small(texts: Mapping[str, str]) -> set[str]:
-    """The modules of the product that belong into the only file that imports them."""
+    """The modules of the product that belong in the only file that imports them."""
     importers: dict[str, set[str]] = defaultdict(set)
     for file, text in texts.items():
         for module in imported(file, text):

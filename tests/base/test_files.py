@@ -1,4 +1,4 @@
-"""Files are written whole or not at all, and read only where that ends; also compressed ones that are cut off."""
+"""Files are written whole or not at all, and read only if they end; compressed files can be read when cut off."""
 
 import errno
 import gzip
@@ -147,7 +147,7 @@ def test_failed_replacement_leaves_only_the_old_file(tmp_path):
     path.write_text("old")
 
     with pytest.raises(OctetError, match=f"^cannot write {path}: the encoder failed$"):
-        write_half(path, OSError("the encoder failed"))  # as Pillow says it, without a number
+        write_half(path, OSError("the encoder failed"))  # as Pillow raises it, without an errno
 
     assert [(it.name, it.read_text()) for it in tmp_path.iterdir()] == [("file", "old")]
 

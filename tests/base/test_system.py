@@ -1,6 +1,6 @@
 """The one module about operating systems.
 
-Interfaces to C code: read once, kept, and had all the same where nothing can be kept.
+Interfaces to C code: parsed once and cached; available even if the cache cannot be written.
 """
 
 import json
@@ -29,7 +29,7 @@ OF_POSIX = re.compile(
     r"|signal\.(SIGHUP|SIGALRM|setitimer|pthread_sigmask)"
 )
 OUTSIDE = ("host_sim/lab/campaign/", "host_sim/lab/grade/", "host_sim/transport/cable.py")
-"""They hurt or limit robots that are processes, and so run where there are such."""
+"""They harm or limit robot processes, and so run only where those are supported."""
 
 WITHOUT = """
 import asyncio, builtins, os, signal, socket, sys
@@ -134,7 +134,7 @@ def test_damaged_cache_of_a_c_interface_is_rewritten(folder, left):
     c_interface(DECLARATIONS)
     (kept,) = folder.glob("*.py")
     whole = kept.read_bytes()
-    kept.write_bytes(left)  # as a loss of power leaves it
+    kept.write_bytes(left)  # as a power failure leaves it
     c_interface.cache_clear()
 
     assert c_interface(DECLARATIONS).sizeof("struct pair") == 8

@@ -140,7 +140,7 @@ def test_dxf_plate_has_all_holes_and_closed_outlines() -> None:
 
 
 class StoppedError(Exception):
-    """The time of the beacon's test is over."""
+    """The test of the beacon has run long enough."""
 
 
 def test_beacon_sends_four_strong_and_four_weak_bursts_per_tick(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,4 +1,4 @@
-"""The commands in the documents do what they should."""
+"""The commands in the documents work."""
 
 import contextlib
 import os
@@ -19,12 +19,12 @@ ROOT = Path(__file__).resolve().parents[2]
 PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
 BLOCK = re.compile(r"^```(\S+)(?: (\S+))?\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 NEW = "tools/octet new mine.c"
-# These are the test run itself, and what it is called from.
+# These start the test run itself, or come before it.
 NOT_FROM_HERE = ("tools/test", "tools/prove", "git clone")
 
 
 def blocks(kind: str | None) -> dict[str, list[str]]:
-    """The lines of each `sh` block that is marked so, by its page and its number there."""
+    """The lines of each `sh` block with this mark, by its page and its number there."""
     found = {}
     for path in PAGES:
         texts = [text for word, mark, text in BLOCK.findall(path.read_text()) if (word, mark or None) == ("sh", kind)]
@@ -46,7 +46,7 @@ def run(line: str, folder: Path) -> subprocess.CompletedProcess:
 
 @pytest.fixture(scope="module")
 def first_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """What the README's first command leaves."""
+    """The output folder of the README's first command."""
     out = tmp_path_factory.mktemp("out")
     assert octet("run", "--bus", "none", "--quiet", "--out", out).returncode == 0
     return out

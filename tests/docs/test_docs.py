@@ -1,6 +1,6 @@
-"""What the documents say is so: files exist, quotations stand in the code, each protection has its test.
+"""The documents are right: named files exist, quoted lines are in the code, and each protection has its test.
 
-docs/bench.md: its device of thirty lines works, and its commands do what it says.
+docs/bench.md: its device of thirty lines works, and its commands end as it says.
 """
 
 import os

@@ -1,4 +1,4 @@
-"""What of the chips is compared with ST's SVD files: chips.toml, and svd.txt, which svd_judge.py makes."""
+"""The facts about chips that are compared with ST's SVD files: chips.toml, and svd.txt, which svd_judge.py makes."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -60,7 +60,7 @@ class SvdRegister:
 
 @dataclass(frozen=True)
 class Svd:
-    """What the table says of a chip.
+    """The facts about a chip in the table.
 
     Attributes:
         bases: the address of each peripheral.

@@ -1,10 +1,10 @@
-"""Boards in LabWired, an emulator that nobody here wrote: its chips, and how to talk with images.
+"""Boards in LabWired, a third-party emulator: its chips, and communication with images.
 
 LabWired clocks SysTick by the core even where the image chose an eighth of that clock: in STM32F1, F4 and G4 its
 CLKSOURCE = 0 means HCLK/8 (PM0056 4.5.1, PM0214 4.5.1). With a core clock of an eighth its time is right, and
 computing takes 8 times as long. A chip with fewer peripherals is twice as fast.
 
-In other ways, too, it differs from the manuals, so these are not judged there: flash writes land as in RAM and erases
+It differs from the manuals in other ways, too, which are not judged there: flash writes land as in RAM and erases
 do nothing (PM0075, RM0090 3, RM0440 5); bxCAN sends in no time, never fails and has no FIFO 1 (RM0008 24); FDCAN and
 the independent watchdog are missing; a UART takes 9 cycles a byte and has no overrun (RM0008 27). Its pytest plug-in,
 which would turn an exception into a skip, is switched off.
@@ -71,7 +71,7 @@ def write_system(board: str, folder: Path, memories: Mapping[str, int] = {}, *, 
 
     Args:
         board: One of `KINDS`.
-        folder: Where to.
+        folder: The folder to write to.
         memories: Peripherals that are plain memory, for a harness to be that hardware, by their addresses.
         alone: Whether it is a stand-alone robot, which needs timers and more, and has `INPUTS`.
     """

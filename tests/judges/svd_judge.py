@@ -1,6 +1,6 @@
-"""Compares headers, drivers, linker scripts and emulated chips with what the makers' SVD files say of them.
+"""Compares headers, drivers, linker scripts and emulated chips with the makers' SVD files.
 
-It also makes svd.txt, which holds what these say, as Rust crates hand it on. In an empty folder, with cargo,
+It also makes svd.txt, which has their contents as Rust crates publish them. In an empty folder, with cargo,
 `cargo init`, `cargo add stm32f1@=0.16.0 stm32f4@=0.16.0 stm32g4@=0.16.0 rp2040-pac@=0.6.0` and `cargo vendor` unpack
 them into `vendor`; then, in the project's folder:
 
@@ -258,7 +258,7 @@ def drivers(svds: Mapping[str, Svd]) -> Iterator[tuple[str, str]]:
 
 
 def reset_value(register: Register) -> int | None:
-    """What a register reads after power-up; None if the emulator refuses to say."""
+    """The value of a register after power-up; None if the emulator refuses the read."""
     try:
         return register.read()
     except BoardError:

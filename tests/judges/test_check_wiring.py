@@ -1,4 +1,4 @@
-"""`tools/octet check-wiring` and its image, which runs in rp2040js; a builder's hands follow what it says."""
+"""`tools/octet check-wiring` and its image, which runs in rp2040js; a simulated builder follows its instructions."""
 
 import os
 import pty
@@ -248,7 +248,7 @@ class Terminal:
                     self.line.robot.follow(self.told.popleft())
                 os.write(self._ours, text.strip() + b"\r\n")
                 while not answered and not select.select([self._ours], [], [], 0.2)[0]:
-                    os.write(self._ours, text.strip() + b"\r\n")  # what came before the port was opened is lost
+                    os.write(self._ours, text.strip() + b"\r\n")  # what arrived before the port was opened is lost
                 answered = True
                 order = os.read(self._ours, 1)
                 if order == b"!":

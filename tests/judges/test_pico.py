@@ -1,4 +1,4 @@
-"""The image for a Raspberry Pi Pico in rp2040js, an emulator that nobody here wrote."""
+"""The image for a Raspberry Pi Pico in rp2040js, a third-party emulator."""
 
 import os
 import struct

@@ -1,4 +1,4 @@
-"""A robot of its own on the pins of a Raspberry Pi Pico in rp2040js, an emulator that nobody here wrote.
+"""A robot of its own on the pins of a Raspberry Pi Pico in rp2040js, a third-party emulator.
 
 Its edges of PWM are those at the pins; its encoders turn at the pins, and PIO counts them; its ADC reads samples.
 """
@@ -60,12 +60,12 @@ def press(board: PicoOnPins) -> None:
 
 
 def duties(board: PicoOnPins) -> list[int]:
-    """What its motors get, %."""
+    """The duty of its motors, %."""
     return list(board.robot.figures()["duty"])
 
 
 def test_pico_drives_the_path_of_a_simulated_kit():
-    """In the first 2 s: later, a sensor's noise falls otherwise."""
+    """Compares the first 2 s: later, the sensors' noise differs."""
     ways = []
     for config in (PINS, RunConfig(seed=2, environments=1, body="kit")):
         with make(config) as simulation:
@@ -97,7 +97,7 @@ def actions_of(config: RunConfig, ticks: int) -> dict[int, list[tuple[int, float
 
 
 def test_pico_actions_match_a_simulated_kit_in_time_and_angle():
-    """So that whole runs differ by chance only: a sensor's noise falls otherwise, and they part."""
+    """Whole runs then differ only by chance: the sensors' noise differs, and the paths diverge."""
     pico, kit = (actions_of(config, 1500) for config in (PINS, RunConfig(seed=2, environments=1, body="kit")))
     for reason, most in ((Reason.WANDER, 0.05), (Reason.LOOK_AROUND, 0.1)):
         ticks = [mean(ticks for ticks, _ in actions[reason]) for actions in (pico, kit)]
@@ -210,7 +210,7 @@ def test_pio_counts_each_edge_of_both_encoders(start):
 
 
 def feel_of(board: PicoOnPins) -> int:
-    """What it says that it feels, resting."""
+    """The proximity pattern that it reports at rest."""
     board.pass_time(0.06)
     sensed = board._sensed
     assert sensed is not None

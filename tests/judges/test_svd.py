@@ -1,4 +1,4 @@
-"""Headers, drivers, linker scripts and emulated chips against ST's SVD files, as Rust crates hand them on."""
+"""Headers, drivers, linker scripts and emulated chips against ST's SVD files, as Rust crates publish them."""
 
 import pytest
 

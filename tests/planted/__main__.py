@@ -46,7 +46,7 @@ def faults() -> list[Fault]:
 
 @contextmanager
 def copy_of_the_tree() -> Iterator[Path]:
-    """A copy of the sources, with what was built of them; its tools/setup does nothing, lest it changes that."""
+    """A copy of the sources, with their builds; its tools/setup does nothing, so that they stay as they are."""
     with TemporaryDirectory() as folder:
         tree = Path(folder) / "tree"
         shutil.copytree(ROOT, tree, ignore=_NOT_COPIED, symlinks=True)

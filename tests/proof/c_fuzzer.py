@@ -27,7 +27,7 @@ class Compiler:
         self._objects: dict[Path, Path] = {}
 
     def build(self, name: str, sources: Sequence[Path], options: Sequence[str] = ()) -> Path:
-        """A program that feeds a harness what the fuzzer thinks up. The options are the linker's."""
+        """A program that feeds a harness the fuzzer's inputs. The options are the linker's."""
         program = self._folder / name / "program"
         program.parent.mkdir(parents=True, exist_ok=True)
         objects = [self._object(source) for source in (HERE / "fuzzed.c", *sources)]
@@ -45,7 +45,7 @@ class Compiler:
 def fuzz(program: Path, *options: str) -> subprocess.CompletedProcess[str]:
     """Runs it with options of libFuzzer's, of which one limits it, from its corpus on. What it prints is on stderr.
 
-    It begins with nothing: with frames of a real run it reaches no more in the same time, for such inputs are long.
+    It begins with an empty corpus: with frames of a real run it reaches no more in the same time, as they are long.
     """
     corpus, finds = (_beside(program, name) for name in ("corpus", "finds"))
     limits = (*options, "-rss_limit_mb=512", "-max_len=4096", "-print_final_stats=1")
@@ -58,7 +58,7 @@ def repeat(program: Path, find: Path) -> subprocess.CompletedProcess[str]:
 
 
 def thin_out(program: Path) -> int:
-    """Leaves of a corpus the smallest inputs that reach all that it reaches; returns how many."""
+    """Reduces a corpus to the smallest inputs with the same coverage; returns their number."""
     corpus = _beside(program, "corpus")
     merged = program.parent / "merged"
     shutil.rmtree(merged, ignore_errors=True)

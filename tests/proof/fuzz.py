@@ -1,12 +1,12 @@
-"""Fuzzes what reads input: parsers and sessions in C with libFuzzer and sanitizers, readers in Python likewise.
+"""Fuzzes code that reads input: parsers and sessions in C with libFuzzer and sanitizers, readers in Python likewise.
 
     python -m tests.proof.fuzz                        a minute for each
     python -m tests.proof.fuzz --hours 1 wire world   an hour for each of these
     python -m tests.proof.fuzz --list                 what there is
     python -m tests.proof.fuzz --repeat out/fuzz/wire/finds/crash-...   what an input does
 
-For each, out/fuzz/NAME/corpus keeps the inputs that reach something new, and the next call goes on from there; what
-does harm is kept in out/fuzz/NAME/finds. It ends with 1 if something did.
+For each, out/fuzz/NAME/corpus keeps the inputs with new coverage, and the next call continues from there; inputs that
+do harm are kept in out/fuzz/NAME/finds. Exit code 1 if any did.
 """
 
 import argparse
@@ -29,7 +29,7 @@ TARGETS = (*FUZZED, *READERS)
 
 
 class Done(NamedTuple):
-    """What fuzzing a target came to: in words, the input that did harm if there is one, and what it did."""
+    """The result of fuzzing a target: in words, the input that did harm if there is one, and what it did."""
 
     words: str
     find: Path | None

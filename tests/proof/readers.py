@@ -168,7 +168,7 @@ TROUBLE = [
     *(b"-1", b"1e999", b"NaN", b"null", b"true", b"0x", b"[]", b"{}", b"99999999999999999999", b"9" * 5000),
     *("\u202e".encode(), "\u0663".encode(), "²".encode()),
 ]
-"""What readers stumble over."""
+"""Texts that often cause trouble for readers."""
 
 _WORD = re.compile(rb"[A-Za-z_]+|-?[0-9.]+|\"[^\"]*\"")
 _OURS = (f"{ROOT}/host_sim/", f"{ROOT}/tools/")
@@ -178,11 +178,11 @@ Step = tuple[CodeType, int, int]
 
 
 class HangError(BaseException):
-    """A reader took too long. No reader can take it for one of its own errors."""
+    """A reader took too long. No reader mistakes it for one of its own errors."""
 
 
 class Outcome(NamedTuple):
-    """What fuzzing came to.
+    """The result of fuzzing.
 
     Attributes:
         tried: Inputs.
@@ -220,7 +220,7 @@ class ReaderFuzzer:
         self._tried = 0
 
     def run(self, goes_on: Callable[[int], bool]) -> Outcome:
-        """Goes on until it is told not to, or until an input does harm.
+        """Continues until told to stop, or until an input does harm.
 
         Args:
             goes_on: Whether to; it is given the number of inputs so far.

@@ -12,7 +12,7 @@ from tests.proof.readers import READERS, Reader, ReaderFuzzer, harm
 
 FEW = ("-runs=20000", "-seed=1")
 FEWER = ("-runs=5000", "-seed=1")
-"""Of what is proved as well, or takes long."""
+"""For parts that are also proved, or that take long."""
 
 
 @pytest.fixture(scope="module")

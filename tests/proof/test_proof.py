@@ -1,12 +1,12 @@
-"""No input makes the core or a parser access what it must not, overflow or divide by 0: a static analyser proves it.
+"""A static analyser proves that no input makes the core or a parser access invalid memory, overflow or divide by 0.
 
-Each C file here calls one part with arbitrary values, in any order, for ever; Frama-C's Eva follows all of that at
-once, with the types of a 32-bit ARM.
+Each C file here calls one part with arbitrary values, in any order, for ever; Frama-C's Eva follows all paths
+at once, with the types of a 32-bit ARM.
 
-What no input does, whatever state the robot is in: a static analyser follows all of them at once.
+It also proves what no input changes, whatever state the robot is in.
 
-Each function of contracts.c is one case. Frama-C's Eva says whether its assertions hold, and its Inout, what of the
-robot can be written at all in that case: what it does not name is proved to stay as it was.
+Each function of contracts.c is one case. Frama-C's Eva says whether its assertions hold, and its Inout, which
+parts of the robot can be written at all in that case: all others are proved to stay as they were.
 """
 
 import re
@@ -37,7 +37,7 @@ PRECISION = {
     "store": ("-eva-precision", "1", *SPLIT),
     "update": ("-eva-precision", "1", "-eva-auto-loop-unroll", "96", *SPLIT),
 }
-"""How closely the analyser has to look at each part to see that all is well. More would take many times as long."""
+"""The precision that the analyser needs for each part, to prove it. More would take many times as long."""
 
 REACHED_MIN = {"core": 98, "config": 50, "wire": 97, "slcan": 98, "store": 98, "update": 99}
 """Statements, in percent of those of the functions that are called: nothing is proved of the others."""
@@ -106,7 +106,7 @@ ORDERED = ("robot.config", "robot.brain.profile", "robot.brain.frozen")
 
 
 class Case(NamedTuple):
-    """What stays as it was in a case, and what does not: that is the control."""
+    """The state that a case leaves untouched, and state that it writes, as a control."""
 
     untouched: Sequence[str]
     written: str
@@ -164,7 +164,7 @@ def paths(zone: str) -> Iterator[str]:
 
 
 def touches(path: str, whole: str) -> bool:
-    """Whether one is the other or a part of it. What is told in bits may be anything of what they are of."""
+    """Whether one path is the other or a part of it. A range of bits counts as all of its object."""
     path = path.partition("[")[0]
     return f"{path}.".startswith(f"{whole}.") or f"{whole}.".startswith(f"{path}.")
 

@@ -101,7 +101,7 @@ def last(text: str) -> str:
 
 
 def soon(condition: Callable[[], bool]) -> bool:
-    """Whether the condition comes true within ten minutes: long enough for any machine that is at work at all."""
+    """Whether the condition comes true within ten minutes: long enough for any machine that works at all."""
     deadline = time.monotonic() + 600
     while not condition() and time.monotonic() < deadline:
         time.sleep(0.05)
@@ -118,7 +118,7 @@ def alive(pid: int) -> bool:
 
 EXTRAS = ("export", "study", "cluster", "classroom")
 INSTALLERS = ("sudo", "apt-get")
-"""With stand-ins for these, no test installs a package that this machine lacks."""
+"""Replaced by stand-ins, so that no test installs a package that this machine lacks."""
 STAGES = ("run", "emulator", "gym", *EXTRAS, "tests", "web")
 LOCKS = tuple(f"requirements/{name}.lock" for name in STAGES)
 

@@ -1,4 +1,4 @@
-"""tools/pins: what a board's pins can be, and what is refused."""
+"""tools/pins: valid pin assignments of a board, and refused ones."""
 
 import shutil
 import subprocess
@@ -14,7 +14,7 @@ from tools.flashing.images import ROOT, all_boards
 
 @pytest.fixture
 def root(tmp_path: Path) -> Path:
-    """A copy of what is known of boards and chips."""
+    """A copy of the files about boards and chips."""
     for path in (
         *(ROOT / HAL).glob("*/boards/*.cmake"),
         *(ROOT / HAL).rglob("pins.toml"),

@@ -1,4 +1,4 @@
-"""What is built depends on the sources and the presets, and on nothing that the caller's environment holds."""
+"""A build depends on the sources and the presets, and on nothing in the caller's environment."""
 
 import os
 import re
@@ -15,7 +15,7 @@ PRESETS = ("host", "blue_pill")
 
 
 def configure(folder: Path, preset: str, *options: str) -> str:
-    """What ninja would do, configured with flags in the environment."""
+    """The build.ninja of a preset that is configured with flags in the environment."""
     environment = {**os.environ, **{name: f"-D{CANARY}_{name}" for name in FLAGS}}
     command = ["cmake", "-B", folder, "--preset", preset, *options]
     subprocess.run(command, cwd=ROOT, env=environment, check=True, capture_output=True)

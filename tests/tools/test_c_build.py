@@ -1,4 +1,4 @@
-"""C tests as they are built: one that tests nothing fails; a warning stops a developer's build, and no other.
+"""The build of C tests: one that tests nothing fails; a warning stops only a developer's build.
 
 tools/legacy-fpu hides the extended floating-point state from a tracer, and nothing else.
 """
@@ -161,7 +161,7 @@ def test_preset_of_the_c_tests_has_warnings_as_errors() -> None:
 
 LEGACY_FPU = Path(__file__).resolve().parents[2] / "tools/legacy-fpu"
 PTRACE_GETREGSET, NT_PRSTATUS, NT_X86_XSTATE = 0x4204, 1, 0x202
-# There is no process 0: the kernel says ESRCH to whatever is asked of it, where the filter does not answer first.
+# There is no process 0: the kernel answers ESRCH to any request, unless the filter answers first.
 ASK = """
 import ctypes, sys
 libc = ctypes.CDLL(None, use_errno=True)

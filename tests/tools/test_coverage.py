@@ -1,4 +1,4 @@
-"""What the C tests show: all but what has a reason, and what none shows is seen."""
+"""Coverage of the tests: each gap has a reason, and each kind of gap is found."""
 
 import subprocess
 import sys
@@ -12,7 +12,7 @@ from tools.verify.coverage import CLANG, COPY, FLAGS, NOT_MEASURED, Gap, measure
 
 ROOT = Path(__file__).resolve().parents[2]
 
-# It is told what a, b and c are: "100" for a true and the others false.
+# Its argument gives a, b and c: "100" for a true and the others false.
 SOURCE = """int main(int argc, char *argv[])
 {
     const char *told = argv[argc - 1];
@@ -29,7 +29,7 @@ GAP = Gap("firmware/a.c", 4, f"never true: {B}")
 
 @pytest.fixture
 def built(tmp_path):
-    """A program built for the measure, with its source where ours are."""
+    """A program built with coverage, its source in the place of ours."""
     source, build = tmp_path / "firmware" / "a.c", tmp_path / "build"
     source.parent.mkdir()
     build.mkdir()

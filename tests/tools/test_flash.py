@@ -1,4 +1,4 @@
-"""tools/flash: what it makes of boards, images and probes, with stand-ins for the programs that it calls."""
+"""tools/flash with boards, images and probes, and with stand-ins for the programs that it calls."""
 
 import json
 import os
@@ -207,7 +207,7 @@ REPORTED = {
     "boot loader does not answer": "Interface serial_posix: 57600 8E1\nFailed to init device, timeout.\n",
     "cannot be opened": "Info : clock speed 1000 kHz\nError: open failed\nin procedure 'init'\n",
 }
-"""What users of openocd and stm32flash reported in public, and a part of the sentence for each."""
+"""Outputs of openocd and stm32flash that users have reported, each with a part of its explanation."""
 
 
 @pytest.mark.parametrize("sentence", REPORTED)

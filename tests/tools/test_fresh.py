@@ -1,4 +1,4 @@
-"""tools/fresh, as far as it comes without root: with stand-ins for the programs that make and enter a system."""
+"""tools/fresh without root: with stand-ins for the programs that make and enter a system."""
 
 import os
 import platform

@@ -1,4 +1,4 @@
-"""tools/generate: the hash is one of the messages' layout, and what does not fit together is refused."""
+"""tools/generate: the hash depends on the messages' layout only, and inconsistent files are refused."""
 
 import re
 import subprocess
@@ -92,7 +92,7 @@ def test_change_that_moves_no_bit_keeps_the_hash(change, tmp_path):
 
 @pytest.mark.parametrize(("old", "new"), OTHER.values(), ids=OTHER)
 def test_change_that_moves_a_bit_changes_the_hash(old, new, tmp_path):
-    # A comment or value table of what is no longer there would not be read at all.
+    # A file with a comment or value table of a removed signal could not be read at all.
     bare = re.sub(r"^(CM_|VAL_) .*\n", "", TEXT, flags=re.MULTILINE)
     assert hash_of(bare, tmp_path) == generated.LAYOUT_HASH
 

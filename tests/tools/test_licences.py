@@ -1,4 +1,4 @@
-"""Each package has a licence that was judged, and is pinned by its hash."""
+"""Each package has an approved licence, and is pinned by its hash."""
 
 import json
 import re

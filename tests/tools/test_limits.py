@@ -1,4 +1,4 @@
-"""tools/test in a project of its own, when time runs out or it is ended from outside."""
+"""tools/test in a project of its own, when time runs out or it is terminated."""
 
 import shutil
 import signal
@@ -47,7 +47,7 @@ def run_until(project: Project, name: str, happened: Callable[[], bool]) -> Any:
     running = [False]
 
     def passed() -> bool:
-        running[0] = running[0] or happened()  # what has happened stays so
+        running[0] = running[0] or happened()  # stays true
         return running[0]
 
     def lane() -> Steps[None]:

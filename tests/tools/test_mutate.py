@@ -1,6 +1,6 @@
-"""Mutants: in the source whose turn it is, the tests kill enough of them; without its tests they do not.
+"""Mutants: the tests kill enough of those of the chosen source; other tests do not.
 
-A sample of the faults that are planted in a copy of the tree: tests find them.
+Tests find a sample of faults that are planted in a copy of the tree.
 """
 
 import re
@@ -107,7 +107,7 @@ SAMPLE = 2
 
 
 def chosen() -> list[Fault]:
-    """Those whose tests need neither a browser nor what studies need."""
+    """The faults of the sample, among those whose tests need neither a browser nor the libraries of studies."""
     every = [fault for fault in faults() if not fault.tests.startswith(("tests/web", "tests/lab/study"))]
     head = subprocess.check_output(["git", "-C", ROOT, "rev-parse", "HEAD"], text=True)
     return [every[(int(head, 16) + i * len(every) // SAMPLE) % len(every)] for i in range(SAMPLE)]

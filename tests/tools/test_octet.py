@@ -94,7 +94,7 @@ def sources(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def call(folder: Path, words: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Runs a tool with a python3 that has the standard library only."""
+    """Runs a tool with a python3 that has only the standard library."""
     programs = folder.parent / "bin"
     programs.mkdir(exist_ok=True)
     python = programs / "python3"
@@ -203,7 +203,7 @@ TOOLS = sorted(
 
 
 def programs(source: str) -> list[str]:
-    """What each argument parser of a source is called; empty for one that calls itself by its file's name."""
+    """The program name of each argument parser of a source; empty for one without a name of its own."""
     calls = [node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Call)]
     parsers = [call for call in calls if ast.unparse(call.func) == "argparse.ArgumentParser"]
     names = [[ast.literal_eval(word.value) for word in call.keywords if word.arg == "prog"] for call in parsers]

@@ -1,4 +1,4 @@
-"""tools/test --quick: which tests a change concerns."""
+"""tools/test --quick: the tests that a change selects."""
 
 import re
 import subprocess

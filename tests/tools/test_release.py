@@ -1,6 +1,6 @@
 """tools/release names what a release lacks, in a checkout of its own with one fault each; and in this checkout.
 
-Octet in other projects, and in editors: CMake, which nobody here wrote, finds what it needs.
+Octet in other projects and in editors, as CMake and compile_commands.json offer it.
 """
 
 import json
@@ -160,7 +160,7 @@ def cmake(*words: object, **kwargs) -> subprocess.CompletedProcess[str]:
 
 
 def outcome(folder: Path, how: str, *options: str) -> list[str]:
-    """What two programs of a foreign project print, one with the whole robot, one with only its brain."""
+    """The output of two programs of a foreign project, one with the whole robot, one with only its brain."""
     (folder / "CMakeLists.txt").write_text(LISTS.format(how=how + PROGRAMS))
     (folder / "whole.c").write_text(WHOLE)
     (folder / "decides.c").write_text(DECIDES)

@@ -1,4 +1,4 @@
-"""tools/rooms: what came and went in a checkout of its own, with sums counted by hand."""
+"""tools/rooms: changes of files, lines and statements in a checkout of its own, with sums counted by hand."""
 
 import re
 import shutil
@@ -92,7 +92,7 @@ def folder() -> Iterator[Path]:
 
 
 def judge(command: tuple[str, ...], path: Path) -> int:
-    """The exit code of a command of a stage for one file in place of all."""
+    """The exit code of a stage's command, for one file instead of all."""
     options = [word for word in command if not word.startswith("tools/") and word != ".ci/run"]
     return subprocess.run([*options, path], cwd=ROOT, capture_output=True, check=False).returncode
 

@@ -1,4 +1,4 @@
-"""tools/test in a project of its own: what it counts, and what each stage is."""
+"""tools/test in a project of its own: what it counts, and the tests of each stage."""
 
 import re
 import signal

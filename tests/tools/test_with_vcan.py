@@ -1,4 +1,4 @@
-"""tools/with-vcan, for real: a bus is started for each."""
+"""tools/with-vcan with real buses: each test starts one."""
 
 import os
 import re
@@ -29,7 +29,7 @@ def _a_way_to_a_bus() -> None:
 
 @pytest.fixture(scope="module")
 def way() -> str:
-    """How a bus is had here."""
+    """The way to a bus on this machine."""
     return subprocess.check_output([WITH_VCAN, "--how"], text=True).strip()
 
 
@@ -63,7 +63,8 @@ def test_output_of_256_kib_is_unchanged() -> None:
     assert subprocess.check_output([WITH_VCAN, "python3", "-c", script], text=True) == data
 
 
-# Sends a frame until candump hears it, and once both listen another one, until it is heard: so would be the other's.
+# Sends a frame until candump hears it; once both listen, another one until that is heard.
+# On a shared bus, the other's would then be heard, too.
 TALK = """
 candump -L vcan0 >{me} &
 until grep -q '#AA' {me}; do cansend vcan0 {me}#AA; sleep 0.05; done
@@ -148,7 +149,7 @@ def test_ordinary_user_owns_its_files_and_may_set_up_the_bus(as_an_ordinary_user
     assert (folder / "file").owner() == folder.owner()
 
 
-# Under this no process may trace another: what a container's seccomp profile may forbid.
+# Forbids tracing, as a container's seccomp profile may.
 FORBID = """
 import ctypes, os, struct, sys
 program = [(0x20, 0, 0), (0x15, 1, 101), (0x06, 0, 0x00050001), (0x06, 0, 0x7FFF0000)]
@@ -187,7 +188,7 @@ def test_missing_command_is_named_with_its_package() -> None:
 
 
 def changed(folder: Path, old: str, new: str) -> Path:
-    """A copy of tools/with-vcan that has one text in place of another."""
+    """A copy of tools/with-vcan with a text replaced."""
     text = WITH_VCAN.read_text()
     assert text.count(old) == 1
     for name in ("with-vcan", "legacy-fpu"):
@@ -208,7 +209,7 @@ def test_failure_inside_user_mode_linux_is_named(tmp_path: Path, way: str) -> No
 
 
 def test_user_mode_linux_has_io_uring_disabled(way: str) -> None:
-    """io_uring, in kernels that can do without it."""
+    """io_uring would corrupt the memory of User-Mode Linux."""
     look = "cat /proc/sys/kernel/io_uring_disabled || echo 2"
     disabled = subprocess.check_output([WITH_VCAN, "bash", "-c", look], text=True, stderr=subprocess.DEVNULL)
 

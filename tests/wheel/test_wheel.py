@@ -1,4 +1,4 @@
-"""What the wheel for this system does: all that a checkout does, from a place that it does not write to."""
+"""The wheel for this system does all that a checkout does, from a folder that it does not write to."""
 
 import json
 import os
