@@ -9,7 +9,7 @@ from host_sim.emulator.clock import SECOND
 from host_sim.emulator.hardware import Faults
 from host_sim.emulator.rcc import RccFaults
 from tests.image.support import counted, is_rest, talk_to
-from tools.verify.size.tick_cost import count_ticks
+from tools.verify.tick_cost import count_ticks
 
 
 def changes(levels: list[bool]) -> int:

@@ -7,7 +7,7 @@ import pytest
 from tests.tools.project import ROOT, script_named
 from tools.verify import command
 from tools.verify.command import ChoiceError, VerifyError
-from tools.verify.size.pieces import CallGraph, compiler_of, read, read_pieces, worst_stack
+from tools.verify.sizes import CallGraph, compiler_of, read, read_pieces, worst_stack
 
 BUDGET = ROOT / "tools" / "verify" / "size.md"
 HEAD = "# Budgets\n\n| what | compiler | flash | ram | stack | instructions |\n| - | - | - | - | - | - |\n"

@@ -155,7 +155,7 @@ def worst_stack(graph: CallGraph, roots: Iterable[str]) -> tuple[int, list[str]]
     return max((graph.worst(root) for root in roots), key=lambda found: found[0])
 
 
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = Path(__file__).resolve().parents[2]
 _PYTHON = ROOT / ".venv" / "bin" / "python"
 _COMMON = ("-std=c99", "-ffreestanding", "-Os", "-ffunction-sections", "-fdata-sections", "-Wall", "-Werror")
 _ENTRIES = ("robot_init", "robot_respond", "brain_adopt")

@@ -1,1 +1,0 @@
-"""Sizes of the flash images and of their parts."""
