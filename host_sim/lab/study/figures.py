@@ -141,7 +141,7 @@ class Estimate:
         normal = NormalDist()
         both = 1 + normal.inv_cdf(_POWER) / normal.inv_cdf((1 + LEVEL) / 2)
         needed = self.seeds * ((self.high - self.low) / 2 * both / difference) ** 2
-        return math.ceil(round(needed, 6)) if math.isfinite(needed) else math.nan
+        return math.ceil(round(needed, 6)) if math.isfinite(needed) and self.seeds > 1 else math.nan
 
 
 def estimate(figure: Figure, sample: Sample, level: float = LEVEL, resamples: int = RESAMPLES) -> Estimate:

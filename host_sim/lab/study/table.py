@@ -95,6 +95,10 @@ def _notes(samples: Sequence[Sample], difference: float) -> Iterator[str]:
     together = f", and all {len(samples) - 1} of a figure hold together" if len(samples) > 2 else ""  # noqa: PLR2004
     yield f"The last column compares with {samples[0].name}: points of a percentage, ratio of all else{together}."
     for sample in samples[1:]:
-        needed = compare(FIGURES[_RATIO], sample, samples[0]).seeds_for(difference)
+        ratio = compare(FIGURES[_RATIO], sample, samples[0])
+        if ratio.low == ratio.value == ratio.high == 1:
+            yield f"{sample.name} takes as long as {samples[0].name} with each seed."
+            continue
+        needed = ratio.seeds_for(difference)
         seeds = "an unknown number of" if math.isnan(needed) else f"{needed:g}"
         yield f"To detect {100 * difference:g} % of the mean time of {sample.name}: {seeds} seeds (power 80 %)."

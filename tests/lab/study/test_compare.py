@@ -28,6 +28,7 @@ def test_compare_runs_the_given_profiles_without_a_study(capsys):
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "never five: 1 seed of 1 environment each"
     assert [line.split()[0] for line in lines[2:4]] == ["never", "five"]
+    assert "To detect 5 % of the mean time of five: an unknown number of seeds (power 80 %)." in lines
 
 
 def test_command_line_with_a_body_is_judged_without_packages():
@@ -62,6 +63,16 @@ def test_seeds_that_are_no_longer_in_the_plan_are_not_compared(tmp_path, capsys)
     assert main(["compare", out]) == 0
 
     assert "a: 2 seeds of 1 environment each, none of 1..10" in capsys.readouterr().out
+
+
+def test_compare_of_equal_conditions_says_that_they_are_equal(tmp_path, capsys):
+    plan, out = tmp_path / "a.toml", str(tmp_path / "out")
+    plan.write_text('profiles = ["fixed"]\nseeds = 2\nenvironments = 1\nlimit_s = 5\n[settings.a]\n[settings.b]\n')
+    assert main(["study", str(plan), "--out", out, "--jobs", "1"]) == 0
+
+    assert main(["compare", out]) == 0
+
+    assert "b takes as long as a with each seed." in capsys.readouterr().out
 
 
 def test_study_without_a_title_is_named_after_its_file(tmp_path, capsys):
