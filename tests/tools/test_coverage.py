@@ -1,5 +1,6 @@
 """Coverage of the tests: each gap has a reason, and each kind of gap is found."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -175,6 +176,15 @@ def test_python_code_is_covered_or_has_a_reason():
 
     assert result.returncode == 0, result.stderr
     assert "\n0 complaints" in result.stdout
+
+
+def test_each_name_left_out_of_the_measurement_is_that_of_a_test():
+    script = script_named("coverage")
+    folders = (folder for folder in script.PYTHON_GATE_TESTS if folder.startswith("tests/"))
+    texts = [path.read_text() for folder in folders for path in (ROOT / folder).glob("test_*.py")]
+
+    for name in script.PYTHON_SLOW:
+        assert any(re.search(rf"def test_\w*{name}", text) for text in texts), name
 
 
 def test_tests_that_take_every_branch_leave_no_gap(tmp_path):
