@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from host_sim.base.toml_file import parse_toml
-from host_sim.lab.grade.attempt import TITLES
+from host_sim.lab.grade.attempt import TITLES, Verdict
 from host_sim.lab.grade.grade_command import EXERCISES
 from host_sim.lab.grade.grading import grade
 from tests.runs.support import data_in, octet_process
@@ -27,19 +27,17 @@ def solution(number: int) -> str:
     return (SOLUTIONS / f"{number}.c").read_text()
 
 
-@pytest.fixture(scope="module")
-def graded(tmp_path_factory: pytest.TempPathFactory) -> dict[int, list]:
-    """The grades of each solution, and of its mutants after it."""
-    found = {}
-    for number in TITLES:
-        folder = tmp_path_factory.mktemp(f"exercise{number}")
-        texts = [solution(number), *(solution(number).replace(old, new) for old, new in MUTANTS[number])]
-        assert len(set(texts)) == len(texts), number
-        files = [folder / f"{place}.c" for place in range(len(texts))]
-        for file, text in zip(files, texts, strict=True):
-            file.write_text(text)
-        found[number] = grade(number, 1, files)
-    return found
+def graded(folder: Path, number: int, *texts: str) -> list[Verdict]:
+    """The verdicts on submissions for an exercise."""
+    files = [folder / f"{place}.c" for place in range(len(texts))]
+    for file, text in zip(files, texts, strict=True):
+        file.write_text(text)
+    return [it.verdict for it in grade(number, 1, files)]
+
+
+def mutants(number: int) -> list[str]:
+    """Wrong solutions of an exercise."""
+    return [solution(number).replace(old, new) for old, new in MUTANTS[number]]
 
 
 def test_exercises_have_a_solution_mutants_and_a_section():
@@ -50,23 +48,23 @@ def test_exercises_have_a_solution_mutants_and_a_section():
 
 
 @pytest.mark.parametrize("number", TITLES)
-def test_solution_of_an_exercise_passes(graded, number):
-    assert graded[number][0].verdict.status == "pass", graded[number][0].verdict.message
+def test_grade_passes_the_solution_of_an_exercise_and_no_wrong_one(tmp_path, number):
+    texts = [solution(number), *mutants(number)]
+
+    right, *wrong = graded(tmp_path, number, *texts)
+
+    assert len(set(texts)) == len(texts)
+    assert right.status == "pass", right.message
+    assert [change for change, it in zip(MUTANTS[number], wrong, strict=True) if it.status == "pass"] == []
 
 
-@pytest.mark.parametrize("number", TITLES)
-def test_wrong_solutions_of_each_exercise_are_rejected(graded, number):
-    survived = [MUTANTS[number][place] for place, it in enumerate(graded[number][1:]) if it.verdict.status == "pass"]
+def test_verdict_describes_the_first_wrong_decision_in_words(tmp_path):
+    (first,) = graded(tmp_path, 1, mutants(1)[0])
+    (fourth,) = graded(tmp_path, 4, mutants(4)[1])
 
-    assert survived == []
-
-
-def test_verdict_describes_the_first_wrong_decision_in_words(graded):
-    assert "front-right" in graded[1][1].verdict.message
-    assert graded[1][1].verdict.message.endswith(
-        ": you chose a turn right by 10 degrees; asked is a turn left by 10 degrees"
-    )
-    assert "asked is a turn to either side by 45 degrees" in graded[4][2].verdict.message
+    assert "front-right" in first.message
+    assert first.message.endswith(": you chose a turn right by 10 degrees; asked is a turn left by 10 degrees")
+    assert "asked is a turn to either side by 45 degrees" in fourth.message
 
 
 def submissions(folder: Path) -> Path:
