@@ -28,6 +28,7 @@ for _number in (signal.SIGINT, signal.SIGHUP):
         signal.signal(_number, lambda *_: None)  # child processes do not inherit handlers
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # numpy's threads wait for one another where tests take all cores
 
 
 PLAYWRIGHT_LOOP = pytest.StashKey[asyncio.AbstractEventLoop | None]()
