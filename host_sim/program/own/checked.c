@@ -20,11 +20,13 @@ const char *__asan_default_options(void)
     return "detect_leaks=0:detect_stack_use_after_return=1:color=never";
 }
 
-/* The sanitizer has found an error, which it prints next. It does not know the tick and the senses. */
+/* The sanitizer has found an error, which it prints next: that may take longer than a decision. It does not know the
+ * tick and the senses. */
 void __asan_on_error(void)
 {
     char when[GUARD_TEXT_MAX / 3];
 
+    guard_watch(false);
     long tick = guard_when(when, sizeof when);
     printf("own: %ld , %s\n", tick, when);
     fflush(stdout);
