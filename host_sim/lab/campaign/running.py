@@ -96,6 +96,7 @@ def _run_with_setup(outcome: Outcome) -> None:
         check_events({*setup.events, *FILE_EVENTS, *CLOCK_EVENTS}, cell.link, cell.events)
         if is_killed and not _run_killed(outcome, setup, folder):
             return
+        setup.settle()
         files = open_files(folder, stack)
         files.messages += ["the simulator was killed, and another one went on with its memory"] * is_killed
         try:

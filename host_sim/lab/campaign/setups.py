@@ -3,7 +3,7 @@
 import os
 import subprocess
 import threading
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -38,6 +38,9 @@ class Setup:
     def found(self, client: RobotClient) -> None:
         """Called with the robot's client, once the robot has answered."""
 
+    def settle(self) -> None:
+        """Waits until a line that an event has interrupted is there again, so that another run can begin."""
+
 
 _BUS = "vcan0"
 
@@ -45,8 +48,8 @@ _BUS = "vcan0"
 class OnLine(Setup):
     """The setup of a robot at one end of a line, `link`; the simulator is at the other end, `bus`."""
 
-    def __init__(self, link: str, bus: str, events: Mapping[str, Trigger]) -> None:
-        self._link, self._bus = link, bus
+    def __init__(self, link: str, bus: str, events: Mapping[str, Trigger], timers: Sequence[threading.Timer]) -> None:
+        self._link, self._bus, self._timers = link, bus, timers
         self.robot = RobotProcess(link, 1)
         own: Mapping[str, Trigger] = {"reset": lambda _: self._restart()}
         self.events = {**process_events(lambda: self.robot.pid), **own, **events}
@@ -55,6 +58,11 @@ class OnLine(Setup):
     def configured(self, config: RunConfig) -> RunConfig:
         """As in `Setup`."""
         return replace(config, bus=self._bus, robot="external")
+
+    def settle(self) -> None:
+        """As in `Setup`."""
+        for timer in self._timers:
+            timer.join()
 
     def _restart(self) -> None:
         self.robot.close()
@@ -66,6 +74,7 @@ def serial_line() -> Iterator[OnLine]:
     """Sets up a robot with slcan on a serial line."""
     with TemporaryDirectory() as folder, ExitStack() as stack:
         cable, socket = Cable(), Socket(Path(folder) / "tty")
+        timers: list[threading.Timer] = []
         stack.callback(cable.close)
         socket.plug(cable.ends[1])
 
@@ -76,12 +85,13 @@ def serial_line() -> Iterator[OnLine]:
         def unplug(span_ms: int) -> None:
             socket.unplug()
             cable.unplug()
-            _later(stack, span_ms, plug)
+            timers.append(_later(stack, span_ms, plug))
 
         def disturb(percent: int) -> None:
             cable.noise = percent / 100
 
-        setup = OnLine(f"slcan:{cable.ends[0]}", f"slcan:{socket.path}", {"unplug": unplug, "noise": disturb})
+        events = {"unplug": unplug, "noise": disturb}
+        setup = OnLine(f"slcan:{cable.ends[0]}", f"slcan:{socket.path}", events, timers)
         stack.callback(lambda: setup.robot.close())  # noqa: PLW0108 - the robot may be another one by then
         yield setup
 
@@ -97,14 +107,15 @@ def virtual_bus() -> Iterator[OnLine]:
         raise UsageError(f"there is no {_BUS} here: put tools/with-vcan before the command")
 
     with ExitStack() as stack:
+        timers: list[threading.Timer] = []
 
         def go_down(span_ms: int) -> None:
             stack.callback(_set_bus, "up")
             _set_bus("down")
-            _later(stack, span_ms, lambda: _set_bus("up"))
+            timers.append(_later(stack, span_ms, lambda: _set_bus("up")))
 
         _set_bus("up")
-        setup = OnLine(f"socketcan:{_BUS}", f"socketcan:{_BUS}", {"bus-down": go_down})
+        setup = OnLine(f"socketcan:{_BUS}", f"socketcan:{_BUS}", {"bus-down": go_down}, timers)
         stack.callback(lambda: setup.robot.close())  # noqa: PLW0108 - the robot may be another one by then
         yield setup
 
@@ -115,12 +126,13 @@ def _set_bus(state: str) -> None:
         raise UsageError(f"cannot set {_BUS} {state}: {done.stderr.strip()}")
 
 
-def _later(stack: ExitStack, span_ms: int, action: Callable[[], None]) -> None:
+def _later(stack: ExitStack, span_ms: int, action: Callable[[], None]) -> threading.Timer:
     """Schedules an action after a span; it is cancelled if the stack is closed earlier: the line is gone then."""
     timer = threading.Timer(span_ms / 1000, action)
     timer.start()
     stack.callback(timer.join)
     stack.callback(timer.cancel)
+    return timer
 
 
 class SocketPair(Setup):

@@ -128,6 +128,12 @@ def test_process_that_owns_the_line_unplugs_it(monkeypatch):
     assert told[:1] == ["unplug"]
 
 
+def test_next_simulator_begins_when_the_line_is_plugged_in_again():
+    outcome = outcome_of("article slcan lockstep seed=12 limit=1 event=unplug:700@20 event=kill-simulator:50@20")
+
+    assert (outcome.problems, outcome.broke) == ([], False)
+
+
 def test_hanging_simulator_is_ended_and_fails_the_campaign(monkeypatch):
     monkeypatch.setattr("host_sim.lab.campaign.host_events.SILENT_S", 0.5)
     monkeypatch.setattr(MemorySaver, "save", lambda *_: time.sleep(60))
