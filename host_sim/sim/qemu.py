@@ -19,7 +19,7 @@ MACHINE = "netduinoplus2"
 IMAGE = "feather_stm32f405", "slcan"
 """Board and link of the image for it."""
 
-_READY_S = 10.0
+_READY_S = 60.0  # a busy machine takes long to start an emulator
 _END_S = 2.0
 _PAUSE_S = 0.05
 """Gap that marks the end of the robot's first reports, s."""
