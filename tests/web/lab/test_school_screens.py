@@ -131,6 +131,7 @@ def test_tabs_have_nothing_cut_and_no_card_half_empty(tab, page):
 
 
 def test_world_names_fit_when_chosen_in_bold(page):
+    resize(page, SIZES[0])
     page.click("#tab-run")
     for language in ("en", "de"):
         page.select_option("#language", language)
