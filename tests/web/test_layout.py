@@ -12,6 +12,7 @@ from tests.web.looks import (
     ARENA,
     DESKTOPS,
     PHONES,
+    THREE_SIZES,
     TOO_SMALL,
     out_of_view,
     resize,
@@ -53,6 +54,13 @@ REACH = """(modules) => {
     .filter(([kind, [x, y]]) => itemAt(scene, { x: x + nx * off, y: y + ny * off }, slack)?.kind !== kind)
     .map(([kind]) => kind);
 }"""
+
+# Where the tabs are while the run is played: their distances from the top of the page, px.
+TAB_PLACES = """() => [...new Set(Array.from({ length: Math.floor((octet.last - octet.first) / 30) }, (_, i) => {
+  octet.seek(octet.first + 30 * i);
+  octet.draw();
+  return Math.round(document.querySelector("#tabs").getBoundingClientRect().top + scrollY);
+}))]"""
 
 
 def fill(run: FakeRun) -> None:
@@ -107,6 +115,15 @@ def test_replay_shows_a_large_arena_first(recorded: Path, open_page):
 
     assert too_small(page, ARENA, ".lane canvas") == []
     assert page.evaluate(NEAR_THE_TOP)
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_tabs_stay_where_they_are_while_a_run_plays(recorded: Path, open_page, language):
+    page = open_page(recorded.as_uri(), locale=language)
+
+    for size in THREE_SIZES:
+        resize(page, size)
+        assert len(page.evaluate(TAB_PLACES)) == 1, size
 
 
 def test_small_or_covered_arena_is_found(recorded: Path, open_page):

@@ -58,7 +58,7 @@ export class Classroom {
 
   rename() {
     keep("name", this.name);
-    setText(this.news, "");
+    if (!this.isOpen) setText(this.news, ""); // the code of another name
     this.report();
   }
 

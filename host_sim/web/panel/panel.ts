@@ -17,6 +17,9 @@ const THINGS: [string, Key][] = [
   ["bar", "thingBar"],
 ];
 
+/** A sentence with more characters is written smaller: it must not move what stands below. */
+const SHORT_MAX = 56;
+
 /** Fills the elements of a page that have these ids: doing why boredom-meter facts legend to-legend cells memory-title. */
 export class Panel {
   cells: CellsView;
@@ -56,7 +59,9 @@ export class Panel {
   }
 
   showSentence(state: State, exact: boolean) {
-    setText(byId("doing"), sentence(state, exact, robotWords()));
+    const doing = sentence(state, exact, robotWords());
+    setText(byId("doing"), doing);
+    byId("doing").classList.toggle("long", doing.length > SHORT_MAX);
     setText(byId("why"), verdict(state, robotWords()));
     this.showReason(state.reason);
   }
