@@ -33,7 +33,7 @@ class SerialEmulator:
         pid: Process id.
     """
 
-    def __init__(self, name: str, command: Sequence[str], *, by_number: bool = False) -> None:
+    def __init__(self, name: str, command: Sequence[str], *, by_number: bool = False, held: bool = False) -> None:
         """Starts it and waits for the robot's first reports, which it sends once a second without being asked.
 
         Args:
@@ -41,6 +41,7 @@ class SerialEmulator:
             command: The command line, whose program is installed; `setpriv` ends it even if this process is killed.
             by_number: Whether the serial port is the file descriptor that replaces `FD` in the command line;
                 otherwise it is standard input and output.
+            held: Whether the image begins only when a debugger says so; its first reports are then not waited for.
 
         Raises:
             OctetError: It cannot be started.
@@ -65,7 +66,8 @@ class SerialEmulator:
         self.link = SlcanLink(ours)
         self.pid = self._process.pid
         try:
-            self._await_ready()
+            if not held:
+                self._await_ready()
         except BaseException:
             self.close()
             raise
@@ -123,7 +125,7 @@ class Qemu(SerialEmulator):
         Args:
             image: The `.elf` file; None for the one that was built here.
             machine: The machine that QEMU emulates.
-            gdb: A socket that it makes for gdb; None for none.
+            gdb: A socket that it makes for gdb, which then begins the image; None for none.
 
         Raises:
             OctetError: QEMU is not installed, or the image is not built.
@@ -134,9 +136,9 @@ class Qemu(SerialEmulator):
             raise OctetError(f"{PROGRAM} is not installed: run tools/setup images")
         options = ["-M", machine, "-display", "none", "-monitor", "none", "-kernel", os.fspath(image)]
         command = [PROGRAM, *options, "-chardev", "socket,id=uart,fd=FD", "-serial", "chardev:uart"]
-        super().__init__("QEMU", command + _for_gdb(gdb), by_number=True)
+        super().__init__("QEMU", command + _for_gdb(gdb), by_number=True, held=gdb is not None)
 
 
 def _for_gdb(socket_path: Path | None) -> list[str]:
-    words = ["-chardev", f"socket,id=gdb,path={socket_path},server=on,wait=off", "-gdb", "chardev:gdb"]
+    words = ["-S", "-chardev", f"socket,id=gdb,path={socket_path},server=on,wait=off", "-gdb", "chardev:gdb"]
     return words if socket_path else []

@@ -1,6 +1,8 @@
 """gdb-multiarch, which nobody here wrote, on the image in QEMU and on the emulated board: the world waits for it."""
 
 import json
+import os
+import shutil
 import socket
 from pathlib import Path
 
@@ -25,6 +27,20 @@ def test_run_waits_while_the_image_is_at_a_breakpoint(robot, tmp_path):
     assert "caution_next" in done.stdout
     (told,) = json.loads((tmp_path / "summary.json").read_text())["robots"]
     assert told["frames"]["lost"] == 0
+
+
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_run_begins_when_the_debugger_is_there(robot, tmp_path, monkeypatch):
+    slow = tmp_path / "gdb-multiarch"
+    slow.write_text(f'#!/bin/sh\nsleep 4\nexec {shutil.which(slow.name)} "$@"\n')
+    slow.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    words = "delete\ntbreak brain_next\ncontinue\ncontinue\n"
+
+    done = octet_process("run", "--robot", robot, *OPTIONS, "1", "--gdb", "--out", tmp_path, input=words)
+
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "Temporary breakpoint 2, " in done.stdout
 
 
 @pytest.mark.parametrize(("robot", "end"), [("qemu", "kill\n"), ("emulated", "kill\n"), ("emulated", "")])
