@@ -63,15 +63,16 @@ def random_sentences(seed: int) -> list[tuple[str, str]]:
 
 def test_page_answers_thousands_of_sentences_as_the_command_line_does(tmp_path: Path):
     log = tmp_path / "run.log"
-    run(RunConfig(seed=11, environments=2, bus="none", profile="forgetful", world="crowded"), log)
+    run(RunConfig(seed=11, environments=2, bus="none", profile="forgetful", world="crowded", limit_s=120), log)
     trajectory = resimulate(log).trajectory
     index = index_log(log, 1)
     draw = random.Random(5)
     table = [(who, draw.randrange(trajectory.ticks), sentence) for who, sentence in random_sentences(7)]
-    talks = {who: Conversation(script_named(who), NO_FACTS, texts_of(who)) for who in SPEAKERS}
+    texts = {who: texts_of(who) for who in SPEAKERS}
+    talks = {who: Conversation(script_named(who), NO_FACTS, texts[who]) for who in SPEAKERS}
     expected = []
     for who, tick, sentence in table:
-        talks[who].ask_about(RobotFacts(trajectory, index, tick, texts_of(who)).by_name())
+        talks[who].ask_about(RobotFacts(trajectory, index, tick, texts[who]).by_name())
         expected.append(talks[who].answer(sentence))
     contents = (speakers(), run_data(trajectory, ""), {"starts": index.starts, "health": index.health}, table)
     files = [tmp_path / f"{i}.json" for i in range(len(contents))]
