@@ -3,9 +3,44 @@
 import os
 import shutil
 import subprocess
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
+from host_sim.base.errors import OctetError
 from host_sim.base.paths import ROOT
+from host_sim.base.system import lock_at_once
+
+_OTHER_S, _LOOK_S = 300.0, 0.1
+
+
+@contextmanager
+def alone_in(folder: Path) -> Iterator[None]:
+    """Keeps other processes from building in a folder meanwhile.
+
+    Args:
+        folder: Has the name of its board.
+
+    Raises:
+        OctetError: Another process still has it after 5 minutes.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    with folder.with_suffix(".lock").open("w") as lock:
+        _wait_for(lock.fileno(), folder.name)
+        yield
+
+
+def _wait_for(lock: int, board: str) -> None:
+    end = time.monotonic() + _OTHER_S
+    while True:
+        try:
+            return lock_at_once(lock)
+        except BlockingIOError:
+            if time.monotonic() > end:
+                told = f"another octet still builds an image of {board}: try again when it has ended"
+                raise OctetError(told) from None
+        time.sleep(_LOOK_S)
 
 
 def build_image(

@@ -19,9 +19,8 @@ from typing import Any
 
 from host_sim.base.errors import OctetError, UsageError
 from host_sim.base.files import write_bytes
-from host_sim.base.image_build import build_image
+from host_sim.base.image_build import alone_in, build_image
 from host_sim.base.paths import BUILD, PACKAGE, ROOT
-from host_sim.base.system import lock_at_once
 from host_sim.sim.in_process_link import OwnLink, Relay, read_source
 from host_sim.sim.world_record import Source
 
@@ -34,7 +33,6 @@ _CACHED_MAX = 20
 _BUSY_S = 60.0
 _SIZE_MAX = 200_000
 _COMPILE_S = 30.0
-_OTHER_S, _LOOK_S = 300.0, 0.1
 _LIBRARY = ["-shared", f"-Wl,--version-script={OWN_HEADERS / 'library.map'}"]
 _LINKS = {
     "liboctet.so": (_MADE / "library.o", _LIBRARY),
@@ -127,9 +125,7 @@ class OwnBrain:
             OctetError: It cannot be built.
         """
         folder, source = _IMAGES / board, _IMAGES / f"{board}.c"
-        folder.mkdir(parents=True, exist_ok=True)
-        with (_IMAGES / f"{board}.lock").open("w") as lock:
-            _wait_for(lock.fileno(), board)
+        with alone_in(folder):
             text = _with_lines(self.path, self.text)
             if not source.exists() or source.read_bytes() != text:
                 write_bytes(source, text)
@@ -229,19 +225,6 @@ def compiled(text: bytes, name: str) -> OwnBrain:
         sys.stderr.write(f"{warnings}\n")
     _prune()
     return brain
-
-
-def _wait_for(lock: int, board: str) -> None:
-    """Locks the folder of a board's images; another process may build one there."""
-    end = time.monotonic() + _OTHER_S
-    while True:
-        try:
-            return lock_at_once(lock)
-        except BlockingIOError:
-            if time.monotonic() > end:
-                told = f"another octet still builds an image of {board}: try again when it has ended"
-                raise OctetError(told) from None
-        time.sleep(_LOOK_S)
 
 
 def _key(text: bytes, name: str) -> str:

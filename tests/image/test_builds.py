@@ -14,11 +14,11 @@ from pathlib import Path
 
 import pytest
 
+from host_sim.base.errors import OctetError
 from host_sim.client.connection import Connection
 from host_sim.sim.qemu import Qemu
 from tests.image.support import run_robot
 from tests.runs.support import REFERENCE, first_difference, record
-from tools.flashing import FlashError
 from tools.flashing.images import all_boards, identify, node_max
 from tools.flashing.images import build as build_for
 
@@ -133,5 +133,5 @@ def test_image_is_built_for_a_node_and_a_bit_rate() -> None:
 
 
 def test_node_beyond_the_protocol_is_refused() -> None:
-    with pytest.raises(FlashError, match="cmake --build"):
+    with pytest.raises(OctetError, match="cmake --build"):
         build_for(all_boards()["feather_stm32f405"], "bxcan", node_max() + 1, 500_000)

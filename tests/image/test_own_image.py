@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from host_sim.base import image_build
 from host_sim.base.errors import OctetError, RefusedError
 from host_sim.base.paths import PACKAGE, ROOT
 from host_sim.base.system import lock_at_once
@@ -68,7 +69,7 @@ def test_impossible_image_is_refused_before_it_is_built(mine, tmp_path):
 
 def test_lasting_build_lock_of_another_process_is_reported(mine, tmp_path, monkeypatch):
     monkeypatch.setattr(own_brain, "_IMAGES", tmp_path / "images")
-    monkeypatch.setattr(own_brain, "_OTHER_S", 0.3)
+    monkeypatch.setattr(image_build, "_OTHER_S", 0.3)
     brain = own_brain.own_brain(mine)
     (tmp_path / "images/pico").mkdir(parents=True)
     with (tmp_path / "images/pico.lock").open("w") as lock:
@@ -77,9 +78,11 @@ def test_lasting_build_lock_of_another_process_is_reported(mine, tmp_path, monke
             brain.image("pico", "slcan")
 
 
+FLASH = (ROOT / "tools/flash", "blue_pill", "bxcan", "--dry-run", "--probe", "stlink")
+
+
 def flashed(*options: str) -> subprocess.CompletedProcess[str]:
-    words = [ROOT / "tools/flash", "blue_pill", "bxcan", "--dry-run", "--probe", "stlink", *options]
-    return subprocess.run(words, capture_output=True, text=True, check=False)
+    return subprocess.run([*FLASH, *options], capture_output=True, text=True, check=False)
 
 
 def starts_own() -> None:
@@ -101,3 +104,12 @@ def test_flash_builds_images_with_and_without_a_custom_behaviour(mine):
     assert flashed().returncode == 0
     with pytest.raises(RefusedError):
         starts_own()
+
+
+def test_builds_at_once_each_make_the_image_asked_for():
+    nodes = ("2", "3", "4")
+    running = [subprocess.Popen([*FLASH, "--node", node], stdout=subprocess.PIPE, text=True) for node in nodes]
+
+    told = [process.communicate()[0] for process in running]
+
+    assert [f"robot  node {node}," in it for node, it in zip(nodes, told, strict=True)] == [True] * 3

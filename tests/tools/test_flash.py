@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.flashing import FlashError  # noqa: E402 - found by the line above
+from host_sim.base.errors import OctetError  # noqa: E402 - found by the line above
 from tools.flashing.images import Image, all_boards, build, choose_board, identify  # noqa: E402
 from tools.flashing.probes import Probe, choose_probe, find_drive, find_probes, write_to_drive  # noqa: E402
 from tools.flashing.programs import CHIP_IDS, Plan, check_chip, explain, make_plan, write  # noqa: E402
@@ -72,15 +72,15 @@ def test_chips_of_all_boards_have_an_id() -> None:
 
 
 def test_unknown_board_is_refused() -> None:
-    with pytest.raises(FlashError, match="no board nosuch; there are blue_pill, feather"):
+    with pytest.raises(OctetError, match="no board nosuch; there are blue_pill, feather"):
         choose_board("nosuch", BOARDS)
 
 
 def test_unknown_link_is_refused() -> None:
-    with pytest.raises(FlashError, match="no image usb for blue_pill; there are bxcan, slcan"):
+    with pytest.raises(OctetError, match="no image usb for blue_pill; there are bxcan, slcan"):
         build(BOARDS["blue_pill"], "usb", 1, 500_000)
     with pytest.raises(
-        FlashError, match="no image bxcan for nucleo_g431rb; there are fdcan, slcan, pins, mute, body"
+        OctetError, match="no image bxcan for nucleo_g431rb; there are fdcan, slcan, pins, mute, body"
     ):
         build(BOARDS["nucleo_g431rb"], "bxcan", 1, 500_000)
 
@@ -110,15 +110,15 @@ def test_image_states_its_identity(tmp_path: Path) -> None:
 
 
 def test_image_for_another_board_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(FlashError, match="is for olimex_stm32_h405, not for blue_pill"):
+    with pytest.raises(OctetError, match="is for olimex_stm32_h405, not for blue_pill"):
         identify(image_file(tmp_path, "olimex_stm32_h405", "stm32f405"), BOARDS["blue_pill"])
 
 
 def test_file_that_is_no_image_is_refused(tmp_path: Path) -> None:
     (tmp_path / "some.elf").write_bytes(b"\x7fELF")
-    with pytest.raises(FlashError, match="is not an Octet image"):
+    with pytest.raises(OctetError, match="is not an Octet image"):
         identify(tmp_path / "some.elf", BOARDS["blue_pill"])
-    with pytest.raises(FlashError, match="No such file"):
+    with pytest.raises(OctetError, match="No such file"):
         identify(tmp_path / "none.elf", BOARDS["blue_pill"])
 
 
@@ -152,7 +152,7 @@ def test_single_probe_is_chosen(wanted: str | None) -> None:
     ],
 )
 def test_impossible_choice_of_a_probe_is_refused(wanted: str | None, found: list[Probe], reason: str) -> None:
-    with pytest.raises(FlashError, match=reason):
+    with pytest.raises(OctetError, match=reason):
         choose_probe(wanted, found)
 
 
@@ -167,7 +167,7 @@ def test_pyocd_is_used_where_openocd_is_missing() -> None:
 
 
 def test_missing_program_is_named() -> None:
-    with pytest.raises(FlashError, match="stlink needs openocd or pyocd"):
+    with pytest.raises(OctetError, match="stlink needs openocd or pyocd"):
         make_plan(image_for("stm32f405"), STLINK, has=lambda _: False)
 
 
@@ -182,14 +182,14 @@ def test_matching_chip_is_accepted(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
 def test_wrong_chip_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     plan = plan_with(tmp_path, monkeypatch, "echo chip=0x20036410")
-    with pytest.raises(FlashError, match=r"the chip behind the probe is 0x410, not stm32f405 \(0x413\)"):
+    with pytest.raises(OctetError, match=r"the chip behind the probe is 0x410, not stm32f405 \(0x413\)"):
         check_chip(plan, "stm32f405")
 
 
 def test_chip_that_does_not_answer_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     plan = plan_with(tmp_path, monkeypatch, "echo Error: init mode failed >&2; exit 1")
     with pytest.raises(
-        FlashError,
+        OctetError,
         match=r"openocd finds no chip \(exit code 1\): the probe does not reach .* \(Error: init mode failed\)",
     ):
         check_chip(plan, "stm32f405")
@@ -226,7 +226,7 @@ def test_unknown_error_is_reported_by_its_last_line() -> None:
 
 def test_failed_write_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     plan = plan_with(tmp_path, monkeypatch, "echo '** Verify Failed **'; exit 1")
-    with pytest.raises(FlashError, match=r"openocd did not write the image \(exit code 1\): \*\* Verify Failed"):
+    with pytest.raises(OctetError, match=r"openocd did not write the image \(exit code 1\): \*\* Verify Failed"):
         write(plan)
 
 
@@ -309,19 +309,19 @@ def test_pico_is_found_among_other_drives_and_gets_its_image(tmp_path: Path) -> 
 
 
 def test_missing_pico_is_reported_with_the_button_to_hold(tmp_path: Path) -> None:
-    with pytest.raises(FlashError, match="hold the Pico's BOOTSEL button while you plug in its USB cable"):
+    with pytest.raises(OctetError, match="hold the Pico's BOOTSEL button while you plug in its USB cable"):
         find_drive(tmp_path / "mounts")
 
 
 def test_several_picos_are_named(tmp_path: Path) -> None:
     drive(tmp_path, "one"), drive(tmp_path, "two")
-    with pytest.raises(FlashError, match=r"several Picos .*one, .*two: unplug all but one"):
+    with pytest.raises(OctetError, match=r"several Picos .*one, .*two: unplug all but one"):
         find_drive(tmp_path / "mounts")
 
 
 def test_pico_unplugged_during_the_copy_is_reported(tmp_path: Path) -> None:
     (tmp_path / "some.uf2").touch()
-    with pytest.raises(FlashError, match=r"cannot copy .*some.uf2 to .*gone \(No such file or directory\): hold"):
+    with pytest.raises(OctetError, match=r"cannot copy .*some.uf2 to .*gone \(No such file or directory\): hold"):
         write_to_drive(tmp_path / "some.uf2", tmp_path / "gone")
 
 
@@ -339,7 +339,7 @@ def test_pico_without_a_drive_ends_with_one_line(tmp_path: Path) -> None:
 def test_pico_takes_a_probe_but_no_serial_port() -> None:
     image = image_for("rp2040")
     assert "target/rp2040.cfg" in make_plan(image, Probe("cmsis-dap", ""), has=bool).write
-    with pytest.raises(FlashError, match="no boot loader on a serial port"):
+    with pytest.raises(OctetError, match="no boot loader on a serial port"):
         make_plan(image, Probe("serial", "/dev/null"), has=bool)
 
 

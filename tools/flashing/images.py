@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from host_sim.base.errors import OctetError, UsageError
 from host_sim.base.image_build import build_image
 from host_sim.emulator.board_pins import HAL, board_files, settings
-from tools.flashing import ChoiceError, FlashError
 
 ROOT = Path(__file__).resolve().parents[2]
 _IDENTITY = re.compile(rb"octet-image board=(\S+) chip=(\S+) node=(\d+) bitrate=(\d+) version=(\S+) dbc=(\w+)\0")
@@ -78,11 +78,16 @@ def choose_board(name: str, boards: dict[str, Board]) -> Board:
     """The board of that name.
 
     Raises:
-        FlashError: There is no such board.
+        OctetError: There is no such board.
     """
     if name not in boards:
-        raise ChoiceError(f"no board {name}; there are {', '.join(boards)}")
+        raise UsageError(f"no board {name}; there are {', '.join(boards)}")
     return boards[name]
+
+
+def build_folder(board: Board, root: Path = ROOT) -> Path:
+    """Where images are built to be flashed."""
+    return root / "build" / "flash" / board.name
 
 
 def build(  # noqa: PLR0913 - what is built, and what is built into it
@@ -93,19 +98,19 @@ def build(  # noqa: PLR0913 - what is built, and what is built into it
     With a user's behaviour in C, that drives a simulated robot for a minute first, in a process that checks it.
 
     Raises:
-        FlashError: The board has no such link, the behaviour makes a mistake, or the build fails.
+        OctetError: The board has no such link, the behaviour makes a mistake, or the build fails.
     """
     if link not in board.links:
         what = f"no image {link} for {board.name}" if link else f"name an image for {board.name} after it"
-        raise ChoiceError(f"{what}; there are {', '.join(board.links)}")
+        raise UsageError(f"{what}; there are {', '.join(board.links)}")
     if own is not None:
         try_out(own, root)
-    folder = root / "build" / "flash" / board.name
+    folder = build_folder(board, root)
     settings = [f"-DOCTET_NODE={node}", f"-DOCTET_CAN_BITRATE={bitrate}"]
     settings += [f"-DOCTET_OWN_BRAIN={own.resolve() if own else ''}"]
-    done = build_image(board.name, folder, *settings, root=root)
+    done = build_image(board.name, folder, *settings, target=f"octet-{board.name}-{link}", root=root)
     if done.returncode != 0:
-        raise FlashError(f"{shlex.join(done.args)} failed; run it to see why")
+        raise OctetError(f"{shlex.join(done.args)} failed; run it to see why")
     return folder / f"octet-{board.name}-{link}.elf"
 
 
@@ -113,27 +118,27 @@ def try_out(own: Path, root: Path = ROOT) -> None:
     """Runs a user's behaviour; what is wrong with it is on standard error.
 
     Raises:
-        FlashError: It is not a behaviour, or makes a mistake.
+        OctetError: It is not a behaviour, or makes a mistake.
     """
     with TemporaryDirectory() as out:
         words = ["--profile", os.fspath(own), "--environments", "1", "--limit-s", "60", "--quiet", "--out", out]
         if subprocess.run([root / "tools" / "run", *words], check=False).returncode != 0:
-            raise ChoiceError(f"{own} is not flashed: it has to drive a simulated robot for a minute first")
+            raise UsageError(f"{own} is not flashed: it has to drive a simulated robot for a minute first")
 
 
 def identify(path: Path, board: Board) -> Image:
     """Reads the information built into an image.
 
     Raises:
-        FlashError: It cannot be read, is not an Octet image, or is for another board.
+        OctetError: It cannot be read, is not an Octet image, or is for another board.
     """
     try:
         found = _IDENTITY.search(path.read_bytes())
     except OSError as error:
-        raise ChoiceError(f"{path}: {error.strerror}") from error
+        raise UsageError(f"{path}: {error.strerror}") from error
     if found is None:
-        raise ChoiceError(f"{path} is not an Octet image")
+        raise UsageError(f"{path} is not an Octet image")
     image = Image(path, *(part.decode() for part in found.groups()))
     if image.board != board.name:
-        raise ChoiceError(f"{path} is for {image.board}, not for {board.name}")
+        raise UsageError(f"{path} is for {image.board}, not for {board.name}")
     return image

@@ -4,7 +4,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from tools.flashing import ChoiceError, FlashError
+from host_sim.base.errors import OctetError, UsageError
 
 USB = Path("/sys/bus/usb/devices")
 KINDS = ("stlink", "cmsis-dap", "jlink", "serial")
@@ -60,21 +60,21 @@ def choose_probe(wanted: str | None, found: list[Probe]) -> Probe:
         found: The probes that are plugged in.
 
     Raises:
-        FlashError: There is no such probe, or several.
+        OctetError: There is no such probe, or several.
     """
     kind, _, where = (wanted or "").partition(":")
     if kind and kind not in KINDS:
-        raise ChoiceError(f"no kind of probe {kind}; there are {', '.join(KINDS)}")
+        raise UsageError(f"no kind of probe {kind}; there are {', '.join(KINDS)}")
     if kind == "serial":
         if not where or not Path(where).exists():
-            raise ChoiceError(f"--probe serial:PATH: no such device: {where or 'PATH is missing'}")
+            raise UsageError(f"--probe serial:PATH: no such device: {where or 'PATH is missing'}")
         return Probe(kind, where)
     fitting = [probe for probe in found if kind in ("", probe.kind) and where in ("", probe.where)]
     if not fitting:
         missing = f"no probe {wanted}" if wanted else "no debug probe"
-        raise FlashError(f"{missing} is plugged in; for the chip's own boot loader: --probe serial:/dev/ttyUSB0")
+        raise OctetError(f"{missing} is plugged in; for the chip's own boot loader: --probe serial:/dev/ttyUSB0")
     if len(fitting) > 1:
-        raise FlashError(f"several probes: choose one with --probe: {', '.join(str(probe) for probe in fitting)}")
+        raise OctetError(f"several probes: choose one with --probe: {', '.join(str(probe) for probe in fitting)}")
     return fitting[0]
 
 
@@ -87,17 +87,17 @@ def find_drive(mounts: Path = MOUNTS) -> Path:
     """The drive of the only Pico that waits for an image.
 
     Raises:
-        FlashError: There is none, or there are several.
+        OctetError: There is none, or there are several.
     """
     lines = mounts.read_text().splitlines() if mounts.exists() else []
     places = [Path(line.split()[1].replace("\\040", " ")) for line in lines]
     found = [place for place in places if _BOARD in _about(place)]
     if not found:
-        raise FlashError(
+        raise OctetError(
             f"no Pico shows up as a drive (RPI-RP2): {_PRESS}; a desktop mounts it, else mount it yourself"
         )
     if len(found) > 1:
-        raise FlashError(f"several Picos show up as drives, {', '.join(map(str, found))}: unplug all but one")
+        raise OctetError(f"several Picos show up as drives, {', '.join(map(str, found))}: unplug all but one")
     return found[0]
 
 
@@ -112,7 +112,7 @@ def write_to_drive(uf2: Path, drive: Path) -> None:
     """Copies an image; the Pico starts it as soon as it has all blocks.
 
     Raises:
-        FlashError: It cannot be read or written.
+        OctetError: It cannot be read or written.
     """
     try:
         with (drive / uf2.name).open("wb") as file:
@@ -120,4 +120,4 @@ def write_to_drive(uf2: Path, drive: Path) -> None:
             file.flush()
             os.fsync(file.fileno())
     except OSError as error:
-        raise FlashError(f"cannot copy {uf2} to {drive} ({error.strerror}): {_PRESS}") from error
+        raise OctetError(f"cannot copy {uf2} to {drive} ({error.strerror}): {_PRESS}") from error

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from tools.flashing import FlashError
+from host_sim.base.errors import OctetError
 from tools.flashing.images import Image
 from tools.flashing.probes import Probe
 
@@ -164,22 +164,22 @@ def make_plan(image: Image, probe: Probe, has: Callable[[str], object] = shutil.
         has: Tells whether a program is installed.
 
     Raises:
-        FlashError: No program for the probe is installed.
+        OctetError: No program for the probe is installed.
     """
     if probe.kind == "serial" and image.chip in _IDCODES:
-        raise FlashError(f"an {image.chip} has no boot loader on a serial port: leave --probe out")
+        raise OctetError(f"an {image.chip} has no boot loader on a serial port: leave --probe out")
     makers = _FOR_SERIAL if probe.kind == "serial" else _FOR_DEBUG_PROBES
     for program, make in makers.items():
         if has(program):
             return make(image, probe)
-    raise FlashError(f"{probe.kind} needs {' or '.join(makers)}, which is not installed")
+    raise OctetError(f"{probe.kind} needs {' or '.join(makers)}, which is not installed")
 
 
 def _run(command: Command) -> tuple[int, str]:
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=_TIMEOUT_S)
     except subprocess.TimeoutExpired as error:
-        raise FlashError(f"{command[0]} did not end within {_TIMEOUT_S} s") from error
+        raise OctetError(f"{command[0]} did not end within {_TIMEOUT_S} s") from error
     return done.returncode, done.stdout + done.stderr
 
 
@@ -187,23 +187,23 @@ def check_chip(plan: Plan, chip: str) -> None:
     """Checks that the chip behind the probe is the one that the image is for.
 
     Raises:
-        FlashError: It is another chip, or does not answer.
+        OctetError: It is another chip, or does not answer.
     """
     code, output = _run(plan.ask)
     found = plan.answer.search(output)
     if found is None:
-        raise FlashError(f"{plan.program} finds no chip (exit code {code}): {explain(output)}")
+        raise OctetError(f"{plan.program} finds no chip (exit code {code}): {explain(output)}")
     identity = int(found[1], 16) & 0xFFF
     if identity != CHIP_IDS[chip]:
-        raise FlashError(f"the chip behind the probe is 0x{identity:03X}, not {chip} (0x{CHIP_IDS[chip]:03X})")
+        raise OctetError(f"the chip behind the probe is 0x{identity:03X}, not {chip} (0x{CHIP_IDS[chip]:03X})")
 
 
 def write(plan: Plan) -> None:
     """Writes the image.
 
     Raises:
-        FlashError: It failed; the chip's content is undefined.
+        OctetError: It failed; the chip's content is undefined.
     """
     code, output = _run(plan.write)
     if code != 0:
-        raise FlashError(f"{plan.program} did not write the image (exit code {code}): {explain(output)}")
+        raise OctetError(f"{plan.program} did not write the image (exit code {code}): {explain(output)}")
