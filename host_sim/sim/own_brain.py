@@ -30,7 +30,7 @@ OWN_HEADERS = PACKAGE / "program" / "own"
 _MADE, _MADE_DEBUG = (BUILD / host / "host_sim" / "program" / "own" for host in ("host", "host-debug"))
 _CACHE, _IMAGES = BUILD / "own", BUILD / "own-images"
 _CACHED_MAX = 20
-_BUSY_S = 60.0
+_BUSY_S = 3600.0  # a busy machine may take minutes from compiling to the last link
 _SIZE_MAX = 200_000
 _COMPILE_S = 30.0
 _LIBRARY = ["-shared", f"-Wl,--version-script={OWN_HEADERS / 'library.map'}"]
@@ -315,7 +315,7 @@ def _tools() -> Any:
 
 
 def _prune() -> None:
-    """Drops the least recently used entries, except those that another run may be about to link."""
+    """Drops the least recently used entries, except those of the last hour: another run may be about to link them."""
     used = {it: it.stat().st_mtime for it in _CACHE.iterdir() if it.is_dir()}
     for folder in sorted(used, key=lambda it: used[it])[:-_CACHED_MAX]:
         if used[folder] <= time.time() - _BUSY_S:

@@ -1,6 +1,7 @@
 """A behaviour in a C file of its user. The judges are gcc, nm, gcc's sanitizers, and the behaviour `article`."""
 
 import json
+import os
 import re
 import shlex
 import subprocess
@@ -225,6 +226,19 @@ def test_cache_of_compiled_behaviours_is_bounded_and_used(tmp_path, monkeypatch)
     assert [folder.exists() for folder in folders] == [False, False, True, True]
     monkeypatch.setattr(own_brain, "_compile", None)  # nothing is compiled again
     assert own_brain.compiled(texts[3], "mine.c").library.exists()
+
+
+@pytest.mark.parametrize(("age_min", "stays"), [(30, True), (90, False)])
+def test_compiled_behaviour_is_kept_for_an_hour(tmp_path, monkeypatch, age_min, stays):
+    monkeypatch.setattr(own_brain, "_CACHE", tmp_path / "cache")
+    monkeypatch.setattr(own_brain, "_CACHED_MAX", 1)
+    folder = own_brain.compiled(source("brain->own[0] = 1;").encode(), "mine.c").folder
+    used_s = folder.stat().st_mtime - 60 * age_min
+    os.utime(folder, (used_s, used_s))
+
+    own_brain.compiled(source("brain->own[0] = 2;").encode(), "mine.c")
+
+    assert folder.exists() == stays
 
 
 def test_robot_without_the_file_refuses_the_own_profile():
