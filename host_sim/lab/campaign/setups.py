@@ -3,8 +3,8 @@
 import os
 import subprocess
 import threading
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
+from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import AbstractContextManager, closing, contextmanager, nullcontext
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -48,8 +48,9 @@ _BUS = "vcan0"
 class OnLine(Setup):
     """The setup of a robot at one end of a line, `link`; the simulator is at the other end, `bus`."""
 
-    def __init__(self, link: str, bus: str, events: Mapping[str, Trigger], timers: Sequence[threading.Timer]) -> None:
-        self._link, self._bus, self._timers = link, bus, timers
+    def __init__(self, link: str, bus: str, events: Mapping[str, Trigger]) -> None:
+        self._link, self._bus = link, bus
+        self._timers: list[threading.Timer] = []
         self.robot = RobotProcess(link, 1)
         own: Mapping[str, Trigger] = {"reset": lambda _: self._restart()}
         self.events = {**process_events(lambda: self.robot.pid), **own, **events}
@@ -59,10 +60,23 @@ class OnLine(Setup):
         """As in `Setup`."""
         return replace(config, bus=self._bus, robot="external")
 
+    def later(self, span_ms: int, action: Callable[[], None]) -> None:
+        """Schedules an action on the line; `close` cancels it."""
+        timer = threading.Timer(span_ms / 1000, action)
+        timer.start()
+        self._timers.append(timer)
+
     def settle(self) -> None:
         """As in `Setup`."""
         for timer in self._timers:
             timer.join()
+
+    def close(self) -> None:
+        """Ends the robot and all that is scheduled."""
+        for timer in self._timers:
+            timer.cancel()
+        self.settle()
+        self.robot.close()
 
     def _restart(self) -> None:
         self.robot.close()
@@ -72,10 +86,8 @@ class OnLine(Setup):
 @contextmanager
 def serial_line() -> Iterator[OnLine]:
     """Sets up a robot with slcan on a serial line."""
-    with TemporaryDirectory() as folder, ExitStack() as stack:
-        cable, socket = Cable(), Socket(Path(folder) / "tty")
-        timers: list[threading.Timer] = []
-        stack.callback(cable.close)
+    with TemporaryDirectory() as folder, closing(Cable()) as cable:
+        socket = Socket(Path(folder) / "tty")
         socket.plug(cable.ends[1])
 
         def plug() -> None:
@@ -85,15 +97,14 @@ def serial_line() -> Iterator[OnLine]:
         def unplug(span_ms: int) -> None:
             socket.unplug()
             cable.unplug()
-            timers.append(_later(stack, span_ms, plug))
+            setup.later(span_ms, plug)
 
         def disturb(percent: int) -> None:
             cable.noise = percent / 100
 
         events = {"unplug": unplug, "noise": disturb}
-        setup = OnLine(f"slcan:{cable.ends[0]}", f"slcan:{socket.path}", events, timers)
-        stack.callback(lambda: setup.robot.close())  # noqa: PLW0108 - the robot may be another one by then
-        yield setup
+        with closing(OnLine(f"slcan:{cable.ends[0]}", f"slcan:{socket.path}", events)) as setup:
+            yield setup
 
 
 @contextmanager
@@ -106,33 +117,22 @@ def virtual_bus() -> Iterator[OnLine]:
     if not Path(f"/sys/class/net/{_BUS}").exists():
         raise UsageError(f"there is no {_BUS} here: put tools/with-vcan before the command")
 
-    with ExitStack() as stack:
-        timers: list[threading.Timer] = []
+    def go_down(span_ms: int) -> None:
+        _set_bus("down")
+        setup.later(span_ms, lambda: _set_bus("up"))
 
-        def go_down(span_ms: int) -> None:
-            stack.callback(_set_bus, "up")
-            _set_bus("down")
-            timers.append(_later(stack, span_ms, lambda: _set_bus("up")))
-
+    _set_bus("up")
+    try:
+        with closing(OnLine(f"socketcan:{_BUS}", f"socketcan:{_BUS}", {"bus-down": go_down})) as setup:
+            yield setup
+    finally:
         _set_bus("up")
-        setup = OnLine(f"socketcan:{_BUS}", f"socketcan:{_BUS}", {"bus-down": go_down}, timers)
-        stack.callback(lambda: setup.robot.close())  # noqa: PLW0108 - the robot may be another one by then
-        yield setup
 
 
 def _set_bus(state: str) -> None:
     done = subprocess.run(["ip", "link", "set", _BUS, state], capture_output=True, text=True, check=False)
     if done.returncode:
         raise UsageError(f"cannot set {_BUS} {state}: {done.stderr.strip()}")
-
-
-def _later(stack: ExitStack, span_ms: int, action: Callable[[], None]) -> threading.Timer:
-    """Schedules an action after a span; it is cancelled if the stack is closed earlier: the line is gone then."""
-    timer = threading.Timer(span_ms / 1000, action)
-    timer.start()
-    stack.callback(timer.join)
-    stack.callback(timer.cancel)
-    return timer
 
 
 class SocketPair(Setup):
