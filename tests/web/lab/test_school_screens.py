@@ -8,7 +8,7 @@ from playwright.sync_api import Browser, Page, Playwright
 
 from tests.web.browsers import BROWSERS, launch
 from tests.web.lab.support import LESSONS, READY, go, settle
-from tests.web.looks import out_of_view, resize
+from tests.web.looks import DESKTOPS, out_of_view, resize
 from tests.web.support import next_frame
 
 SIZES = [(1366, 657), (1280, 720), (1024, 768)]
@@ -21,6 +21,12 @@ COVERED = """() => [...document.querySelectorAll("#step .held *, #step .head *")
   return isSeen && !document.querySelector("#step").contains(over);
 }).map((e) => `${e.tagName} ${e.textContent.slice(0, 30)}`)"""
 IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#step", "#cells", "#memory-title", "#begin-lesson")
+
+# The height of the tabs with each of them chosen.
+TAB_ROWS = """() => [...document.querySelectorAll("#tabs button")].map((tab) => {
+  tab.click();
+  return document.querySelector("#tabs").offsetHeight;
+})"""
 
 # Of all that has no scroll bar: what is wider or higher than its element, and what lies on its neighbour.
 FAULTS = """() => {
@@ -128,6 +134,14 @@ def test_tabs_have_nothing_cut_and_no_card_half_empty(tab, page):
             page.evaluate("scrollTo(0, 0)")
             assert out_of_view(page, ("#floors", "#play", "#doing", "#what-if", "#tabs", "#cells"), size) == [], size
             assert faults(page) == [], (lanes, size)
+
+
+def test_tabs_have_as_many_rows_whichever_is_chosen(page):
+    for size in DESKTOPS:
+        resize(page, size)
+        for language in ("en", "de"):
+            page.select_option("#language", language)
+            assert len(set(page.evaluate(TAB_ROWS))) == 1, (size, language)
 
 
 def test_world_names_fit_when_chosen_in_bold(page):
