@@ -44,7 +44,7 @@ def _wait_for(lock: int, board: str) -> None:
 
 
 def build_image(
-    board: str, folder: Path, *settings: str, target: str = "all", root: Path = ROOT
+    board: str, folder: Path, *settings: str, target: str, root: Path = ROOT
 ) -> subprocess.CompletedProcess[str]:
     """Configures and builds, with what the compiler and CMake print as text.
 

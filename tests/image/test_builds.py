@@ -19,8 +19,7 @@ from host_sim.client.connection import Connection
 from host_sim.sim.qemu import Qemu
 from tests.image.support import run_robot
 from tests.runs.support import REFERENCE, first_difference, record
-from tools.flashing.images import all_boards, identify, node_max
-from tools.flashing.images import build as build_for
+from tools.flashing.images import all_boards, built, identify, node_max
 
 ROOT = Path(__file__).resolve().parents[2]
 KINDS = {".elf", ".bin", ".hex", ".uf2"}
@@ -127,11 +126,13 @@ def test_board_in_a_separate_folder_is_built(tmp_path):
 def test_image_is_built_for_a_node_and_a_bit_rate() -> None:
     board = all_boards()["nucleo_g431rb"]  # builds of one board share a folder
 
-    image = identify(build_for(board, "fdcan", node_max(), 125_000), board)
+    with built(board, "fdcan", node_max(), 125_000) as path:
+        image = identify(path, board)
 
     assert (image.node, image.bitrate) == (str(node_max()), "125000")
 
 
 def test_node_beyond_the_protocol_is_refused() -> None:
-    with pytest.raises(OctetError, match="cmake --build"):
-        build_for(all_boards()["feather_stm32f405"], "bxcan", node_max() + 1, 500_000)
+    board = all_boards()["feather_stm32f405"]
+    with pytest.raises(OctetError, match="cmake --build"), built(board, "bxcan", node_max() + 1, 500_000):
+        pass

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from host_sim.base.errors import OctetError  # noqa: E402 - found by the line above
-from tools.flashing.images import Image, all_boards, build, choose_board, identify  # noqa: E402
+from tools.flashing.images import Image, all_boards, built, choose_board, identify  # noqa: E402
 from tools.flashing.probes import Probe, choose_probe, find_drive, find_probes, write_to_drive  # noqa: E402
 from tools.flashing.programs import CHIP_IDS, Plan, check_chip, explain, make_plan, write  # noqa: E402
 
@@ -77,12 +77,13 @@ def test_unknown_board_is_refused() -> None:
 
 
 def test_unknown_link_is_refused() -> None:
-    with pytest.raises(OctetError, match="no image usb for blue_pill; there are bxcan, slcan"):
-        build(BOARDS["blue_pill"], "usb", 1, 500_000)
-    with pytest.raises(
-        OctetError, match="no image bxcan for nucleo_g431rb; there are fdcan, slcan, pins, mute, body"
-    ):
-        build(BOARDS["nucleo_g431rb"], "bxcan", 1, 500_000)
+    refused = pytest.raises(OctetError, match="no image usb for blue_pill; there are bxcan, slcan")
+    with refused, built(BOARDS["blue_pill"], "usb", 1, 500_000):
+        pass
+    there = "there are fdcan, slcan, pins, mute, body"
+    refused = pytest.raises(OctetError, match=f"no image bxcan for nucleo_g431rb; {there}")
+    with refused, built(BOARDS["nucleo_g431rb"], "bxcan", 1, 500_000):
+        pass
 
 
 @pytest.mark.parametrize(("configured_s", "stays"), [(1, False), (3, True)])
@@ -98,9 +99,8 @@ def test_changed_toolchain_file_is_configured_anew(
     (tmp_path / "cmake").chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
 
-    build(BOARDS["blue_pill"], "bxcan", 1, 500_000, tmp_path)
-
-    assert (folder / "CMakeCache.txt").exists() == stays
+    with built(BOARDS["blue_pill"], "bxcan", 1, 500_000, tmp_path):
+        assert (folder / "CMakeCache.txt").exists() == stays
 
 
 def test_image_states_its_identity(tmp_path: Path) -> None:

@@ -4,12 +4,14 @@ import os
 import re
 import shlex
 import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.base.image_build import build_image
+from host_sim.base.image_build import alone_in, build_image
 from host_sim.emulator.board_pins import HAL, board_files, settings
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -85,15 +87,13 @@ def choose_board(name: str, boards: dict[str, Board]) -> Board:
     return boards[name]
 
 
-def build_folder(board: Board, root: Path = ROOT) -> Path:
-    """Where images are built to be flashed."""
-    return root / "build" / "flash" / board.name
-
-
-def build(  # noqa: PLR0913 - what is built, and what is built into it
+@contextmanager
+def built(  # noqa: PLR0913 - what is built, and what is built into it
     board: Board, link: str, node: int, bitrate: int, root: Path = ROOT, *, own: Path | None = None
-) -> Path:
+) -> Iterator[Path]:
     """Builds the image for a board and a link, in a separate folder: the usual images stay as they are.
+
+    Until the context ends, no other process builds one for this board: it might be for another node.
 
     With a user's behaviour in C, that drives a simulated robot for a minute first, in a process that checks it.
 
@@ -105,13 +105,14 @@ def build(  # noqa: PLR0913 - what is built, and what is built into it
         raise UsageError(f"{what}; there are {', '.join(board.links)}")
     if own is not None:
         try_out(own, root)
-    folder = build_folder(board, root)
+    folder, image = root / "build" / "flash" / board.name, f"octet-{board.name}-{link}"
     settings = [f"-DOCTET_NODE={node}", f"-DOCTET_CAN_BITRATE={bitrate}"]
     settings += [f"-DOCTET_OWN_BRAIN={own.resolve() if own else ''}"]
-    done = build_image(board.name, folder, *settings, target=f"octet-{board.name}-{link}", root=root)
-    if done.returncode != 0:
-        raise OctetError(f"{shlex.join(done.args)} failed; run it to see why")
-    return folder / f"octet-{board.name}-{link}.elf"
+    with alone_in(folder):
+        done = build_image(board.name, folder, *settings, target=image, root=root)
+        if done.returncode != 0:
+            raise OctetError(f"{shlex.join(done.args)} failed; run it to see why")
+        yield folder / f"{image}.elf"
 
 
 def try_out(own: Path, root: Path = ROOT) -> None:
