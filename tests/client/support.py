@@ -147,6 +147,18 @@ class ObeyedLink(MeddledLink):
         return [frame]
 
 
+def altered(name: str, change: Callable[[dict[str, int]], dict[str, int]]) -> Callable[[Frame], list[Frame]]:
+    """Gives other signals to each message of that name, and lets the others pass."""
+
+    def alter(frame: Frame) -> list[Frame]:
+        decoded = PROTOCOL.decode(frame)
+        if decoded is None or decoded.name != name:
+            return [frame]
+        return [PROTOCOL.encode(name, {**decoded.signals, **change(decoded.signals)})]
+
+    return alter
+
+
 OBEYED = {
     "write": {"mask": 15, "half": 1, "byte_0": 1, "byte_1": 2, "byte_2": 1, "byte_3": 2},
     "erase": {},

@@ -14,11 +14,11 @@ from host_sim.client.commands import erase_memory, freeze, handshake, start, sto
 from host_sim.client.frame_log import FrameLog, digest_of, line_of
 from host_sim.client.robot_client import INCIDENTS_MAX
 from host_sim.client.session import HeldCheck, Session
-from host_sim.protocol.codec import Frame, Protocol, counter_of
-from host_sim.protocol.generated import Opcode, Result
+from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.generated import Result
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
-from tests.client.support import PROTOCOL, MeddledLink, connected, drive_for, learned
+from tests.client.support import PROTOCOL, MeddledLink, altered, connected, drive_for, learned
 
 NOTHING = (0,) * 8
 
@@ -35,8 +35,7 @@ def test_turns_are_written_and_erased():
     assert client.memory == NOTHING
 
 
-def test_start_with_an_empty_memory_clears_both_halves():
-    link = MeddledLink()
+def test_start_with_an_empty_memory_clears_both_halves(link):
     link.reboot((0, 1, 0, 0, 2, 0, 0, 0))
     with connected(link) as client:
         handshake(client, 1.0)
@@ -53,8 +52,7 @@ def test_robot_can_be_frozen_before_a_start():
     assert client.inbox.session is None
 
 
-def test_unanswered_command_is_named():
-    link = MeddledLink()
+def test_unanswered_command_is_named(link):
     client = learned(link, 10, deadline_s=0.1)
     link.change = lambda _: []
 
@@ -62,26 +60,16 @@ def test_unanswered_command_is_named():
         freeze(client, on=True)
 
 
-def test_command_that_stays_out_of_sequence_raises_refused():
-    link = MeddledLink()
+def test_command_that_stays_out_of_sequence_raises_refused(link):
     client = learned(link, 10)
-
-    def refuse(frame: Frame) -> list[Frame]:
-        decoded = PROTOCOL.decode(frame)
-        if decoded is None or decoded.name != "ANSWER":
-            return [frame]
-        result = {"opcode": Opcode.FREEZE, "result": Result.OUT_OF_SEQUENCE, "which": 0, "value": 0}
-        return [PROTOCOL.encode("ANSWER", {"counter": counter_of(frame), **result})]
-
-    link.change = refuse
+    link.change = altered("ANSWER", lambda _: {"result": Result.OUT_OF_SEQUENCE, "which": 0, "value": 0})
 
     with pytest.raises(RefusedError, match="out_of_sequence"):
         freeze(client, on=True)
 
 
 @pytest.mark.parametrize("message", ["MEMORY", "HEALTH", "DRIVE"])
-def test_missing_report_after_stop_is_named_within_60_s(message):
-    link = MeddledLink()
+def test_missing_report_after_stop_is_named_within_60_s(link, message):
     client = learned(link, 10)
     link.change = lambda frame: [] if frame.id == PROTOCOL.id_of(message) else [frame]
     began_s = client.connection.now()
@@ -92,8 +80,7 @@ def test_missing_report_after_stop_is_named_within_60_s(message):
     assert client.connection.now() - began_s < 60
 
 
-def test_restart_between_memory_halves_fails_the_start():
-    link = MeddledLink()
+def test_restart_between_memory_halves_fails_the_start(link):
     half = PROTOCOL.id_of("MEMORY")
 
     def restart(frame: Frame) -> list[Frame]:
@@ -129,8 +116,8 @@ def test_incidents_beyond_the_limit_are_only_counted():
     assert (len(client.incidents), client.unlisted) == (INCIDENTS_MAX, 2)
 
 
-def test_log_has_handshake_reports_if_the_first_answer_is_lost():
-    link, lost = MeddledLink(), []
+def test_log_has_handshake_reports_if_the_first_answer_is_lost(link):
+    lost = []
 
     def lose_first_answer(frame: Frame) -> list[Frame]:
         lost.append(frame.id == PROTOCOL.id_of("ANSWER") and True not in lost)

@@ -16,6 +16,11 @@ AT, SECOND = 120, 50
 PACES = pytest.mark.parametrize("lockstep", [True, False], ids=["lockstep", "real time"])
 
 
+@pytest.fixture
+def link() -> Listener:
+    return Listener()
+
+
 def with_last(command: Frame, last: int) -> Frame:
     data = command.data[:4] + last.to_bytes(4, "little")
     return Frame(command.id, bytes([crc8(command.id, data)]) + data[1:])
@@ -52,8 +57,7 @@ def told_by(link: Listener) -> int:
 
 
 @PACES
-def test_start_with_computed_crc_is_detected_at_the_end(lockstep):
-    link = Listener()
+def test_start_with_computed_crc_is_detected_at_the_end(link, lockstep):
     client = begun(link, lockstep=lockstep)
     run_for(client, link, range(AT))
     told = told_by(link)
@@ -68,9 +72,7 @@ def test_start_with_computed_crc_is_detected_at_the_end(lockstep):
     assert "does not hold what it was told here" in str(client.incidents)
 
 
-def test_replaced_start_is_detected_at_the_end():
-    link = Listener()
-
+def test_replaced_start_is_detected_at_the_end(link):
     def swap(frame: Frame) -> Frame:
         if not is_start(frame):
             return frame
@@ -86,8 +88,7 @@ def test_replaced_start_is_detected_at_the_end():
 
 
 @pytest.mark.parametrize(("how", "lockstep"), [({"profile": 1}, True), ({"lockstep": 1}, False)])
-def test_start_with_other_settings_is_detected_by_the_heartbeat(how, lockstep):
-    link = Listener()
+def test_start_with_other_settings_is_detected_by_the_heartbeat(link, how, lockstep):
 
     def swap(frame: Frame) -> Frame:
         if not is_start(frame):
@@ -103,8 +104,7 @@ def test_start_with_other_settings_is_detected_by_the_heartbeat(how, lockstep):
 
 
 @PACES
-def test_delayed_memory_of_an_environment_is_detected_at_the_end(lockstep):
-    link = Listener()
+def test_delayed_memory_of_an_environment_is_detected_at_the_end(link, lockstep):
     client = begun(link, lockstep=lockstep)
     held_up: list[Frame] = []
 

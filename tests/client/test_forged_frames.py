@@ -8,11 +8,42 @@ from host_sim.base.errors import RivalError
 from host_sim.client.commands import freeze, stop, write_cells
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.codec import Frame
-from tests.client.support import OBEYED, PROTOCOL, Listener, begun, run_for, senses
+from tests.client.support import OBEYED, PROTOCOL, Listener, altered, begun, run_for, senses
 
 AT, SECOND = 120, 50
 REPORT = 6
 """Ticks over which the parts of a report are spread."""
+
+PACES = pytest.mark.parametrize("lockstep", [True, False], ids=["lockstep", "real time"])
+
+
+@pytest.fixture
+def link() -> Listener:
+    return Listener()
+
+
+@pytest.fixture
+def lockstep() -> bool:
+    """The pace of a test that is not tried at both."""
+    return True
+
+
+@pytest.fixture
+def client(link, lockstep) -> RobotClient:
+    """A client whose robot has run for `AT` ticks."""
+    client = begun(link, lockstep=lockstep)
+    run_for(client, link, range(AT))
+    return client
+
+
+def forged(link: Listener, tick: int, counter: int) -> Frame:
+    return PROTOCOL.encode_senses(senses(tick, link.odometer)._replace(feel=21), counter % 15)
+
+
+def assert_doubtful(client: RobotClient, link: Listener) -> None:
+    run_for(client, link, range(AT, AT + SECOND + 1))
+    assert "somebody else commands" in str(client.incidents)
+    assert client.incidents[0].tick <= AT + SECOND
 
 
 def on_the_bus(link: Listener, frame: Frame) -> None:
@@ -29,25 +60,15 @@ WAYS: dict[str, Callable[[Listener, Frame], None]] = {
 
 @pytest.mark.parametrize("name", OBEYED)
 @pytest.mark.parametrize("way", WAYS)
-@pytest.mark.parametrize("lockstep", [True, False], ids=["lockstep", "real time"])
-def test_forged_command_is_detected_within_a_second(name, way, lockstep):
-    link = Listener()
-    client = begun(link, lockstep=lockstep)
-    run_for(client, link, range(AT))
-
+@PACES
+def test_forged_command_is_detected_within_a_second(link, client, name, way, lockstep):
     WAYS[way](link, link.forged(name, lockstep=lockstep))
-    run_for(client, link, range(AT, AT + SECOND + 1))
 
-    assert "somebody else commands" in str(client.incidents)
-    assert client.incidents[0].tick <= AT + SECOND
+    assert_doubtful(client, link)
 
 
-@pytest.mark.parametrize("lockstep", [True, False], ids=["lockstep", "real time"])
-def test_forged_stop_ends_the_run(lockstep):
-    link = Listener()
-    client = begun(link, lockstep=lockstep)
-    run_for(client, link, range(AT))
-
+@PACES
+def test_forged_stop_ends_the_run(link, client, lockstep):
     link.put(link.forged("stop", lockstep=lockstep))
 
     with pytest.raises(RivalError, match="somebody else stopped node 1"):
@@ -55,29 +76,15 @@ def test_forged_stop_ends_the_run(lockstep):
 
 
 @pytest.mark.parametrize("name", OBEYED)
-def test_forged_command_before_the_end_is_detected_at_the_end(name):
-    link = Listener()
-    client = begun(link, lockstep=True)
-    run_for(client, link, range(AT))
-
+def test_forged_command_before_the_end_is_detected_at_the_end(link, client, name):
     link.put_unheard(link.forged(name, lockstep=True))
     stop(client)
 
     assert "does not hold what it was told here" in str(client.incidents)
 
 
-def test_altered_memory_is_detected_at_the_end():
-    link = Listener()
-    client = begun(link, lockstep=True)
-    run_for(client, link, range(AT))
-
-    def altered(frame: Frame) -> list[Frame]:
-        decoded = PROTOCOL.decode(frame)
-        if decoded is None or decoded.name != "MEMORY" or not decoded.signals["half"]:
-            return [frame]
-        return [PROTOCOL.encode("MEMORY", {**decoded.signals, "cell_7": 2 - decoded.signals["cell_7"] // 2})]
-
-    link.change = altered
+def test_altered_memory_is_detected_at_the_end(link, client):
+    link.change = altered("MEMORY", lambda it: {"cell_7": 2 - it["cell_7"] // 2} if it["half"] else {})
     stop(client)
 
     assert "does not hold what it was told here" in str(client.incidents)
@@ -99,18 +106,11 @@ def test_altered_senses_are_detected_within_a_second(at):
 
 
 @pytest.mark.parametrize("at", [0, AT])
-def test_altered_drive_is_detected_within_a_second(at):
-    link = Listener()
+def test_altered_drive_is_detected_within_a_second(link, at):
     client = begun(link, lockstep=True)
+    change = altered("DRIVE", lambda it: {"left": it["left"] - 1} if it["tick"] == at else {})
+    link.change = lambda frame: link.obey(frame) and change(frame)
 
-    def altered(frame: Frame) -> list[Frame]:
-        link.obey(frame)
-        decoded = PROTOCOL.decode(frame)
-        if decoded is None or decoded.name != "DRIVE" or decoded.signals["tick"] != at:
-            return [frame]
-        return [PROTOCOL.encode("DRIVE", {**decoded.signals, "left": decoded.signals["left"] - 1})]
-
-    link.change = altered
     run_for(client, link, range(at + SECOND + REPORT))
 
     assert "does not hold what it was told here" in str(client.incidents)
@@ -150,8 +150,7 @@ def test_altered_senses_are_detected_if_the_final_report_is_lost(lost, altered):
     assert ("does not hold what it was told here" in str(client.incidents)) == altered
 
 
-def test_late_health_causes_no_incident():
-    link = Listener()
+def test_late_health_causes_no_incident(link):
     client = begun(link, lockstep=True)
     held_up: list[Frame] = []
 
@@ -171,20 +170,15 @@ def test_late_health_causes_no_incident():
     assert client.incidents == []
 
 
-def test_last_senses_without_a_received_answer_cause_no_incident():
-    link = Listener()
-    client = begun(link, lockstep=True)
-    run_for(client, link, range(AT))
-
+def test_last_senses_without_a_received_answer_cause_no_incident(link, client):
     client.send_senses(senses(AT, link.odometer))  # and the run is ended before the answer is taken
     stop(client)
 
     assert client.incidents == []
 
 
-@pytest.mark.parametrize("lockstep", [True, False], ids=["lockstep", "real time"])
-def test_own_commands_cause_no_incident(lockstep):
-    link = Listener()
+@PACES
+def test_own_commands_cause_no_incident(link, lockstep):
     client = begun(link, lockstep=lockstep)
 
     run_for(client, link, range(60))
@@ -197,8 +191,7 @@ def test_own_commands_cause_no_incident(lockstep):
     assert client.incidents == []
 
 
-def test_stop_clears_the_check_value_of_an_earlier_owner():
-    link = Listener()
+def test_stop_clears_the_check_value_of_an_earlier_owner(link):
     begun(link, lockstep=True)
     client = begun(link, lockstep=True)
 
@@ -208,51 +201,23 @@ def test_stop_clears_the_check_value_of_an_earlier_owner():
     assert client.incidents == []
 
 
-PACES = pytest.mark.parametrize("lockstep", [True, False], ids=["lockstep", "real time"])
-
-
-def forged(link: Listener, tick: int, counter: int) -> Frame:
-    return PROTOCOL.encode_senses(senses(tick, link.odometer)._replace(feel=21), counter % 15)
-
-
-def running(link: Listener, *, lockstep: bool) -> RobotClient:
-    client = begun(link, lockstep=lockstep)
-    run_for(client, link, range(AT))
-    return client
-
-
-def assert_doubtful(client: RobotClient, link: Listener) -> None:
-    run_for(client, link, range(AT, AT + SECOND + 1))
-    assert "somebody else commands" in str(client.incidents)
-    assert client.incidents[0].tick <= AT + SECOND
-
-
 @PACES
 @pytest.mark.parametrize("ahead", [1, 2, 14])
-def test_single_forged_senses_on_the_bus_are_detected(lockstep, ahead):
-    link = Listener()
-    client = running(link, lockstep=lockstep)
-
+def test_single_forged_senses_on_the_bus_are_detected(link, client, ahead):
     link.waiting.append(forged(link, AT - 1 + ahead, AT + ahead))
 
     assert_doubtful(client, link)
     assert client.incidents[0].tick < AT + 2
 
 
-def test_forged_ranges_on_the_bus_are_detected():
-    link = Listener()
-    client = running(link, lockstep=True)
-
+def test_forged_ranges_on_the_bus_are_detected(link, client):
     link.waiting.append(PROTOCOL.encode_ranges(client.ranges, AT % 256, (AT + 1) % 15))
 
     assert_doubtful(client, link)
 
 
 @PACES
-def test_senses_seen_only_by_the_robot_are_detected_by_check_value(lockstep):
-    link = Listener()
-    client = running(link, lockstep=lockstep)
-
+def test_senses_seen_only_by_the_robot_are_detected_by_check_value(link, client):
     link.put_unheard(forged(link, AT, AT + 1))
 
     assert_doubtful(client, link)
@@ -260,10 +225,7 @@ def test_senses_seen_only_by_the_robot_are_detected_by_check_value(lockstep):
 
 @PACES
 @pytest.mark.parametrize(("tick", "counter"), [(AT, AT), (AT - 2, AT - 1), (AT + 100, AT + 101)])
-def test_forged_senses_that_the_robot_refuses_cause_no_incident(lockstep, tick, counter):
-    link = Listener()
-    client = running(link, lockstep=lockstep)
-
+def test_forged_senses_that_the_robot_refuses_cause_no_incident(link, client, tick, counter):
     link.waiting.append(forged(link, tick, counter))
     run_for(client, link, range(AT, AT + SECOND + 1))
 

@@ -3,17 +3,13 @@
 import pytest
 
 from host_sim.base.errors import FirmwareError, RefusedError, RobotError, SessionLostError
-from host_sim.client.commands import freeze, handshake, start, stop
+from host_sim.client.commands import freeze, stop
 from host_sim.client.pacing import Lockstep, RealTime
-from host_sim.client.session import Session
 from host_sim.client.supervision import settle
-from host_sim.protocol.codec import Frame, crc8
-from tests.client.support import LEARNED, PROTOCOL, MeddledLink, connected, drive_for, learned, senses
+from tests.client.support import LEARNED, MeddledLink, altered, begun, drive_for, learned, senses
 
 
-def test_restarted_robot_gets_its_memory_back_and_continues():
-    link = MeddledLink()
-    client = learned(link)
+def test_restarted_robot_gets_its_memory_back_and_continues(link, client):
     before = client.memory
     assert before != (0,) * 8
 
@@ -29,19 +25,14 @@ def test_restarted_robot_gets_its_memory_back_and_continues():
     )
 
 
-def test_restarted_robot_with_its_memory_keeps_it():
-    link = MeddledLink()
-    client = learned(link)
-
+def test_restarted_robot_with_its_memory_keeps_it(link, client):
     link.reboot(client.memory)
     drive_for(client, 20, LEARNED)
 
     assert "memory kept" in str(client.incidents)
 
 
-def test_restarted_frozen_robot_is_frozen_again():
-    link = MeddledLink()
-    client = learned(link)
+def test_restarted_frozen_robot_is_frozen_again(link, client):
     freeze(client, True)
 
     link.reboot()
@@ -51,8 +42,7 @@ def test_restarted_frozen_robot_is_frozen_again():
 
 
 @pytest.mark.parametrize("tick", [0, 1, 2, 49, 50, 51])
-def test_early_restart_is_detected_within_a_tick(tick):
-    link = MeddledLink()
+def test_early_restart_is_detected_within_a_tick(link, tick):
     client = learned(link, tick)
 
     link.reboot()
@@ -73,8 +63,7 @@ def test_robot_halted_by_its_wheels_is_left_stopped():
     assert "the wheels did not do what they were told, and the robot has stopped" in str(client.incidents)
 
 
-def test_memory_lost_at_the_end_makes_the_result_doubtful():
-    client = learned(MeddledLink())
+def test_memory_lost_at_the_end_makes_the_result_doubtful(client):
     client.settle()
     client.reports.gap = 1
 
@@ -84,10 +73,7 @@ def test_memory_lost_at_the_end_makes_the_result_doubtful():
     assert "its last memory may have been lost on the way" in str(incident)
 
 
-def test_robot_that_restarts_five_times_is_given_up(monkeypatch):
-    link = MeddledLink()
-    client = learned(link)
-
+def test_robot_that_restarts_five_times_is_given_up(link, client, monkeypatch):
     def lose() -> None:
         link.reboot()
         raise SessionLostError("it started anew", booted=True)
@@ -99,8 +85,7 @@ def test_robot_that_restarts_five_times_is_given_up(monkeypatch):
     assert str(client.incidents).count("restarted") == 5
 
 
-def test_restart_on_a_faulty_bus_is_detected():
-    link = MeddledLink()
+def test_restart_on_a_faulty_bus_is_detected(link):
     client = learned(link, faults=("drop:30%", "delay:0-100ms"))
     before = client.memory
 
@@ -111,8 +96,7 @@ def test_restart_on_a_faulty_bus_is_detected():
     assert "restarted" in str(client.incidents)
 
 
-def test_restart_at_the_end_of_an_environment_is_detected():
-    link = MeddledLink()
+def test_restart_at_the_end_of_an_environment_is_detected(link):
     client = learned(link, faults=("drop@40-42",))
 
     link.reboot()
@@ -122,17 +106,8 @@ def test_restart_at_the_end_of_an_environment_is_detected():
     assert "restarted" in str(client.incidents)
 
 
-def test_restart_with_another_firmware_ends_the_run():
-    link = MeddledLink()
-    client = learned(link)
-
-    def newer(frame: Frame) -> list[Frame]:
-        if frame.id != PROTOCOL.id_of("BOOT"):
-            return [frame]
-        data = frame.data[:4] + bytes([frame.data[4] ^ 1]) + frame.data[5:]
-        return [Frame(frame.id, bytes([crc8(frame.id, data)]) + data[1:])]
-
-    link.change = newer
+def test_restart_with_another_firmware_ends_the_run(link, client):
+    link.change = altered("BOOT", lambda it: {"commit": it["commit"] ^ 1})
     link.reboot()
 
     with pytest.raises(FirmwareError, match=f"another firmware at tick {LEARNED}: commit"):
@@ -141,18 +116,8 @@ def test_restart_with_another_firmware_ends_the_run():
     assert "another firmware" in str(client.incidents)
 
 
-def altered_memory(frame: Frame) -> list[Frame]:
-    """A cell of each memory's first half is another one when it arrives."""
-    decoded = PROTOCOL.decode(frame)
-    if decoded is None or decoded.name != "MEMORY" or decoded.signals["half"]:
-        return [frame]
-    return [PROTOCOL.encode("MEMORY", {**decoded.signals, "cell_3": 2 - decoded.signals["cell_3"] // 2})]
-
-
-def test_failed_restart_makes_the_result_doubtful():
-    link = MeddledLink()
-    client = learned(link)
-    link.change = altered_memory
+def test_failed_restart_makes_the_result_doubtful(link, client):
+    link.change = altered("MEMORY", lambda it: {} if it["half"] else {"cell_3": 2 - it["cell_3"] // 2})
     link.reboot()
 
     with pytest.raises(RobotError, match="does not hold the memory that was just written"):
@@ -176,41 +141,34 @@ def test_failed_restart_after_a_halt_makes_the_result_doubtful(monkeypatch):
     assert "it refuses" in str(client.incidents)
 
 
-def test_real_time_restart_is_detected_and_the_robot_continues():
-    link = MeddledLink()
-    with connected(link, lockstep=False) as client:
-        handshake(client, client.connection.deadline_s)
-        start(client, Session(1))
-        pace = RealTime([client], 0.002)
-        for tick in range(10):
-            pace.exchange([senses(tick)])
+def test_real_time_restart_is_detected_and_the_robot_continues(link):
+    client = begun(link, lockstep=False)
+    pace = RealTime([client], 0.002)
+    for tick in range(10):
+        pace.exchange([senses(tick)])
 
-        link.reboot()
-        drives = [pace.exchange([senses(tick)])[0] for tick in range(10, 30)]
+    link.reboot()
+    drives = [pace.exchange([senses(tick)])[0] for tick in range(10, 30)]
 
     assert "restarted" in str(client.incidents)
     assert client.incidents[0].tick <= 12
     assert drives[-1].left_mm_s or drives[-1].right_mm_s
 
 
-def test_real_time_gap_of_a_second_makes_the_result_doubtful():
-    link = MeddledLink()
-    with connected(link, lockstep=False) as client:
-        handshake(client, client.connection.deadline_s)
-        start(client, Session(1))
-        pace = RealTime([client], 0.002)
-        pace.exchange([senses(0)])
-        link.change = lambda _: []
-        for tick in range(1, 510):
-            pace.exchange([senses(tick)])
+def test_real_time_gap_of_a_second_makes_the_result_doubtful(link):
+    client = begun(link, lockstep=False)
+    pace = RealTime([client], 0.002)
+    pace.exchange([senses(0)])
+    link.change = lambda _: []
+    for tick in range(1, 510):
+        pace.exchange([senses(tick)])
 
     (incident,) = client.incidents
     assert "did not answer for 1 s" in str(incident)
     assert incident.tick == 500
 
 
-def test_real_time_robot_without_answers_ends_the_run():
-    link = MeddledLink()
+def test_real_time_robot_without_answers_ends_the_run(link):
     client = learned(link, 0, lockstep=False, deadline_s=0.2)
     pace = RealTime([client], 0.02)
     link.change = lambda _: []

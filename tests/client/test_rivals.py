@@ -5,12 +5,13 @@ import pytest
 from host_sim.base.errors import RivalError, SessionLostError, TwinError
 from host_sim.client.commands import handshake, stop
 from host_sim.client.supervision import settle
-from host_sim.protocol.codec import Frame, counter_of, crc8
+from host_sim.protocol.codec import Frame, counter_of
 from host_sim.protocol.generated import Opcode, Reason, Result
 from tests.client.support import (
     LEARNED,
     PROTOCOL,
     MeddledLink,
+    altered,
     command,
     connected,
     drive_for,
@@ -22,10 +23,7 @@ from tests.client.support import (
 )
 
 
-def test_stop_by_another_owner_ends_the_run():
-    link = MeddledLink()
-    client = learned(link)
-
+def test_stop_by_another_owner_ends_the_run(link, client):
     link.put(command(Opcode.STOP, owner=2))
 
     with pytest.raises(RivalError, match="somebody else stopped node 1"):
@@ -33,10 +31,7 @@ def test_stop_by_another_owner_ends_the_run():
     assert "somebody else stopped node 1" in str(client.incidents)
 
 
-def test_start_by_another_owner_ends_the_run():
-    link = MeddledLink()
-    client = learned(link)
-
+def test_start_by_another_owner_ends_the_run(link, client):
     link.put(command(Opcode.STOP, owner=7))
     link.put(command(Opcode.START, owner=7, profile=0, lockstep=1, seed=9))
 
@@ -45,10 +40,7 @@ def test_start_by_another_owner_ends_the_run():
 
 
 @pytest.mark.parametrize("rival", [PROTOCOL.encode_senses(senses(7), 3), command(Opcode.FREEZE, owner=3, freeze=1)])
-def test_frames_of_another_simulator_end_the_run_and_stop_the_robot(rival):
-    link = MeddledLink()
-    client = learned(link)
-
+def test_frames_of_another_simulator_end_the_run_and_stop_the_robot(link, client, rival):
     link.waiting.extend([rival, rival])
 
     with pytest.raises(RivalError, match=f"another simulator commands node 1, heard at tick {LEARNED}"):
@@ -56,10 +48,7 @@ def test_frames_of_another_simulator_end_the_run_and_stop_the_robot(rival):
     assert is_stopped(link)
 
 
-def test_single_frame_of_another_simulator_causes_no_incident():
-    link = MeddledLink()
-    client = learned(link)
-
+def test_single_frame_of_another_simulator_causes_no_incident(link, client):
     link.waiting.append(command(Opcode.STOP, owner=3))
     drive_for(client, 1, LEARNED)
 
@@ -67,20 +56,27 @@ def test_single_frame_of_another_simulator_causes_no_incident():
     assert client.incidents == []
 
 
-def test_single_forged_command_is_an_incident():
-    link = MeddledLink()
-    client = learned(link)
+def stray_answer(result: Result) -> Frame:
+    """An answer to what this simulator never asked."""
+    signals = {"counter": 14, "opcode": Opcode.GET, "which": 0, "value": 0}
+    return PROTOCOL.encode("ANSWER", {**signals, "result": result})
 
-    link.waiting.append(command(Opcode.FREEZE, owner=1, freeze=1))
+
+@pytest.mark.parametrize(
+    ("frame", "told"),
+    [
+        (command(Opcode.FREEZE, owner=1, freeze=1), "it was told COMMAND"),
+        (stray_answer(Result.DONE), "it answered what was not asked here"),
+    ],
+)
+def test_single_forged_command_or_answer_is_an_incident(link, client, frame, told):
+    link.waiting.append(frame)
     drive_for(client, 1, LEARNED)
 
-    assert "somebody else commands the robot: it was told COMMAND" in str(client.incidents)
+    assert f"somebody else commands the robot: {told}" in str(client.incidents)
 
 
-def test_echo_of_an_own_command_causes_no_incident():
-    link = MeddledLink()
-    client = learned(link)
-
+def test_echo_of_an_own_command_causes_no_incident(link, client):
     link.waiting.append([frame for frame in link.sent if frame.id == PROTOCOL.id_of("COMMAND")][-1])
     drive_for(client, 1, LEARNED)
 
@@ -98,9 +94,7 @@ def test_robot_driven_by_another_simulator_is_left_alone():
 
 
 @pytest.mark.parametrize("heard_first", ["the first", "the second"])
-def test_twin_ends_the_run(heard_first):
-    link = MeddledLink()
-    client = learned(link)
+def test_twin_ends_the_run(link, client, heard_first):
     said_by_twin = drives_in(client.log.frames)[-1]
 
     if heard_first == "the second":  # whose reports look like those of a robot that has started anew
@@ -141,39 +135,26 @@ def test_silence_drive_is_accepted_only_in_real_time(lockstep):
     assert client.inbox.silent
 
 
-def test_robot_taken_over_by_another_simulator_is_stopped():
-    link = MeddledLink()
-    client = learned(link)
-
-    def owned_by_another(frame: Frame) -> list[Frame]:
-        decoded = PROTOCOL.decode(frame)
-        if decoded is None or decoded.name != "HEARTBEAT":
-            return [frame]
-        return [PROTOCOL.encode("HEARTBEAT", {**decoded.signals, "owner": 9})]
-
-    link.change = owned_by_another
+def test_robot_taken_over_by_another_simulator_is_stopped(link, client):
+    link.change = altered("HEARTBEAT", lambda _: {"owner": 9})
 
     with pytest.raises(RivalError, match=r"simulator 9 has taken over node 1 at tick \d+"):
         drive_for(client, 60, LEARNED)
     assert is_stopped(link)
 
 
-def test_different_drives_for_one_tick_make_the_result_doubtful():
-    link = MeddledLink()
-    client = learned(link)
+def test_different_drives_for_one_tick_make_the_result_doubtful(link, client):
     (said,) = drives_in(client.log.frames)[-1:]
-    data = said.data[:3] + bytes([said.data[3] ^ 1]) + said.data[4:]
 
-    link.waiting.append(Frame(said.id, bytes([crc8(said.id, data)]) + data[1:]))
+    link.waiting += altered("DRIVE", lambda it: {"left": it["left"] ^ 1})(said)
     drive_for(client, 5, LEARNED)
 
     assert "in the robot's name" in str(client.incidents)
 
 
 @pytest.mark.parametrize("ahead", range(1, 8))
-def test_forged_memory_does_not_change_the_result(ahead):
-    clean, link = learned(MeddledLink()), MeddledLink()
-    client = learned(link)
+def test_forged_memory_does_not_change_the_result(link, client, ahead):
+    clean = learned(MeddledLink())
     last = [frame for frame in client.log.frames if frame.id == PROTOCOL.id_of("MEMORY")][-1]
     counter = (counter_of(last) + ahead) % 15
     for half in range(2):
@@ -188,32 +169,11 @@ def test_forged_memory_does_not_change_the_result(ahead):
     assert client.memory == clean.memory != (0,) * 8
 
 
-def stray_answer(result: Result) -> Frame:
-    """An answer to what this simulator never asked."""
-    signals = {"counter": 14, "opcode": Opcode.GET, "which": 0, "value": 0}
-    return PROTOCOL.encode("ANSWER", {**signals, "result": result})
+def test_refused_command_of_another_sender_changes_no_result(link, client):
+    link.waiting.append(stray_answer(Result.OWNED))
 
-
-def test_unsolicited_answer_makes_the_result_doubtful():
-    link = MeddledLink()
-    client = learned(link)
-
-    link.waiting.append(stray_answer(Result.DONE))
-    drive_for(client, 1, LEARNED)
-
-    assert "somebody else commands the robot: it answered what was not asked here" in str(client.incidents)
-
-
-def test_refused_command_of_another_sender_changes_no_result():
-    quiet, alarmed = MeddledLink(), MeddledLink()
-    clients = [learned(quiet), learned(alarmed)]
-    stray = stray_answer(Result.OWNED)
-
-    alarmed.waiting.append(stray)
-    drives = [drive_for(client, 100, LEARNED) for client in clients]
-
-    assert drives[0] == drives[1]
-    assert clients[1].incidents == []
+    assert drive_for(client, 100, LEARNED) == drive_for(learned(MeddledLink()), 100, LEARNED)
+    assert client.incidents == []
 
 
 def test_undisturbed_run_has_no_incidents():
@@ -223,10 +183,7 @@ def test_undisturbed_run_has_no_incidents():
     assert client.incidents == []
 
 
-def test_late_report_is_not_taken_for_the_requested_one():
-    link = MeddledLink()
-    client = learned(link)
-
+def test_late_report_is_not_taken_for_the_requested_one(link, client):
     link.put(command(Opcode.REPORT, owner=1))
     link.waiting.popleft()
     drives = drive_for(client, 5, LEARNED)
