@@ -4,6 +4,7 @@ import errno
 import os
 import sys
 from contextlib import closing
+from unittest.mock import Mock
 
 import can
 import pytest
@@ -23,22 +24,18 @@ def opened(monkeypatch) -> list[dict]:
     return calls
 
 
-def test_adapter_is_opened_with_the_bit_rate(opened):
-    open_bus("pcan:PCAN_USBBUS1", bitrate=125_000)
+@pytest.mark.parametrize(
+    ("bus", "option", "value"),
+    [
+        ("pcan:PCAN_USBBUS1", "bitrate", 125_000),
+        ("socketcan:can0", "bitrate", None),  # the kernel has it
+        ("slcan:/dev/ttyACM0", "sleep_after_open", 0.0),
+    ],
+)
+def test_bus_is_opened_with_the_options_of_its_kind(opened, bus, option, value):
+    open_bus(bus, bitrate=125_000)
 
-    assert opened[0]["bitrate"] == 125_000
-
-
-def test_socketcan_is_opened_without_a_bit_rate(opened):
-    open_bus("socketcan:can0", bitrate=125_000)
-
-    assert "bitrate" not in opened[0]
-
-
-def test_python_can_slcan_is_opened_without_a_pause(opened):
-    open_bus("slcan:/dev/ttyACM0")
-
-    assert opened[0]["sleep_after_open"] == 0.0
+    assert opened[0].get(option) == value
 
 
 @pytest.mark.parametrize("bus", ["", "vcan0", "socketcan:", ":vcan0"])
@@ -86,10 +83,7 @@ def test_missing_requirement_of_an_interface_is_reported(bus, told):
     ],
 )
 def test_unopenable_bus_is_reported_in_one_line(monkeypatch, error, told):
-    def fail(**_: object) -> None:
-        raise error
-
-    monkeypatch.setattr(can, "Bus", fail)
+    monkeypatch.setattr(can, "Bus", Mock(side_effect=error))
 
     with pytest.raises(UsageError, match=f"^cannot open the bus pcan:X: {told}[^\n]*$"):
         open_bus("pcan:X")
@@ -108,10 +102,7 @@ class Bus:
 
 @pytest.mark.parametrize("error", [can.CanOperationError("Network is down", 100), OSError(100, "Network is down")])
 def test_bus_that_is_down_raises_link_down(monkeypatch, error):
-    def down(**_: object) -> None:
-        raise error
-
-    monkeypatch.setattr(can, "Bus", down)
+    monkeypatch.setattr(can, "Bus", Mock(side_effect=error))
 
     with pytest.raises(LinkDownError, match="the bus socketcan:can0 is down: "):
         open_bus("socketcan:can0")
@@ -206,10 +197,7 @@ def test_put_back_frame_is_received_before_the_socket_is_lent(monkeypatch):
     ("number", "hint"), [(errno.EAFNOSUPPORT, "tools/with-vcan COMMAND"), (errno.ENODEV, "`ip link` lists")]
 )
 def test_bus_error_names_its_remedy_where_known(monkeypatch, number, hint):
-    def fail(**_: object) -> None:
-        raise OSError(number, "so it is")
-
-    monkeypatch.setattr(can, "Bus", fail)
+    monkeypatch.setattr(can, "Bus", Mock(side_effect=OSError(number, "so it is")))
 
     with pytest.raises(UsageError, match=f"cannot open the bus socketcan:can0: .*so it is; .*{hint}"):
         open_bus("socketcan:can0")

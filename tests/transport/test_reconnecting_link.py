@@ -43,16 +43,21 @@ class Line:
 
 
 @pytest.fixture
-def line():
+def line() -> Line:
     return Line()
 
 
-def reconnecting(line: Line, stats: LineStats | None = None, patience_s: float = 5.0) -> ReconnectingLink:
-    return ReconnectingLink("the bus x", line.open, stats or LineStats(), patience_s)
+@pytest.fixture
+def stats() -> LineStats:
+    return LineStats()
 
 
-def test_frames_pass_over_a_working_line(line):
-    link = reconnecting(line)
+@pytest.fixture
+def link(line, stats) -> ReconnectingLink:
+    return ReconnectingLink("the bus x", line.open, stats, 5.0)
+
+
+def test_frames_pass_over_a_working_line(line, link):
     line.waiting.append(FRAME)
 
     link.send(FRAME)
@@ -61,9 +66,7 @@ def test_frames_pass_over_a_working_line(line):
     assert link.receive(0.0) == FRAME
 
 
-def test_frames_sent_during_an_outage_are_counted(line):
-    stats = LineStats()
-    link = reconnecting(line, stats)
+def test_frames_sent_during_an_outage_are_counted(line, link, stats):
     line.is_there = False
 
     link.send(FRAME)
@@ -72,8 +75,7 @@ def test_frames_sent_during_an_outage_are_counted(line):
     assert (stats.unsent, stats.outages, stats.reason) == (2, 1, "no such device")
 
 
-def test_returned_line_is_reopened(line):
-    link = reconnecting(line)
+def test_returned_line_is_reopened(line, link):
     line.is_there = False
     link.send(FRAME)
     line.is_there = True
@@ -87,7 +89,7 @@ def test_returned_line_is_reopened(line):
     assert link.receive(0.0) == FRAME
 
 
-def test_line_that_is_down_at_the_start_is_retried(line):
+def test_line_that_is_down_at_the_start_is_retried(line, stats):
     ups = iter([False, False, True])
 
     def open_link() -> Line:
@@ -95,7 +97,6 @@ def test_line_that_is_down_at_the_start_is_retried(line):
             raise LinkDownError("the bus x is down")
         return line.open()
 
-    stats = LineStats()
     link = ReconnectingLink("the bus x", open_link, stats, 5.0)
     link.send(FRAME)
     line.waiting.append(FRAME)
@@ -107,18 +108,15 @@ def test_line_that_is_down_at_the_start_is_retried(line):
     assert (stats.outages, stats.unsent, line.opened) == (1, 1, 1)
 
 
-def test_lasting_outage_raises_an_error(line):
-    link = reconnecting(line, patience_s=0.3)
+def test_lasting_outage_raises_an_error(line, stats):
+    link = ReconnectingLink("the bus x", line.open, stats, 0.3)
     line.is_there = False
 
     with pytest.raises(RobotError, match=r"the bus x has been gone for 0.3 s: no such device"):
         link.receive(0.0)
 
 
-def test_repeated_outages_are_counted_separately(line):
-    stats = LineStats()
-    link = reconnecting(line, stats)
-
+def test_repeated_outages_are_counted_separately(line, link, stats):
     for _ in range(3):
         line.is_there = False
         link.send(FRAME)
@@ -130,9 +128,7 @@ def test_repeated_outages_are_counted_separately(line):
     assert len(line.sent) == 3
 
 
-def test_reopened_line_that_fails_continues_the_same_outage(line):
-    stats = LineStats()
-    link = reconnecting(line, stats)
+def test_reopened_line_that_fails_continues_the_same_outage(line, link, stats):
     line.is_there = False
     link.send(FRAME)
     line.is_there = True
@@ -144,8 +140,7 @@ def test_reopened_line_that_fails_continues_the_same_outage(line):
     assert (stats.outages, stats.unsent) == (1, 2)
 
 
-def test_reopened_line_is_not_opened_again_before_a_send(line):
-    link = reconnecting(line)
+def test_reopened_line_is_not_opened_again_before_a_send(line, link):
     line.is_there = False
     link.send(FRAME)
     line.is_there = True
@@ -154,8 +149,8 @@ def test_reopened_line_is_not_opened_again_before_a_send(line):
     assert line.opened == 2
 
 
-def test_returned_line_outlives_the_patience_without_a_send(line):
-    link = reconnecting(line, patience_s=0.2)
+def test_returned_line_outlives_the_patience_without_a_send(line, stats):
+    link = ReconnectingLink("the bus x", line.open, stats, 0.2)
     line.is_there = False
     link.send(FRAME)
     line.is_there = True
@@ -167,9 +162,7 @@ def test_returned_line_outlives_the_patience_without_a_send(line):
     assert line.sent == [FRAME]
 
 
-def test_closed_link_can_be_closed_again_and_sends_nothing(line):
-    link = reconnecting(line)
-
+def test_closed_link_can_be_closed_again_and_sends_nothing(line, link):
     link.close()
     link.close()
     link.send(FRAME)
@@ -188,11 +181,11 @@ class SocketLine(Line):
         return self
 
 
-def test_link_has_a_frame_socket_only_while_the_line_works(line):
+def test_link_has_a_frame_socket_only_while_the_line_works(link, stats):
+    assert link.frame_socket() is None
     with_socket = SocketLine()
-    link = reconnecting(with_socket)
+    link = ReconnectingLink("the bus x", with_socket.open, stats, 5.0)
     assert link.frame_socket() is with_socket
-    assert reconnecting(line).frame_socket() is None
 
     with_socket.is_there = False
     link.send(FRAME)

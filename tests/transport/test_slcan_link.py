@@ -19,15 +19,28 @@ NO_FRAME = Frame(-1, b"")
 
 
 @pytest.fixture
-def ends() -> Iterator[tuple[SlcanLink, socket.socket]]:
+def pair() -> Iterator[tuple[socket.socket, socket.socket]]:
     near, far = socket.socketpair()
-    yield SlcanLink(near), far
-    near.close()
-    far.close()
+    with near, far:
+        yield near, far
 
 
-def test_frame_received_in_pieces_is_decoded(ends):
-    link, far = ends
+@pytest.fixture
+def far(pair) -> socket.socket:
+    return pair[1]
+
+
+@pytest.fixture
+def stats() -> LineStats:
+    return LineStats()
+
+
+@pytest.fixture
+def link(pair, stats) -> SlcanLink:
+    return SlcanLink(pair[0], stats)
+
+
+def test_frame_received_in_pieces_is_decoded(link, far):
     text = encode(FRAME)
 
     far.send(text[:4])
@@ -37,9 +50,7 @@ def test_frame_received_in_pieces_is_decoded(ends):
     assert link.receive(0.5) == FRAME
 
 
-def test_adapter_acknowledgements_are_skipped(ends):
-    link, far = ends
-
+def test_adapter_acknowledgements_are_skipped(link, far):
     far.send(b"\r\rz\rZ\r\a" + encode(FRAME))
 
     assert link.receive(0.5) == FRAME
@@ -47,16 +58,13 @@ def test_adapter_acknowledgements_are_skipped(ends):
 
 @pytest.mark.parametrize("stamp", [b"", b"7A3F", b"0012D687"])
 @pytest.mark.parametrize("end", [b"\r", b"\r\n", b"\n"])
-def test_any_line_end_and_timestamp_is_accepted(ends, stamp, end):
-    link, far = ends
-
+def test_any_line_end_and_timestamp_is_accepted(link, far, stamp, end):
     far.send((encode(FRAME)[:-1] + stamp + end) * 2)
 
     assert [link.receive(0.5), link.receive(0.5), link.receive(0.0)] == [FRAME, FRAME, None]
 
 
-def test_echoed_frames_are_skipped(ends):
-    link, far = ends
+def test_echoed_frames_are_skipped(link, far):
     other = Frame(0x321, b"")
 
     link.send(FRAME)
@@ -65,8 +73,8 @@ def test_echoed_frames_are_skipped(ends):
     assert [link.receive(0.5), link.receive(0.5)] == [other, FRAME._replace(data=b"others")]
 
 
-def test_opening_commands_repeat_until_a_frame_arrives(monkeypatch):
-    near, far = socket.socketpair()
+def test_opening_commands_repeat_until_a_frame_arrives(pair, monkeypatch):
+    near, far = pair
     monkeypatch.setattr(slcan_link, "_REOPEN_S", 0.05)
     link = SlcanLink(near, opening=b"C\rS6\rO\r")
     assert link.receive(0.2) is None
@@ -81,75 +89,50 @@ def test_opening_commands_repeat_until_a_frame_arrives(monkeypatch):
 
     with pytest.raises(BlockingIOError):
         far.recv(4096)
-    link.close()
-    far.close()
 
 
-def test_line_stats_count_frames_errors_and_garbled_lines():
-    near, far = socket.socketpair()
-    stats = LineStats()
-    link = SlcanLink(near, stats)
-
+def test_line_stats_count_frames_errors_and_garbled_lines(link, far, stats):
     far.send(b"\a\a+Board: \xff\r" + encode(FRAME))
     while link.receive(0.5) != FRAME:
         pass
 
     assert (stats.frames, stats.errors, stats.garbled, stats.strange) == (1, 2, 1, "'+Board: \\xff'")
     assert stats.heard == 11 + 1 + len(encode(FRAME))
-    link.close()
-    far.close()
 
 
 @pytest.mark.parametrize("noise", [b"\xff\xfe\r", b"t12\r", b"t1239\r", b"t1233010\r", b"T00000123301\r", b"tXYZ0\r"])
-def test_malformed_line_does_not_lose_the_next_frame(ends, noise):
-    link, far = ends
-
+def test_malformed_line_does_not_lose_the_next_frame(link, far, noise):
     far.send(noise + encode(FRAME))
 
     assert [link.receive(0.5), link.receive(0.5)] == [NO_FRAME, FRAME]
 
 
-def test_extended_and_remote_frames_are_not_garbled():
-    near, far = socket.socketpair()
-    stats = LineStats()
-    link = SlcanLink(near, stats)
-
+def test_extended_and_remote_frames_are_not_garbled(link, far, stats):
     far.send(b"\xff\xfe\rt12\rT000001230\rr1230\rR000001230\r" + encode(FRAME))
     while link.receive(0.5) != FRAME:
         pass
 
     assert stats.garbled == 2
-    link.close()
-    far.close()
 
 
-def test_noisy_line_gets_repeated_copies_of_a_frame():
-    near, far = socket.socketpair()
-    stats = LineStats()
-    link = SlcanLink(near, stats)
-
+def test_noisy_line_gets_repeated_copies_of_a_frame(link, far, stats):
     stats.insist()
     stats.insist()
     link.send(FRAME)
 
     assert far.recv(4096) == 4 * encode(FRAME)
-    link.close()
-    far.close()
 
 
-def test_frames_with_other_identifiers_are_skipped():
-    near, far = socket.socketpair()
+def test_frames_with_other_identifiers_are_skipped(pair):
+    near, far = pair
     link = SlcanLink(near, ids=[0x123])
 
     far.send(encode(Frame(0x124, b"")) * 5 + encode(FRAME))
 
     assert link.receive(0.5) == FRAME
-    near.close()
-    far.close()
 
 
-def test_random_bytes_do_not_stop_the_link(ends):
-    link, far = ends
+def test_random_bytes_do_not_stop_the_link(link, far):
     far.setblocking(False)
     dice = Random(1)
 
@@ -163,16 +146,14 @@ def test_random_bytes_do_not_stop_the_link(ends):
     assert FRAME in heard
 
 
-def test_receive_times_out_during_a_stream_of_noise(ends):
-    link, far = ends
+def test_receive_times_out_during_a_stream_of_noise(link, far):
     far.setblocking(False)
     far.send(b"x" * 60_000)
 
     assert link.receive(0.05) is None
 
 
-def test_closed_far_end_raises_link_down(ends):
-    link, far = ends
+def test_closed_far_end_raises_link_down(link, far):
     far.close()
 
     with pytest.raises(LinkDownError, match="its end of the line is closed"):
@@ -193,8 +174,7 @@ def test_frame_without_room_is_dropped_and_counted():
         assert stats.unsent == 1
 
 
-def test_failing_line_raises_link_down(ends, monkeypatch):
-    link, far = ends
+def test_failing_line_raises_link_down(link, far, monkeypatch):
     far.close()
 
     with pytest.raises(LinkDownError, match="cannot send to the robot"):
@@ -205,8 +185,7 @@ def test_failing_line_raises_link_down(ends, monkeypatch):
         link.receive(0.5)
 
 
-def test_receive_continues_after_a_spurious_wakeup(ends, monkeypatch):
-    link, far = ends
+def test_receive_continues_after_a_spurious_wakeup(link, far, monkeypatch):
     far.send(encode(FRAME))
     read, reads = os.read, iter([BlockingIOError()])
 
@@ -220,8 +199,7 @@ def test_receive_continues_after_a_spurious_wakeup(ends, monkeypatch):
     assert link.receive(0.5) == FRAME
 
 
-def test_send_retries_when_the_line_is_full_again(ends, monkeypatch):
-    link, far = ends
+def test_send_retries_when_the_line_is_full_again(link, far, monkeypatch):
     full, write = [BlockingIOError()], os.write
 
     def write_or_fail(fd: int, text: bytes) -> int:
@@ -236,9 +214,7 @@ def test_send_retries_when_the_line_is_full_again(ends, monkeypatch):
     assert far.recv(100) == encode(FRAME)
 
 
-def test_close_closes_the_stream(ends):
-    link, far = ends
-
+def test_close_closes_the_stream(link, far):
     link.close()
 
     assert far.recv(1) == b""
