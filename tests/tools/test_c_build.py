@@ -53,37 +53,28 @@ def test_c_tests_run_unlisted_in_the_order_of_their_lines(tmp_path):
     assert re.findall(r"canary\.c:(\d+):(\w+):PASS", said) == [("2", "test_b"), ("4", "test_a"), ("6", "test_c")]
 
 
-def test_set_up_and_tear_down_run_around_each_c_test(tmp_path):
-    passed, _ = outcome(
-        tmp_path,
-        """
-        static int up, down;
-        void setUp(void) { up++; }
-        void tearDown(void) { down++; }
-        TEST(a) { TEST_ASSERT_EQUAL(1, up); TEST_ASSERT_EQUAL(0, down); }
-        TEST(b) { TEST_ASSERT_EQUAL(2, up); TEST_ASSERT_EQUAL(1, down); }
-        """,
-    )
+AROUND = """
+static int up, down;
+void setUp(void) { up++; }
+void tearDown(void) { down++; }
+TEST(a) { TEST_ASSERT_EQUAL(1, up); TEST_ASSERT_EQUAL(0, down); }
+TEST(b) { TEST_ASSERT_EQUAL(2, up); TEST_ASSERT_EQUAL(1, down); }
+"""
+BELOW = """
+static int up, first, second;
+void setUp(void) { up++; }
+TEST(a) { TEST_ASSERT_EQUAL(1, up); TEST_ASSERT_EQUAL(0, first); }
+BEFORE_EACH(one) { first = up; }
+TEST(b) { TEST_ASSERT_EQUAL(2, first); prepare_one(); }
+TEST(c) { TEST_ASSERT_EQUAL(3, first); }
+BEFORE_EACH(other) { second = up; }
+TEST(d) { TEST_ASSERT_EQUAL(4, second); TEST_ASSERT_EQUAL(3, first); }
+"""
 
-    assert passed
 
-
-def test_before_each_applies_to_the_tests_below_it(tmp_path):
-    passed, _ = outcome(
-        tmp_path,
-        """
-        static int up, first, second;
-        void setUp(void) { up++; }
-        TEST(a) { TEST_ASSERT_EQUAL(1, up); TEST_ASSERT_EQUAL(0, first); }
-        BEFORE_EACH(one) { first = up; }
-        TEST(b) { TEST_ASSERT_EQUAL(2, first); prepare_one(); }
-        TEST(c) { TEST_ASSERT_EQUAL(3, first); }
-        BEFORE_EACH(other) { second = up; }
-        TEST(d) { TEST_ASSERT_EQUAL(4, second); TEST_ASSERT_EQUAL(3, first); }
-        """,
-    )
-
-    assert passed
+@pytest.mark.parametrize("tests", [AROUND, BELOW], ids=["set-up around each", "BEFORE_EACH for those below it"])
+def test_c_tests_are_prepared(tmp_path, tests):
+    assert outcome(tmp_path, tests)[0]
 
 
 @pytest.mark.parametrize(

@@ -87,22 +87,20 @@ def test_stopping_a_stage_ends_its_processes(project):
     assert soon(lambda: not alive(int(note.read_text())))
 
 
-def test_stage_without_time_left_does_not_begin_and_says_why(project):
-    project.c_tests(one="true")
-
-    code, said = project.run("c", "--time-limit=0")
-
-    assert (code, last(said)) == (1, "0 passed, 1 failed")
-    assert "did not begin: the time limit of 0 min was reached (--time-limit)" in said
-
-
-def test_stalled_stage_is_stopped(project):
+@pytest.mark.parametrize(
+    ("limit", "why"),
+    [
+        ("--time-limit=0", "did not begin: the time limit of 0 min was reached (--time-limit)"),
+        ("--stall-limit=0.02", "stopped: no test began or ended for 0.02 min (--stall-limit)"),
+    ],
+)
+def test_stage_that_a_limit_stops_says_why(project, limit, why):
     project.c_tests(one="sleep 1000")
 
-    code, said = project.run("c", "--stall-limit=0.02")
+    code, said = project.run("c", limit)
 
     assert (code, last(said)) == (1, "0 passed, 1 failed")
-    assert "stopped: no test began or ended for 0.02 min (--stall-limit)" in said
+    assert why in said
 
 
 def test_begin_or_end_of_a_test_restarts_the_stall_limit(tmp_path, monkeypatch):

@@ -211,14 +211,6 @@ def test_cluster_stage_installs_studies_too(tree: Tree) -> None:
     assert sorted(both) == ["requirements/cluster.lock", "requirements/study.lock"]
 
 
-def test_interrupted_installation_of_exports_is_repeated(tree: Tree) -> None:
-    with tree.offline("requirements/export.lock"):
-        assert tree.setup("export")[0].returncode != 0
-    assert tree.setup("run")[1] == ["ninja"]
-    assert tree.setup("export")[0].returncode == 0
-    assert tree.installed() == ["requirements/export.lock"]
-
-
 def test_later_stage_adds_to_the_installed_ones(tree: Tree) -> None:
     tree.setup("run")
     tree.setup("emulator")
@@ -233,12 +225,13 @@ def test_new_venv_has_the_stages_of_the_old_one(tree: Tree) -> None:
     assert tree.setup("emulator")[1] == ["ninja"]
 
 
-def test_interrupted_stage_is_resumed(tree: Tree) -> None:
-    with tree.offline("requirements/emulator.lock"):
-        assert tree.setup("emulator")[0].returncode != 0
+@pytest.mark.parametrize("name", ["emulator", "export"])
+def test_interrupted_stage_is_resumed(tree: Tree, name: str) -> None:
+    with tree.offline(f"requirements/{name}.lock"):
+        assert tree.setup(name)[0].returncode != 0
     assert tree.setup("run")[1] == ["ninja"]
-    assert tree.setup("emulator")[0].returncode == 0
-    assert tree.installed() == ["requirements/emulator.lock"]
+    assert tree.setup(name)[0].returncode == 0
+    assert tree.installed() == [f"requirements/{name}.lock"]
 
 
 def test_unknown_stage_is_answered_with_the_known_ones(tree: Tree) -> None:
@@ -255,28 +248,19 @@ def test_help_lists_the_stages_and_sets_nothing_up(tree: Tree, word: str) -> Non
     assert "page:" in done.stdout
 
 
-def test_uninstallable_packages_are_named_with_the_command(tree: Tree) -> None:
-    for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "readlink", "rm"):
-        (tree.bin / name).symlink_to(str(shutil.which(name)))
-    for name in ("cmake", *INSTALLERS):
-        (tree.bin / name).unlink()
-    done, _ = tree.setup(path=str(tree.bin))
-    assert done.returncode != 0
-    assert "apt-get install gcc cmake\n" in done.stderr
-
-
 def test_packages_option_needs_no_venv_and_no_build(tree: Tree) -> None:
     done, calls = tree.setup("--packages", "c")
     assert (done.returncode, set(calls) - {"python3"}) == (0, set())  # python3 is asked whether it can make a venv
     assert not (tree.folder / ".venv").exists()
 
 
-def test_packages_option_names_uninstallable_packages(tree: Tree) -> None:
+@pytest.mark.parametrize("words", [(), ("--packages", "c")])
+def test_uninstallable_packages_are_named_with_the_command(tree: Tree, words: tuple[str, ...]) -> None:
     for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "readlink", "rm"):
         (tree.bin / name).symlink_to(str(shutil.which(name)))
     for name in ("cmake", *INSTALLERS):
         (tree.bin / name).unlink()
-    done, _ = tree.setup("--packages", "c", path=str(tree.bin))
+    done, _ = tree.setup(*words, path=str(tree.bin))
     assert done.returncode != 0
     assert "apt-get install gcc cmake\n" in done.stderr
 

@@ -30,18 +30,12 @@ def test_only_the_test_with_faults_shows_the_bug_of_the_motor(tmp_path):
     assert re.search(r"^ +990 ms from 200#\w+ STATUS crc=\d+ counter=\d+ speed=\d+ refused=31$", done.stdout, re.M)
 
 
-def test_heater_example_passes(tmp_path):
-    done = run_pytest(tmp_path, EXAMPLES / "heater")
+@pytest.mark.parametrize(("example", "tests"), [("heater", 3), ("robot", 2)])
+def test_example_passes(tmp_path, example, tests):
+    done = run_pytest(tmp_path, EXAMPLES / example)
 
     assert done.returncode == 0, done.stdout
-    assert "3 passed" in done.stdout
-
-
-def test_robot_example_passes(tmp_path):
-    done = run_pytest(tmp_path, EXAMPLES / "robot")
-
-    assert done.returncode == 0, done.stdout
-    assert "2 passed" in done.stdout
+    assert f"{tests} passed" in done.stdout
 
 
 FINDING = """
