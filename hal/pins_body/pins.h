@@ -1,5 +1,5 @@
 /* pins.h: what a body on pins needs from the microcontroller. Each chip family provides it:
- * hal/stm32/robot/robot_pins.c and hal/rp2040/robot_pins.c are two. Timers do everything in hardware; a beat of 5 ms
+ * hal/stm32/robot_pins.c and hal/rp2040/robot_pins.c are two. Timers do everything in hardware; a beat of 5 ms
  * from one of them paces the software. One thread calls all of it. */
 #ifndef OCTET_PINS_H
 #define OCTET_PINS_H

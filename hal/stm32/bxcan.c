@@ -3,8 +3,7 @@
 
 #include <string.h>
 
-#include "hal/stm32/can_timing.h"
-#include "hal/stm32/machine.h"
+#include "hal/stm32/chip.h"
 #include "hal/stm32/registers.h"
 
 enum {

@@ -6,10 +6,13 @@
 #include "hal/port/cortex_m/can_controller.h"
 #include "hal/port/cortex_m/can_queue.h"
 #include "hal/port/cortex_m/uart.h"
-#include "hal/stm32/can_timing.h"
-#include "hal/stm32/machine.h"
+#include "hal/stm32/chip.h"
 
-enum { RECOVERY_MS = 250 };   /* between attempts to recover from bus-off: four times what a full bus needs */
+enum {
+    RECOVERY_MS = 250,             /* between attempts to recover from bus-off: four times what a full bus needs */
+    BITRATE = OCTET_CAN_BITRATE,   /* bit/s, set by the build */
+    QUANTA_MIN = 8, QUANTA_MAX = 18   /* per bit: each of our controllers supports these */
+};
 
 struct link {
     uint32_t off_ms;   /* start of the last attempt to recover from bus-off */
@@ -27,14 +30,24 @@ static uint32_t bitrate_of(const char *name)
 
     for (const char *at = name; *at != '\0'; at++)
         bitrate = 10u * bitrate + (uint32_t)(*at - '0');
-    return bitrate != 0 ? bitrate : (uint32_t)CAN_BITRATE;
+    return bitrate != 0 ? bitrate : (uint32_t)BITRATE;
+}
+
+/* Quanta per bit for which an integer prescaler gives exactly that bit rate, as many as can be: finer ones improve
+ * synchronisation. 0: the clock has no such divisor. */
+static uint32_t quanta_for(uint32_t clock_hz, uint32_t bitrate)
+{
+    for (uint32_t quanta = QUANTA_MAX; quanta >= QUANTA_MIN; quanta--)
+        if (clock_hz % (bitrate * quanta) == 0)
+            return quanta;
+    return 0;
 }
 
 int link_open(struct link **link, const char *name, const uint16_t ids[], size_t id_count)
 {
     uint32_t clock_hz = machine_clocks().can_hz;
     uint32_t bitrate = bitrate_of(name);
-    uint32_t quanta = can_quanta(clock_hz, bitrate);
+    uint32_t quanta = quanta_for(clock_hz, bitrate);
 
     if (id_count > LINK_IDS_MAX || quanta == 0 || !can_stop())
         return LINK_E_OPEN;

@@ -1,4 +1,4 @@
-#include "hal/stm32/clock.h"
+#include "hal/stm32/chip.h"
 
 #include "hal/port/cortex_m/systick.h"
 

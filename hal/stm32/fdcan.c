@@ -3,9 +3,8 @@
 
 #include <string.h>
 
-#include "hal/stm32/can_timing.h"
-#include "hal/stm32/fdcan_registers.h"
-#include "hal/stm32/machine.h"
+#include "hal/stm32/registers.h"
+#include "hal/stm32/chip.h"
 
 static const uint32_t FILTER_WITH_MASK = 1u << 31;
 

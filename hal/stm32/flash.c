@@ -1,7 +1,6 @@
 /* Flash access common to all chips. The core stalls during a write or an erase. */
 #include "hal/port/cortex_m/uart.h"
-#include "hal/stm32/flash_table.h"
-#include "hal/stm32/machine.h"
+#include "hal/stm32/chip.h"
 
 enum { WRITE_MS = 2 };
 

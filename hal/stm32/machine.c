@@ -1,6 +1,6 @@
 /* The microcontroller functions of the port on an STM32. */
 #include "hal/port/cortex_m/mcu.h"
-#include "hal/stm32/machine.h"
+#include "hal/stm32/chip.h"
 #include "hal/stm32/registers.h"
 
 enum {

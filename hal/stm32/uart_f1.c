@@ -1,7 +1,7 @@
 /* The serial port of an STM32F1, F2 or F4 (RM0008 27, RM0090 30): one status register, one data register. */
 #include "hal/port/cortex_m/uart.h"
 
-#include "hal/stm32/machine.h"
+#include "hal/stm32/chip.h"
 #include "hal/stm32/registers.h"
 
 enum {

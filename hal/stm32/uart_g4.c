@@ -2,7 +2,7 @@
  * while the core stalls for the flash. */
 #include "hal/port/cortex_m/uart.h"
 
-#include "hal/stm32/machine.h"
+#include "hal/stm32/chip.h"
 #include "hal/stm32/uart_g4_registers.h"
 
 enum {

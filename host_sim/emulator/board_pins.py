@@ -156,7 +156,7 @@ class Pins:
         }
 
     def header(self) -> str:
-        """The contents of the header that board.h includes."""
+        """The contents of the header that gpio.h includes."""
         lines = [f"/* Generated from the board's file, {self.board}.cmake. */"]
         numbers: dict[str, object] = {}
         for signal, pin in self.signals.items():

@@ -1,6 +1,6 @@
 set(OCTET_BOARD_DIR ${PROJECT_SOURCE_DIR}/hal/stm32/boards CACHE PATH "where the boards are: hal/stm32/boards, or a folder of yours")
 get_filename_component(OCTET_BOARD_DIR ${OCTET_BOARD_DIR} ABSOLUTE BASE_DIR ${PROJECT_SOURCE_DIR})
-# octet_board_pins(TARGET BOARD): the pins of a board, for board.h.
+# octet_board_pins(TARGET BOARD): the pins of a board, for gpio.h.
 set(OCTET_PINS_MAKERS ${PROJECT_SOURCE_DIR}/tools/pins ${PROJECT_SOURCE_DIR}/host_sim/emulator/board_pins.py)
 function(octet_board_pins target board)
   set(file ${OCTET_BOARD_DIR}/${board}.cmake)

@@ -10,14 +10,17 @@
 enum {
     CAN_STOP_MS = 2,   /* the frame under way ends first */
     CAN_BUFFERS = 3,   /* for frames to be sent */
-    CAN_FIFOS = 2      /* of received frames; the last one is for families, which displace no others there */
+    CAN_FIFOS = 2,     /* of received frames; the last one is for families, which displace no others there */
+    CAN_QUANTA_AFTER = 2,   /* after the sample point, which is thus at 75..89 % of the bit */
+    CAN_QUANTA_JUMP = 2     /* resynchronization jump width */
 };
 
 bool can_stop(void);
         /* Leaves the bus and enters configuration mode. False: no answer within CAN_STOP_MS. */
 
 void can_set_up(uint32_t prescaler, uint32_t quanta, const uint16_t ids[], size_t id_count);
-        /* Sets the bit timing (can_timing.h) and the identifiers to listen for (link_open): data frames only. */
+        /* Sets the bit timing and the identifiers to listen for (link_open): data frames only. A bit is 8..18 quanta:
+           periods of the controller's clock divided by the prescaler. */
 
 void can_start(void);
         /* Joins the bus once idle for 11 bits, without waiting for it; after bus-off, 128 times as long. */

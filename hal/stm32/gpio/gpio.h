@@ -1,11 +1,15 @@
-/* gpio.h: the pins of a chip, numbered as in board.h, once their ports have a clock. */
+/* gpio.h: the pins of a chip, once their ports have a clock, and those of the board that this is built for, from its
+ * CMake file, hal/stm32/boards/NAME.cmake. */
 #ifndef OCTET_GPIO_H
 #define OCTET_GPIO_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "hal/stm32/board.h"
+/* A pin is a number: the port, 0 for A, in the upper four bits, and the pin of the port in the lower four. */
+enum { PORT_PINS = 16 };
+
+#include "board_pins.h"   /* BOARD_LED and its like, made by tools/pins */
 
 enum gpio_mode {
     GPIO_ANALOGUE,

@@ -1,5 +1,5 @@
 /* 72 MHz from the board's 8 MHz crystal, or 64 MHz from the internal oscillator. */
-#include "hal/stm32/clock.h"
+#include "hal/stm32/chip.h"
 
 #include "hal/stm32/stm32f103/registers.h"
 

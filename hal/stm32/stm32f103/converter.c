@@ -1,5 +1,5 @@
 /* The ADC of an STM32F1 (RM0008 11). */
-#include "hal/stm32/robot/converter.h"
+#include "hal/stm32/chip.h"
 
 #include "hal/stm32/stm32f103/registers.h"
 

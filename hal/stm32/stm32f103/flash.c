@@ -1,5 +1,5 @@
 /* 64 pages, the last two for the store (PM0075 2.3), written by half-words. */
-#include "hal/stm32/flash_table.h"
+#include "hal/stm32/chip.h"
 #include "hal/stm32/stm32f103/registers.h"
 
 enum { PAGE_SIZE = 1024 };

@@ -1,5 +1,5 @@
 /* 168 MHz from the board's crystal, or from the internal 16 MHz. */
-#include "hal/stm32/clock.h"
+#include "hal/stm32/chip.h"
 
 #include "hal/stm32/stm32f405/registers.h"
 

@@ -1,5 +1,5 @@
 /* Sectors 1 and 2 are for the store (RM0090 3.6). */
-#include "hal/stm32/flash_table.h"
+#include "hal/stm32/chip.h"
 #include "hal/stm32/stm32f405/registers.h"
 
 enum {

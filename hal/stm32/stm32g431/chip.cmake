@@ -5,6 +5,6 @@ set(OCTET_SHARED_SOURCES gpio/gpio_f4.c)
 set(OCTET_LINKS fdcan slcan)
 set(OCTET_BODIES pins mute body)
 set(OCTET_BODY_LINK fdcan)
-set(OCTET_LINK_fdcan can_link.c ../port/cortex_m/can_queue.c can_timing.c fdcan.c)
+set(OCTET_LINK_fdcan can_link.c ../port/cortex_m/can_queue.c fdcan.c)
 set(OCTET_LINK_slcan ../port/cortex_m/uart_slcan_link.c uart_g4.c)
 set(OCTET_INTERRUPTS 102)   # RM0440 14.3

@@ -2,7 +2,7 @@
  *
  * 170 MHz would require a voltage boost and a pause at half speed; a tick takes only 3,000 instructions, and 80 MHz
  * gives 16 quanta per CAN bit. */
-#include "hal/stm32/clock.h"
+#include "hal/stm32/chip.h"
 
 #include "hal/stm32/stm32g431/registers.h"
 

@@ -1,5 +1,5 @@
 /* The ADC of an STM32G4 (RM0440 21), and the DMA request multiplexer (13). */
-#include "hal/stm32/robot/converter.h"
+#include "hal/stm32/chip.h"
 
 #include "hal/stm32/stm32g431/registers.h"
 

@@ -2,8 +2,7 @@
  *
  * Eight bytes are written at once, with eight bits of error correction. A write interrupted by a power failure can
  * leave eight bytes with an uncorrectable error: reading them raises a non-maskable interrupt. */
-#include "hal/stm32/flash_table.h"
-#include "hal/stm32/stm32g431/flash_errors.h"
+#include "hal/stm32/chip.h"
 #include "hal/stm32/stm32g431/registers.h"
 
 enum {
@@ -35,7 +34,11 @@ const struct flash_table FLASH_TABLE = {
 
 static volatile bool reading, unreadable;
 
-__attribute__((used)) bool flash_forgives(void)   /* by assembly in nmi.c, which the linker cannot see */
+bool flash_forgives(void);
+
+/* Whether flash_read expected this error and will report it, so that the program continues; else it is another one,
+ * or at another place. Called by assembly in nmi.c, which the linker cannot see. */
+__attribute__((used)) bool flash_forgives(void)
 {
     if (!reading || !(FLASH.eccr & ECCR_TWO_BITS))
         return false;

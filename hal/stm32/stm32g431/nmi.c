@@ -1,6 +1,4 @@
 /* The only exception that does not end the program. It occurs only in flash_read, and takes 56 bytes of stack. */
-#include "hal/stm32/stm32g431/flash_errors.h"
-
 void startup_nmi(void);
 
 /* An error that is not forgiven is a crash, with the stack as left by the exception. */

@@ -1,6 +1,6 @@
 #include "can_queue_rig.h"
 
-#include "hal/stm32/machine.h"
+#include "hal/stm32/chip.h"
 
 #include <string.h>
 

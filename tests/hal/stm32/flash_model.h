@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "hal/port/cortex_m/uart.h"
-#include "hal/stm32/machine.h"
+#include "hal/stm32/chip.h"
 
 static const uint32_t LAST_KEY = 0xCDEF89AB, MARK = 1u << 30;   /* a bit of SR that means nothing: what lacks it was written */
 

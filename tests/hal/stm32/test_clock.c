@@ -3,7 +3,7 @@
 #include <stddef.h>
 
 #include "tests/test.h"
-#include "hal/stm32/clock.h"
+#include "hal/stm32/chip.h"
 #include CLOCK_EXPECTED
 #include "clock_model.h"
 

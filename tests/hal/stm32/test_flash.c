@@ -1,6 +1,6 @@
 /* What every chip's flash has to do. Built once for each chip, with FLASH_EXPECTED: the header that says what is expected of it. */
 #include "tests/test.h"
-#include "hal/stm32/flash_table.h"
+#include "hal/stm32/chip.h"
 #include FLASH_EXPECTED
 #include "flash_model.h"
 

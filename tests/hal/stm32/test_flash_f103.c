@@ -3,7 +3,7 @@
 
 #include "hal/flash_store/flash.h"
 #include "hal/port/cortex_m/uart.h"
-#include "hal/stm32/machine.h"
+#include "hal/stm32/chip.h"
 #include "hal/stm32/stm32f103/registers.h"
 #include "tests/test.h"
 

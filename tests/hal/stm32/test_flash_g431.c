@@ -6,14 +6,15 @@
 
 #include "hal/flash_store/flash.h"
 #include "hal/port/cortex_m/uart.h"
-#include "hal/stm32/machine.h"
-#include "hal/stm32/stm32g431/flash_errors.h"
+#include "hal/stm32/chip.h"
 #include "hal/stm32/stm32g431/registers.h"
 #include "tests/test.h"
 
 enum { HOST_PAGE = 4096, WORDS = 512 };
 
 static const uint32_t LOCK = 1u << 31, TWO_BITS = 1u << 31;
+
+bool flash_forgives(void);   /* called by assembly */
 
 volatile struct flash_registers FLASH;
 volatile struct power_registers PWR;

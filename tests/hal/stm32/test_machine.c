@@ -1,5 +1,5 @@
 #include "hal/port/cortex_m/mcu.h"
-#include "hal/stm32/machine.h"
+#include "hal/stm32/chip.h"
 
 #include <string.h>
 

@@ -5,7 +5,6 @@
 
 #include "tests/test.h"
 #include "hal/port/cortex_m/mcu.h"
-#include "hal/stm32/board.h"
 #include "hal/stm32/chip.h"
 #include "hal/stm32/gpio/gpio.h"
 #include "hal/stm32/gpio/gpio_f4.h"

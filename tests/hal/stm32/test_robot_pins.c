@@ -5,8 +5,8 @@
 
 #include "hal/pins_body/pins.h"
 #include "hal/port/cortex_m/core.h"
-#include "hal/stm32/machine.h"
-#include "hal/stm32/robot/timer_registers.h"
+#include "hal/stm32/chip.h"
+#include "hal/stm32/registers.h"
 #include "tests/test.h"
 
 enum { PORTS = 5, A = 0, B = 1, C = 2 };

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "tests/test.h"
-#include "hal/stm32/machine.h"
+#include "hal/stm32/chip.h"
 #include UART_EXPECTED
 
 enum { RXNE = 32, TXE = 128 };

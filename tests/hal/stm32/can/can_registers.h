@@ -3,7 +3,7 @@
 #ifndef OCTET_CAN_REGISTERS_H
 #define OCTET_CAN_REGISTERS_H
 
-#include "hal/stm32/machine.h"
+#include "hal/stm32/chip.h"
 #include "host_sim/emulator/models/can_node.h"
 
 enum { LOOK_US = 50 };   /* from one look at the clock to the next */

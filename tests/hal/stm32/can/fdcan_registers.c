@@ -5,7 +5,7 @@
 #include <unity.h>
 
 #include "can_rig.h"
-#include "hal/stm32/fdcan_registers.h"
+#include "hal/stm32/registers.h"
 
 enum {
     CCCR = 0x018, IR = 0x050, IE = 0x054, ILE = 0x05C, RXF0A = 0x094, RXF1A = 0x09C, TXBAR = 0x0CC, TXBCR = 0x0D0,

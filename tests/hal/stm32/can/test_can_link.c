@@ -5,7 +5,6 @@
 #include "tests/test.h"
 #include "hal/port/cortex_m/can_controller.h"
 #include "hal/port/cortex_m/uart.h"
-#include "hal/stm32/can_timing.h"
 
 BEFORE_EACH(can_link)
 {
@@ -212,11 +211,11 @@ TEST(line_pump_does_nothing_on_a_can_link)
 
 BEFORE_EACH(can_controller)
 {
-    uint32_t quanta = can_quanta(RIG_CLOCKS_HZ[0], CAN_BITRATE);
+    uint32_t clocks = RIG_CLOCKS_HZ[0] / OCTET_CAN_BITRATE, quanta = clocks % 14 == 0 ? 14 : 16;
 
     rig_reset();
     TEST_ASSERT_TRUE(can_stop());
-    can_set_up(RIG_CLOCKS_HZ[0] / (CAN_BITRATE * quanta), quanta, WANTED, 2);
+    can_set_up(clocks / quanta, quanta, WANTED, 2);
     rig_set_clock(RIG_CLOCKS_HZ[0]);
     can_start();
     rig_pass_us(100);

@@ -4,7 +4,7 @@
 #include "can_rig.h"
 #include "fdcan_registers.h"
 #include "hal/link/link.h"
-#include "hal/stm32/fdcan_registers.h"
+#include "hal/stm32/registers.h"
 
 static const uint16_t WANTED[] = {0x0C1, 0x041};
 static struct link *link_here;

@@ -3,10 +3,9 @@
 #include "hal/pins_body/pins.h"
 
 #include "hal/port/cortex_m/core.h"
-#include "hal/stm32/robot/converter.h"
 #include "hal/stm32/gpio/gpio.h"
-#include "hal/stm32/machine.h"
-#include "hal/stm32/robot/timer_registers.h"
+#include "hal/stm32/chip.h"
+#include "hal/stm32/registers.h"
 
 enum { LEFT_BACK, LEFT_PWM, RIGHT_PWM, RIGHT_BACK };   /* channels of TIM1, from 0 */
 
