@@ -11,7 +11,9 @@ from host_sim.base.toml_file import parse_toml
 FOLDER = Path(__file__).parent
 TABLE = FOLDER / "svd.txt"
 SETUP: Mapping[str, Any] = parse_toml((FOLDER / "chips.toml").read_text())
-COMPARED: Mapping[str, Mapping[str, str]] = SETUP["chips"]
+COMPARED: Mapping[str, Mapping[str, str]] = {
+    chip: {**{name: name for name in names["same"].split()}, **names} for chip, names in SETUP["chips"].items()
+}
 """The peripherals of each chip, and its board."""
 
 
@@ -29,7 +31,10 @@ def entries(kind: str) -> Iterator[Constant]:
     """The entries of `structures` or `constants`."""
     for table in SETUP[kind]:
         for chip in table["chips"]:
-            yield from (Constant(chip, table["file"], *it) for it in table.items() if it[0] not in ("file", "chips"))
+            for name in table.keys() - {"file", "chips"}:
+                says = table[name]
+                by_chip = {"others": says} if isinstance(says, str) else says
+                yield Constant(chip, table["file"], name, by_chip.get(chip) or by_chip["others"])
 
 
 def fields_of(entry: Constant) -> Iterator[tuple[tuple[str, str], str, str]]:

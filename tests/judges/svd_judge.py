@@ -174,8 +174,9 @@ ALIASES: Mapping[str, str] = SETUP["aliases"]
 
 
 def named(ours: str) -> set[str]:
-    """The names that the SVD files may have for a register."""
-    names = {ours.upper()}
+    """The names that the SVD files may have for a register: without brackets, with _ for a dot, or an alias."""
+    plain = re.sub(r"[][]", "", ours).upper()
+    names = {plain, plain.replace(".", "_")}
     for pattern, theirs in ALIASES.items():
         if match := re.fullmatch(re.escape(pattern).replace(r"\#", r"(\d+)"), ours):
             number = int(match[1]) if match.groups() else 0
