@@ -55,9 +55,8 @@ def blocked_s(profile: str) -> float:
     """How long a robot of a profile is blocked, s: the mean of all times that it is."""
     trials = [Trial(RunConfig(profile=profile, seed=seed)) for seed in SEEDS[:20]]
     with ProcessPoolExecutor(2) as processes:
-        rows = [row for run in processes.map(run_trial, trials) for row in run.rows]
-    times = [contact.blocked_ticks * row.tick_s for row in rows for robot in row.contacts for contact in robot]
-    return statistics.mean(times)
+        contacts = [contact for run in processes.map(run_trial, trials) for contact in run["contacts"]]
+    return statistics.mean(contact["blocked_s"] for contact in contacts)
 
 
 def share(truths: list[bool]) -> float:

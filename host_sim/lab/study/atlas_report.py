@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from host_sim.base.extra_library import library
 from host_sim.base.files import replacing, write_bytes
 from host_sim.lab.study.atlas import MEMORIES, Atlas, Maps
+from host_sim.lab.study.contacts import OTHER, PROPER, digits_of
 from host_sim.lab.study.figures import LEVEL
 from host_sim.lab.study.fleets import sample_of
 from host_sim.lab.study.plan import Plan
 from host_sim.lab.study.sample import Floats, Sample
-from host_sim.lab.study.trial import PROPER, Trial
+from host_sim.lab.study.trial import Trial
 from host_sim.lab.table import aligned
 from host_sim.protocol.generated import CELL_COUNT, Side
 from host_sim.sim.fleet import run_fleet
@@ -26,13 +27,12 @@ from host_sim.world.memory_kinds import Memory
 PROGRAMMED = "programmed"
 
 _FIXED = (0, 1, 1, 1, 2, 1, 2, 1)
-_OTHER = {Side.NOTHING: Side.NOTHING, Side.LEFT: Side.RIGHT, Side.RIGHT: Side.LEFT}
 
 NAMED: Mapping[str, Memory] = {
     PROGRAMMED: _FIXED,  # a test compares it with the profile `fixed`
     "one-sided": tuple(PROPER.get(cell, Side.NOTHING) for cell in range(CELL_COUNT)),
     "empty": (Side.NOTHING,) * CELL_COUNT,
-    "all wrong": tuple(_OTHER[Side(side)] for side in _FIXED),
+    "all wrong": tuple(OTHER[Side(side)] for side in _FIXED),
 }
 """Memories that are compared, besides the best one and those of learners."""
 
@@ -51,11 +51,6 @@ _MIRRORED = tuple(int(f"{cell:03b}"[::-1], 2) for cell in range(CELL_COUNT))  # 
 _RESAMPLES, _SEED = 1000, 1
 _COLUMNS, _ROWS = (1, 3, 2, 5), (4, 6, 7)
 _SIDES = ("empty", "left", "right")
-
-
-def text_of(memory: Sequence[int]) -> str:
-    """A memory as its eight digits."""
-    return "".join(str(int(side)) for side in memory)
 
 
 def explained(means: Floats, cells: Sequence[int]) -> Floats:
@@ -127,7 +122,7 @@ class Report(NamedTuple):
         for name, atlas in self.atlases.items():
             means = atlas.mean_s
             order = np.argsort(means)
-            best, worst = (f"{text_of(MEMORIES[i])} {means[i]:.1f} s" for i in order[[0, -1]])
+            best, worst = (f"{digits_of(MEMORIES[i])} {means[i]:.1f} s" for i in order[[0, -1]])
             place = 1 + int(np.flatnonzero(order == MEMORIES.index(NAMED[PROGRAMMED]))[0])
             lines += [f"{name}: mean {means.mean():.1f} s, best {best}, worst {worst}, programmed is number {place}"]
         rows = [
@@ -199,7 +194,7 @@ def write_map(report: Report, path: Path) -> None:
         for column, factor in columns.items()
     ]
     for memory, row in zip(MEMORIES, np.transpose(values), strict=True):
-        writer.writerow([text_of(memory), *(f"{it:.1f}" for it in row)])
+        writer.writerow([digits_of(memory), *(f"{it:.1f}" for it in row)])
     write_bytes(path, text.getvalue().encode())
 
 

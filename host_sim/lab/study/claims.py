@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from host_sim.base.paths import ROOT
+from host_sim.lab.study.contacts import PROPER
 from host_sim.lab.study.figures import wilson
 from host_sim.lab.study.plan import Plan, read_plan
-from host_sim.lab.study.trial import PROPER, Trial
+from host_sim.lab.study.trial import Trial
 from host_sim.lab.workers import processes, run_all
 from host_sim.protocol.generated import ROW, Reason, Side
 from host_sim.recording.history import pattern_of

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from host_sim.base.errors import UsageError
-from host_sim.lab.study.contacts import BodyState
+from host_sim.lab.study.contacts import BodyState, knows_wrong
 from host_sim.lab.study.plan import Plan
 from host_sim.lab.study.sample import CURVE, TRAPPED_S, Floats, Sample
-from host_sim.lab.study.trial import knows_wrong, tour_s
+from host_sim.lab.study.trial import tour_s
 from host_sim.protocol.generated import AVOIDING
 from host_sim.sim.fleet import FleetResult, Frozen, run_fleet
 from host_sim.sim.run_config import RunConfig

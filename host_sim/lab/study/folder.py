@@ -16,8 +16,7 @@ from host_sim.base.files import read_bytes, replacing, write_bytes
 from host_sim.base.paths import ROOT
 from host_sim.base.toml_file import read_toml
 from host_sim.lab.study.plan import Plan
-from host_sim.lab.study.tables import COLUMNS, Row, Tables, rows_of
-from host_sim.lab.study.trial import Run
+from host_sim.lab.study.tables import COLUMNS, Row, Rows, Tables
 from host_sim.lab.study.version import FORMAT, code_version
 from host_sim.recording.run_folder import run_folder
 
@@ -48,7 +47,7 @@ class StudyFolder:
         """All rows."""
         return {name: self._read(name) for name in COLUMNS}
 
-    def add(self, runs: Sequence[Run]) -> None:
+    def add(self, runs: Sequence[Rows]) -> None:
         """Adds a part.
 
         Raises:
@@ -56,9 +55,8 @@ class StudyFolder:
         """
         parts = self._parts()
         number = parts[-1] + 1 if parts else 0
-        rows = [rows_of(run) for run in runs]
         for name in reversed(list(COLUMNS)):
-            self._write(name, number, [row for one in rows for row in one[name]])
+            self._write(name, number, [row for run in runs for row in run[name]])
 
     def _parts(self) -> list[int]:
         return sorted(int(path.stem) for path in (self.path / _RUNS).glob("[0-9]*.parquet"))

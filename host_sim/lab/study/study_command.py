@@ -196,7 +196,7 @@ def rehearse_all(plan: "Plan", cluster: str | None) -> None:
 def with_progress(
     trials: "Sequence[Trial]", workers: "Workers", chunk: int = 0, work: "Work | None" = None
 ) -> "Iterator[Sequence[Any]]":
-    """Runs trials, with a progress line. Yields the results of `work`, by default a `Run` for each trial."""
+    """Runs trials, with a progress line. Yields the results of `work`, by default the rows of each trial."""
     from host_sim.base.terminal import ProgressLine
     from host_sim.lab.study.workers import run_all, run_chunk
 

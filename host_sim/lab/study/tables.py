@@ -1,15 +1,10 @@
 """The rows of a study: tables of its runs, their environments, and contacts, in which a robot was blocked."""
 
-import json
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-
-from host_sim.lab.study.trial import Run, knows_wrong
-from host_sim.lab.study.version import code_version
 
 COLUMNS: Mapping[str, Mapping[str, type]] = {
     "runs": {
@@ -59,84 +54,23 @@ COLUMNS: Mapping[str, Mapping[str, type]] = {
 }
 """The columns of each table, with the types of their values."""
 
-Row = dict[str, Any]
 Columns = dict[str, NDArray[Any]]
 Tables = dict[str, Columns]
 """Tables by name; each has columns by name, with an entry for each row."""
 
-
-def rows_of(run: Run) -> dict[str, list[Row]]:
-    """A run's rows for each table."""
-    key = {"condition": run.trial.key[0], "seed": run.trial.config.seed}
-    return {
-        "runs": [key | _run(run)],
-        "environments": [key | row for row in _environments(run)],
-        "contacts": [key | row for row in _contacts(run)],
-    }
+Row = dict[str, Any]
+Rows = dict[str, list[Row]]
+"""The rows of a run in each table."""
 
 
-def tables_of(runs: Iterable[Run]) -> Tables:
+def tables_of(runs: Iterable[Rows]) -> Tables:
     """The rows of runs as columns."""
-    rows: dict[str, list[Row]] = {name: [] for name in COLUMNS}
-    for run in runs:
-        for name, more in rows_of(run).items():
-            rows[name] += more
+    every = list(runs)
+    rows = {table: [row for run in every for row in run[table]] for table in COLUMNS}
     return {
-        table: {name: np.array([row[name] for row in rows[table]], _kind(kind)) for name, kind in columns.items()}
+        table: {
+            name: np.array([row[name] for row in rows[table]], object if kind is str else kind)
+            for name, kind in columns.items()
+        }
         for table, columns in COLUMNS.items()
     }
-
-
-def _kind(kind: type) -> Any:
-    return object if kind is str else kind
-
-
-def _run(run: Run) -> Row:
-    config, known = run.trial.config, run.known_s
-    return {
-        **_fields(config, "profile", "world", "body", "robots"),
-        "settings": json.dumps(config.settings, sort_keys=True),
-        "change": " ".join(config.changes),
-        "known_s": float(np.median([np.inf if time is None else time for time in known])),
-        "log_sha256": run.log_sha256,
-        "code": code_version(),
-        "command": config.command(),
-    }
-
-
-def _environments(run: Run) -> Iterator[Row]:
-    for row in run.rows:
-        yield {
-            **_fields(row, "finished", "robot_s", "tour_s", "collisions", "denied"),
-            "environment": row.number,
-            "wrong": sum(map(knows_wrong, row.sides, row.bodies)),
-            "changed": any(body.is_changed for body in row.bodies),
-            "sides": " ".join(_digits(sides) for sides in row.sides),
-        }
-
-
-def _contacts(run: Run) -> Iterator[Row]:
-    numbers: Counter[int] = Counter()
-    for row in run.rows:
-        for robot, contacts in enumerate(row.contacts):
-            for contact in contacts:
-                numbers[robot] += 1
-                yield {
-                    **_fields(contact, "pattern", "trials", "remembered", "boredoms", "cleared"),
-                    "environment": row.number,
-                    "robot": robot,
-                    "number": numbers[robot],
-                    "changed": contact.body.is_changed,
-                    "begun_s": round(contact.tick * row.tick_s, 3),
-                    "blocked_s": round(contact.blocked_ticks * row.tick_s, 3),
-                    "sides": _digits(contact.sides),
-                    "wrong": knows_wrong(contact.sides, contact.body),
-                }
-
-
-def _fields(of: object, *names: str) -> Row:
-    return {name: getattr(of, name) for name in names}
-
-
-def _digits(sides: Sequence[int]) -> str:
-    return "".join(str(int(side)) for side in sides)

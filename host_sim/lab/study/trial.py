@@ -1,14 +1,18 @@
 """One run of a study: robots in some environments, and data about their behaviour."""
 
+import json
 import math
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 
+import numpy as np
+
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
-from host_sim.lab.study.contacts import BodyState, Contact, ContactWatch, Course
-from host_sim.protocol.generated import PARAMETERS, Side
+from host_sim.lab.study.contacts import PROPER, ContactWatch, Course, digits_of, knows_wrong
+from host_sim.lab.study.tables import COLUMNS, Row, Rows
+from host_sim.lab.study.version import code_version
+from host_sim.protocol.generated import PARAMETERS
 from host_sim.sim.make import make
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
@@ -16,11 +20,6 @@ from host_sim.sim.simulation import Simulation
 from host_sim.world.memory_kinds import Memory, sides_of
 from host_sim.world.reach import tour_mm
 from host_sim.world.worlds import world_of
-
-PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
-"""The turn away from the obstacle, for each pattern with an obstacle on one side only."""
-
-_OTHER = {Side.LEFT: Side.RIGHT, Side.RIGHT: Side.LEFT}
 
 
 @dataclass(frozen=True)
@@ -44,75 +43,45 @@ class Trial:
         return self.config.command()
 
 
-@dataclass
-class Row:
-    """One environment of a run.
-
-    Attributes:
-        number: Number of the environment, from 1.
-        finished: Whether all food was eaten.
-        robot_s: Robot time, s.
-        tour_s: Robot time of the shortest tour through all food, s; NaN for several robots.
-        contacts: Each robot's contacts.
-        collisions: Number of collisions: times that a body began to touch something.
-        denied: Number of times that a robot's wheels did not follow the command.
-        sides: The turns for each pattern that each robot knows at the end.
-        bodies: State of each robot's body.
-        tick_s: Length of a tick, s.
-    """
-
-    number: int
-    finished: bool
-    robot_s: float
-    tour_s: float
-    contacts: list[list[Contact]]
-    collisions: int
-    denied: int
-    sides: list[Memory]
-    bodies: list[BodyState]
-    tick_s: float
-
-
-@dataclass
-class Run:
-    """The result of a trial.
-
-    Attributes:
-        trial: The trial.
-        rows: Its environments.
-        known_s: For each robot, robot time until it knew a turn for each of the patterns 1, 3, 4 and 6; None if it
-            never did.
-        log_sha256: SHA-256 of the log that the run would have written, in hexadecimal.
-    """
-
-    trial: Trial
-    rows: list[Row]
-    known_s: list[float | None]
-    log_sha256: str
-
-
-def run_trial(trial: Trial) -> Run:
-    """Runs a trial in this process; equal trials give equal results."""
-    log = FrameLog()
-    known_s: list[float | None] = [None] * trial.config.robots
+def run_trial(trial: Trial) -> Rows:
+    """Runs a trial in this process; equal trials give equal rows."""
+    log, config = FrameLog(), trial.config
+    rows: Rows = {name: [] for name in COLUMNS}
+    known_s = [math.inf] * config.robots
     try:
-        with make(trial.config, log) as simulation:
-            rows = list(_rows(trial, simulation, known_s))
+        with make(config, log) as simulation:
+            for number in range(1, config.environments + 1):
+                simulation.enter(number)
+                environment, contacts = _run_environment(simulation, known_s)
+                tour = tour_s(config, number)
+                rows["environments"].append({"environment": number, "tour_s": tour, **environment})
+                rows["contacts"] += [{"environment": number, **contact} for contact in contacts]
             for client in simulation.clients:
                 stop(client)
     finally:
         sha256 = log.close()
-    return Run(trial, rows, known_s, sha256)
+    rows["runs"].append(_about(config, known_s) | {"log_sha256": sha256})
+    for robot in range(config.robots):
+        for number, contact in enumerate((it for it in rows["contacts"] if it["robot"] == robot), 1):
+            contact["number"] = number
+    condition, seed = trial.key
+    return {name: [{"condition": condition, "seed": seed, **row} for row in found] for name, found in rows.items()}
 
 
-def _rows(trial: Trial, simulation: Simulation, known_s: list[float | None]) -> Iterator[Row]:
-    for number in range(1, trial.config.environments + 1):
-        simulation.enter(number)
-        yield _run_environment(simulation, trial, number, known_s)
+def _about(config: RunConfig, known_s: list[float]) -> Row:
+    return {
+        **{name: getattr(config, name) for name in ("profile", "world", "body", "robots")},
+        "settings": json.dumps(config.settings, sort_keys=True),
+        "change": " ".join(config.changes),
+        "known_s": float(np.median(known_s)),
+        "code": code_version(),
+        "command": config.command(),
+    }
 
 
-def _run_environment(simulation: Simulation, trial: Trial, number: int, known_s: list[float | None]) -> Row:
-    watches = [ContactWatch(index) for index in range(trial.config.robots)]
+def _run_environment(simulation: Simulation, known_s: list[float]) -> tuple[Row, list[Row]]:
+    """Runs to the end of an environment. Returns its row, and those of its contacts."""
+    watches = [ContactWatch(index) for index in range(len(known_s))]
 
     def watch(simulation: Simulation) -> None:
         for each in watches:
@@ -123,20 +92,18 @@ def _run_environment(simulation: Simulation, trial: Trial, number: int, known_s:
         simulation.step(BLOCK_TICKS)
     episode = simulation.leave()
     for index, each in enumerate(watches):
-        if known_s[index] is None:
-            known_s[index] = _known_s(each.memories, first_tick, episode.tick_s)
-    return Row(
-        number=number,
-        finished=episode.finished,
-        robot_s=episode.robot_s,
-        tour_s=tour_s(trial.config, number),
-        contacts=[each.contacts() for each in watches],
-        collisions=sum(robot.collisions for robot in episode.robots),
-        denied=_denied(simulation) - denied,
-        sides=[sides_of(robot.memory) for robot in episode.robots],
-        bodies=[each.body for each in watches],
-        tick_s=episode.tick_s,
-    )
+        known_s[index] = min(known_s[index], _known_s(each.memories, first_tick, episode.tick_s))
+    sides, bodies = [sides_of(robot.memory) for robot in episode.robots], [each.body for each in watches]
+    row = {
+        "finished": episode.finished,
+        "robot_s": episode.robot_s,
+        "collisions": sum(robot.collisions for robot in episode.robots),
+        "denied": _denied(simulation) - denied,
+        "wrong": sum(map(knows_wrong, sides, bodies)),
+        "changed": any(body.is_changed for body in bodies),
+        "sides": " ".join(map(digits_of, sides)),
+    }
+    return row, [contact for each in watches for contact in each.contacts(episode.tick_s)]
 
 
 def tour_s(config: RunConfig, number: int) -> float:
@@ -160,14 +127,7 @@ def _denied(simulation: Simulation) -> int:
     return sum(client.faults.get("denied", 0) for client in simulation.clients)
 
 
-def knows_wrong(sides: Sequence[int], body: BodyState) -> bool:
-    """Whether the turn known for one of the patterns of `PROPER` leads toward the obstacle."""
-    wrong = {pattern: side if body.is_reversed else _OTHER[side] for pattern, side in PROPER.items()}
-    return any(sides[pattern] == side for pattern, side in wrong.items())
-
-
-def _known_s(memories: Course[Memory], first_tick: int, tick_s: float) -> float | None:
-    for ticks, memory in memories:
-        if all(sides_of(memory)[pattern] for pattern in PROPER):
-            return round((first_tick + ticks) * tick_s, 3)
-    return None
+def _known_s(memories: Course[Memory], first_tick: int, tick_s: float) -> float:
+    """Robot time until a turn was known for each of the patterns of `PROPER`, s; infinite if it never was."""
+    known = (ticks for ticks, memory in memories if all(sides_of(memory)[pattern] for pattern in PROPER))
+    return round((first_tick + next(known, math.inf)) * tick_s, 3)

@@ -6,13 +6,14 @@ from typing import TypeVar
 from host_sim.base.errors import OctetError
 from host_sim.lab import workers as lab_workers
 from host_sim.lab.study.atlas import SeedMap, map_of
-from host_sim.lab.study.trial import Run, Trial, run_trial
+from host_sim.lab.study.tables import Rows
+from host_sim.lab.study.trial import Trial, run_trial
 from host_sim.lab.study.version import code_version
 
 Made = TypeVar("Made")
 
 
-def run_chunk(trials: Sequence[Trial]) -> tuple[list[Run], str]:
+def run_chunk(trials: Sequence[Trial]) -> tuple[list[Rows], str]:
     """Makes runs in this process; returns them, and the version of the sources used."""
     return [run_trial(trial) for trial in trials], code_version()
 

@@ -115,7 +115,7 @@ def test_option_for_profiles_is_refused_with_a_study(tmp_path, capsys):
 
 
 def test_draw_plots_writes_four_pictures(tmp_path):
-    changed = row(number=2, contacts=[contact(body=SWAPPED)], bodies=[SWAPPED])
+    changed = row(contacts=[contact(body=SWAPPED)], body=SWAPPED)
     few = samples(*(run(name, seed, row(10.0 * seed), changed) for name in "ab" for seed in (1, 2)))
 
     paths = draw_plots(few, tmp_path / "new/plots")

@@ -15,7 +15,7 @@ from host_sim.lab.study.goals import judge
 from host_sim.lab.study.plan import Goal
 from host_sim.lab.study.table import table
 from host_sim.protocol.generated import Side
-from tests.lab.study.support import NOTHING, SWAPPED, contact, row, run, samples
+from tests.lab.study.support import SWAPPED, contact, row, run, samples
 
 LEFT_OF_LEFT = (0, 0, 0, 0, 1, 0, 0, 0)
 """A turn toward what is beside the robot, where its body is sound."""
@@ -47,7 +47,7 @@ def test_by_tour_is_the_median_time_in_shortest_tours():
 
 
 def test_finished_is_the_percentage_of_finished_environments():
-    assert value("finished", run("a", 1, row(), row(number=2, finished=False))) == 50
+    assert value("finished", run("a", 1, row(), row(finished=False))) == 50
 
 
 def test_blocked_time_is_a_mean_over_all_contacts():
@@ -61,10 +61,7 @@ def test_blocked_time_counts_a_trapped_contact_for_a_minute_only():
 
 
 def test_trapped_counts_environments_with_a_contact_over_a_minute():
-    assert (
-        value("trapped", run("a", 1, row(contacts=[contact(60.0)] * 2), row(number=2, contacts=[contact(61.0)])))
-        == 50
-    )
+    assert value("trapped", run("a", 1, row(contacts=[contact(60.0)] * 2), row(contacts=[contact(61.0)]))) == 50
 
 
 def test_score_is_the_part_of_the_turns_that_cleared_the_way():
@@ -74,19 +71,19 @@ def test_score_is_the_part_of_the_turns_that_cleared_the_way():
 
 
 def test_wrong_counts_what_is_known_in_the_last_environment():
-    wrong, right = row(sides=[LEFT_OF_LEFT]), row(number=2)
+    wrong, right = row(sides=LEFT_OF_LEFT), row()
 
     assert value("wrong", run("a", 1, wrong, right), run("a", 2, right, wrong)) == 50
 
 
 def test_wrong_judges_turns_as_exchanged_while_a_body_is_mirrored():
-    assert value("wrong", run("a", 1, row(sides=[LEFT_OF_LEFT], bodies=[SWAPPED]))) == 0
+    assert value("wrong", run("a", 1, row(sides=LEFT_OF_LEFT, body=SWAPPED))) == 0
 
 
 def after_swap(seed: int, *sides) -> object:
     """A run whose motors are swapped in its second environment, with what is known after each contact there."""
     contacts = [contact(sides=known, body=SWAPPED) for known in sides]
-    return run("a", seed, row(), row(number=2, bodies=[SWAPPED], contacts=contacts))
+    return run("a", seed, row(), row(body=SWAPPED, contacts=contacts))
 
 
 def test_recovery_is_counted_in_contacts_after_the_change():
@@ -110,7 +107,7 @@ def test_recovery_that_is_forgotten_again_is_not_lasting():
 
 def test_recovery_counts_once_per_seed_with_robots_sharing_a_world():
     right = contact(sides=(0, 2, 0, 0, 1, 0, 0, 0), body=SWAPPED)
-    rows = [row(bodies=[SWAPPED] * 4, sides=[NOTHING] * 4, contacts=[right]) for _ in range(20)]
+    rows = [row(body=SWAPPED, contacts=[right]) for _ in range(20)]
     (sample,) = samples(*(run("a", seed, it, robots=4) for seed, it in enumerate(rows)))
 
     found = estimate(FIGURES["recovered"], sample)
@@ -123,7 +120,7 @@ def test_recovery_is_undefined_without_a_change():
 
 
 def test_robot_that_never_knows_all_counts_as_latest():
-    runs = [run("a", seed, row(), known_s=known) for seed, known in enumerate((None, 20.0, 30.0))]
+    runs = [run("a", seed, row(), known_s=known) for seed, known in enumerate((math.inf, 20.0, 30.0))]
 
     assert value("known_s", *runs) == 30
 
@@ -217,9 +214,9 @@ def test_table_has_a_line_for_each_condition():
             "a",
             1,
             row(100.0, [contact(0.5)]),
-            row(300.0, [contact(61.0)], number=2, finished=False, sides=[LEFT_OF_LEFT]),
+            row(300.0, [contact(61.0)], finished=False, sides=LEFT_OF_LEFT),
         ),
-        run("b", 1, row(50.0), row(150.0, number=2, collisions=1)),
+        run("b", 1, row(50.0), row(150.0, collisions=1)),
     ]
 
     lines = table(samples(*runs)).splitlines()

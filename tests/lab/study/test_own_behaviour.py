@@ -102,12 +102,13 @@ def test_study_is_not_resumed_with_another_source(mine, tmp_path, capsys):
 
 def test_comparison_keeps_the_source_that_it_began_with(mine):
     config = RunConfig(profile=str(mine), fast=True, environments=1, limit_s=60.0)
-    before = run_trial(Trial(config.with_seed(2)))
+    before = run_trial(Trial(config.with_seed(2)))["runs"]
     begun = config.with_seed(2)
     mine.write_text(TEMPLATE.replace("set[STEP_MM]", "set[STEP_MM] / 2"))
 
-    assert run_trial(Trial(begun)).log_sha256 == before.log_sha256
-    assert run_trial(Trial(RunConfig(profile=str(mine), fast=True, environments=1, limit_s=60.0, seed=2))) != before
+    assert run_trial(Trial(begun))["runs"] == before
+    again = RunConfig(profile=str(mine), fast=True, environments=1, limit_s=60.0, seed=2)
+    assert run_trial(Trial(again))["runs"] != before
 
 
 def test_c_file_is_refused_on_a_cluster(mine, capsys, monkeypatch):

@@ -55,10 +55,10 @@ def test_study_has_a_row_for_each_run_environment_and_contact(plan, tmp_path, ca
     assert len(tables["environments"]["seed"]) == 4
     expected = run_trial(trial("never", 2, limit_s=20.0))
     digest = runs["log_sha256"][(runs["condition"] == "never") & (runs["seed"] == 2)]
-    assert digest.tolist() == [expected.log_sha256]
+    assert digest.tolist() == [expected["runs"][0]["log_sha256"]]
     contacts = tables["contacts"]
     ours = (contacts["condition"] == "never") & (contacts["seed"] == 2)
-    assert contacts["trials"][ours].tolist() == [it.trials for it in expected.rows[0].contacts[0]]
+    assert contacts["trials"][ours].tolist() == [it["trials"] for it in expected["contacts"]]
     assert contacts["number"][ours].tolist() == list(range(1, ours.sum() + 1))
 
 
@@ -187,9 +187,10 @@ def test_runs_of_a_dead_worker_are_made_again(tmp_path, monkeypatch):
     monkeypatch.setattr(workers, "run_chunk", die_once)
     trials = [trial("article", seed, limit_s=5) for seed in range(4)]
 
-    made = [run.trial for runs in workers.run_all(workers.run_chunk, trials, processes(2), chunk=1) for run in runs]
+    every = workers.run_all(workers.run_chunk, trials, processes(2), chunk=1)
+    made = [run["runs"][0]["seed"] for runs in every for run in runs]
 
-    assert sorted(made, key=lambda it: it.config.seed) == trials
+    assert sorted(made) == [0, 1, 2, 3]
 
 
 def die(_trials):
@@ -304,8 +305,9 @@ def test_runs_of_a_dead_cluster_worker_are_made_by_another(cluster):
             os.killpg(first.pid, signal.SIGKILL)
         made += runs
 
-    assert sorted(run.trial.config.seed for run in made) == list(range(12))
-    assert run_trial(trials[5]).log_sha256 in {run.log_sha256 for run in made}
+    by_seed = {run["runs"][0]["seed"]: run["runs"] for run in made}
+    assert sorted(by_seed) == list(range(12))
+    assert run_trial(trials[5])["runs"] == by_seed[5]
 
 
 def test_lost_scheduler_is_reported(cluster, monkeypatch):

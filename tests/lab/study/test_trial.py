@@ -10,12 +10,12 @@ import pytest
 
 from host_sim.base.errors import UsageError
 from host_sim.cli.main import main
-from host_sim.lab.study.contacts import BodyState, ContactWatch, _contacts
+from host_sim.lab.study.contacts import ContactWatch, _contacts, digits_of
 from host_sim.lab.study.fleets import samples_of_fleets
 from host_sim.lab.study.plan import Plan
 from host_sim.lab.study.sample import TRAPPED_S, samples_of
 from host_sim.lab.study.tables import tables_of
-from host_sim.lab.study.trial import Trial, knows_wrong, run_trial, tour_s
+from host_sim.lab.study.trial import Trial, run_trial, tour_s
 from host_sim.protocol.generated import Reason
 from host_sim.sim.make import make
 from host_sim.sim.native_fleet import loaded
@@ -33,51 +33,48 @@ def test_equal_trials_give_equal_rows():
 def test_command_of_a_trial_repeats_its_run(tmp_path):
     settings = {"filter": 1, "turn_deg": 20}
     given = trial("adaptive", 5, 2, settings=settings, world="posts", limit_s=60.0, robots=2, changes=("plant@1s",))
-    run = run_trial(given)
+    (run,) = run_trial(given)["runs"]
 
     assert main(["run", *shlex.split(given.config.command())[1:], "--quiet", "--out", str(tmp_path)]) == 0
 
-    assert json.loads((tmp_path / "summary.json").read_text())["log_sha256"] == run.log_sha256
+    assert json.loads((tmp_path / "summary.json").read_text())["log_sha256"] == run["log_sha256"]
 
 
 def test_command_of_a_long_run_has_its_limit_to_the_tick():
     assert "--limit-s 86399.98" in trial("article", 1, limit_s=86_399.98).config.command()
 
 
-def blocked_ticks(run) -> list[int]:
-    return [contact.blocked_ticks for row in run.rows for contact in row.contacts[0]]
-
-
 def test_ring_mirrored_from_the_start_exchanges_cells_on_the_same_path():
     sound, mirrored = (run_trial(trial("article", 3, changes=change)) for change in ((), ("mirror@env1",)))
 
-    assert mirrored.rows[0].robot_s == sound.rows[0].robot_s
-    assert blocked_ticks(mirrored) == blocked_ticks(sound)
-    assert mirrored.rows[0].sides[0] == tuple(sound.rows[0].sides[0][cell] for cell in (0, 4, 2, 6, 1, 5, 3, 7))
+    assert [it["blocked_s"] for it in mirrored["contacts"]] == [it["blocked_s"] for it in sound["contacts"]]
+    (here,), (there,) = mirrored["environments"], sound["environments"]
+    assert here["robot_s"] == there["robot_s"]
+    assert here["sides"] == "".join(there["sides"][cell] for cell in (0, 4, 2, 6, 1, 5, 3, 7))
 
 
 @pytest.mark.parametrize(
     ("change", "is_wrong"), [((), False), (("mirror@env1",), True), (("swap-motors@env1",), True)]
 )
 def test_fixed_turns_are_wrong_for_a_mirrored_or_swapped_body(change, is_wrong):
-    (row,) = run_trial(trial("fixed", 3, changes=change, limit_s=5)).rows
+    (row,) = run_trial(trial("fixed", 3, changes=change, limit_s=5))["environments"]
 
-    assert knows_wrong(row.sides[0], row.bodies[0]) == is_wrong
+    assert (row["changed"], row["wrong"]) == (bool(change), is_wrong)
 
 
 def test_change_of_the_world_does_not_reverse_the_turns():
-    (row,) = run_trial(trial("fixed", 3, changes=("plant@env1",), limit_s=5)).rows
+    (row,) = run_trial(trial("fixed", 3, changes=("plant@env1",), limit_s=5))["environments"]
 
-    assert row.bodies == [BodyState(is_changed=True, is_reversed=False)]
+    assert (row["changed"], row["wrong"]) == (True, 0)
 
 
 def test_later_change_affects_only_the_contacts_after_it():
-    sound, late = (run_trial(trial("article", 3, changes=change)).rows[0] for change in ((), ("mirror@60s",)))
+    sound, late = (run_trial(trial("article", 3, changes=change))["contacts"] for change in ((), ("mirror@60s",)))
 
-    before = [contact for contact in late.contacts[0] if contact.tick < 3000]
-    assert before == [contact for contact in sound.contacts[0] if contact.tick < 3000]
-    assert {contact.body.is_changed for contact in before} == {False}
-    assert {contact.body for contact in late.contacts[0][len(before) :]} == {SWAPPED}
+    before = [contact for contact in late if contact["begun_s"] < 60]
+    assert before == [contact for contact in sound if contact["begun_s"] < 60]
+    assert {contact["changed"] for contact in before} == {False}
+    assert {contact["changed"] for contact in late[len(before) :]} == {True}
 
 
 FRONT_RIGHT = 0b00010
@@ -94,49 +91,45 @@ def test_contact_lasts_from_the_first_turn_to_the_clear_way():
         (FRONT_RIGHT, Reason.BOREDOM, 6),
     ]
 
-    first, second = _contacts(np.array(ticks, np.int16), [(0, NOTHING), (5, LEARNED)], [(0, SOUND), (8, SWAPPED)])
+    memories, bodies = [(0, NOTHING), (5, LEARNED)], [(0, SOUND), (8, SWAPPED)]
+    found = list(_contacts(np.array(ticks, np.int16), memories, bodies, 1.0))
 
-    assert (first.tick, first.pattern, first.blocked_ticks, first.cleared) == (1, 1, 6, True)
-    assert (first.trials, first.remembered, first.boredoms, first.turns) == (1, 2, 0, 3)
-    assert first.sides == LEARNED
-    assert (first.body, second.body) == (SOUND, SWAPPED)
-    assert (second.tick, second.blocked_ticks, second.boredoms, second.cleared) == (8, 1, 1, False)
+    assert [(it["begun_s"], it["blocked_s"], it["pattern"]) for it in found] == [(1, 6, 1), (8, 1, 1)]
+    assert [(it["trials"], it["remembered"], it["boredoms"]) for it in found] == [(1, 2, 0), (0, 0, 1)]
+    assert [(it["cleared"], it["changed"], it["wrong"]) for it in found] == [
+        (True, False, False),
+        (False, True, True),
+    ]
+    assert {it["sides"] for it in found} == {digits_of(LEARNED)}
 
 
-@pytest.mark.parametrize("native", [True, False])
-def test_sides_at_the_end_of_a_contact_include_its_last_lesson(native):
+def contacts(native: bool) -> list:
     watch = ContactWatch(0)
     with make(RunConfig(seed=4, environments=1, limit_s=40.0)) as simulation:
         simulation.native, simulation.watch = native, watch
         list(simulation.run())
+    return watch.contacts(0.02)
 
-    first = watch.contacts()[0]
-    assert (first.pattern, first.trials, first.cleared) == (1, 1, True)
-    assert first.sides == LEARNED
+
+@pytest.mark.parametrize("native", [True, False])
+def test_sides_at_the_end_of_a_contact_include_its_last_lesson(native):
+    first, *_ = contacts(native)
+
+    assert (first["pattern"], first["trials"], first["cleared"]) == (1, 1, True)
+    assert first["sides"] == digits_of(LEARNED)
 
 
 def test_c_loop_and_python_loop_give_equal_contacts():
-    def contacts(native: bool):
-        watch = ContactWatch(0)
-        with make(RunConfig(seed=4, environments=1, limit_s=40.0)) as simulation:
-            simulation.native, simulation.watch = native, watch
-            list(simulation.run())
-        return [(it.tick, it.pattern, it.blocked_ticks, it.turns, it.cleared) for it in watch.contacts()]
-
-    native = contacts(native=True)
-
-    assert native == contacts(native=False)
-    assert native
+    assert contacts(native=True) == contacts(native=False) != []
 
 
 def test_turns_of_the_contacts_equal_those_that_the_robot_began():
-    run = run_trial(trial("article", 2))
+    contacts = run_trial(trial("article", 2))["contacts"]
     with make(RunConfig(seed=2, environments=1)) as simulation:
         (episode,) = simulation.run()
 
-    contacts = run.rows[0].contacts[0]
-    assert sum(it.trials for it in contacts) == episode.begun(Reason.TRIAL)
-    assert sum(it.remembered for it in contacts) == episode.begun(Reason.REMEMBERED)
+    assert sum(it["trials"] for it in contacts) == episode.begun(Reason.TRIAL)
+    assert sum(it["remembered"] for it in contacts) == episode.begun(Reason.REMEMBERED)
 
 
 LOGGED = {"blocked_at", "wrong_at", "recovery", "settled"}
@@ -178,11 +171,11 @@ def test_robots_that_share_memories_in_own_worlds_know_sooner():
 
 @pytest.mark.parametrize(("settings", "speed_mm_s"), [({}, 200), ({"speed_mm_s": 100}, 100)])
 def test_robots_are_no_quicker_than_the_tour_less_the_eating_distance(settings, speed_mm_s):
-    searching = [run_trial(trial("searcher", seed, settings=settings)).rows[0] for seed in range(1, 13)]
+    searching = [run_trial(trial("searcher", seed, settings=settings))["environments"][0] for seed in range(1, 13)]
 
     spared_s = 5 * SimParams().eat_reach_mm / speed_mm_s
-    assert all(it.robot_s > it.tour_s - spared_s for it in searching)
-    assert min(it.robot_s / it.tour_s for it in searching) < 1.5
+    assert all(it["robot_s"] > it["tour_s"] - spared_s for it in searching)
+    assert min(it["robot_s"] / it["tour_s"] for it in searching) < 1.5
 
 
 def test_tour_is_unknown_for_too_much_food_to_try_all_orders(tmp_path):
@@ -192,7 +185,7 @@ def test_tour_is_unknown_for_too_much_food_to_try_all_orders(tmp_path):
 
 
 def test_robots_that_share_an_environment_have_no_tour():
-    assert math.isnan(run_trial(trial("searcher", 1, robots=2)).rows[0].tour_s)
+    assert math.isnan(run_trial(trial("searcher", 1, robots=2))["environments"][0]["tour_s"])
 
 
 def test_fleet_and_study_count_contacts_up_to_the_same_time():
