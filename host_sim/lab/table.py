@@ -1,4 +1,4 @@
-"""Text tables."""
+"""Tables as text: aligned for a terminal, and in Markdown."""
 
 from collections.abc import Collection, Sequence
 
@@ -22,3 +22,18 @@ def aligned(rows: Sequence[Sequence[str]], right: Collection[int] = ()) -> list[
         for row in rows
     )
     return ["  ".join(line).rstrip() for line in lines]
+
+
+def markdown(rows: Sequence[Sequence[str]]) -> str:
+    """A table in Markdown.
+
+    >>> print(markdown([("who", "mean"), ("`article`", "148 s")]))
+    | who | mean |
+    |---|---|
+    | `article` | 148 s |
+
+    Args:
+        rows: The cells, the headings first.
+    """
+    head, *rest = (f"| {' | '.join(row)} |" for row in rows)
+    return "\n".join([head, f"|{'---|' * len(rows[0])}", *rest])

@@ -1,7 +1,5 @@
 """Who is in a class, and what each has reached in the lessons; kept in a file."""
 
-import csv
-import io
 import json
 import re
 import time
@@ -12,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.base.files import read_text, write_bytes
+from host_sim.base.files import csv_text, read_text, write_bytes
 from host_sim.protocol.generated import CELL_COUNT, Side
 from host_sim.talk.languages import languages
 
@@ -148,15 +146,13 @@ class Roster:
 
     def table(self) -> str:
         """The class as CSV: a row for each pupil, a column for each goal; 1 where it is reached."""
-        out = io.StringIO()
-        writer = csv.writer(out, lineterminator="\n")
         places = [(lesson, place) for lesson, number in self._goals.items() for place in range(number)]
-        writer.writerow(["name", "goals", *(f"{lesson} {place + 1}" for lesson, place in places)])
+        rows: list[list[object]] = [["name", "goals", *(f"{lesson} {place + 1}" for lesson, place in places)]]
         for pupil in self.pupils.values():
             reached = [int(place in pupil.goals.get(lesson, [])) for lesson, place in places]
             name = f"'{pupil.name}" if pupil.name.startswith(_FORMULA) else pupil.name
-            writer.writerow([name, sum(reached), *reached])
-        return out.getvalue()
+            rows.append([name, sum(reached), *reached])
+        return csv_text(rows)
 
     def _note(self, key: str, name: str, goals: Mapping[str, list[int]]) -> None:
         if key not in self.pupils and len(self.pupils) >= PUPILS_MAX:

@@ -1,11 +1,10 @@
 """The results of a fleet: a summary as JSON and as a few lines of text, and a table with a row for each robot."""
 
-import csv
-import io
 import statistics
 from collections.abc import Sequence
 from typing import Any
 
+from host_sim.base.files import csv_text
 from host_sim.protocol.generated import CELL_COUNT, PATTERNS, SIDES, Reason
 from host_sim.recording.summary import Summary, source_of
 from host_sim.sim.fleet import FleetResult
@@ -66,12 +65,7 @@ def environment_line(environment: dict[str, Any], robots: int) -> str:
 
 def table(results: Sequence[FleetResult]) -> str:
     """The table of all results, as CSV with a header line."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for result in sorted(results, key=lambda result: (result.robot, result.environment)):
-        writer.writerow(_row(result))
-    return text.getvalue()
+    return csv_text([COLUMNS, *map(_row, sorted(results, key=lambda result: (result.robot, result.environment)))])
 
 
 def learned(results: Sequence[FleetResult]) -> list[list[int]]:

@@ -1,8 +1,6 @@
 """Grades files, each in a process with limits and without network; finds copies; writes tables."""
 
-import csv
 import html
-import io
 import json
 import os
 import re
@@ -15,7 +13,7 @@ from functools import cache
 from pathlib import Path
 
 from host_sim.base.errors import UsageError
-from host_sim.base.files import write_bytes
+from host_sim.base.files import csv_text, write_bytes
 from host_sim.base.result_files import Case, write_results
 from host_sim.base.terminal import counted
 from host_sim.lab.grade.attempt import TITLES, Verdict
@@ -119,10 +117,8 @@ def _copies_note(it: Grade) -> str:
 
 def write_csv(number: int, grades: Sequence[Grade], path: Path) -> None:
     """Writes a table for spreadsheets."""
-    rows = [(number, *row) for row in rows_of(grades)]
-    out = io.StringIO(newline="")
-    csv.writer(out).writerows([("exercise", "file", "status", "message"), *rows])
-    write_bytes(path, out.getvalue().encode())
+    rows = [("exercise", "file", "status", "message"), *((number, *row) for row in rows_of(grades))]
+    write_bytes(path, csv_text(rows).encode())
 
 
 def write_html(number: int, grades: Sequence[Grade], path: Path) -> None:

@@ -24,6 +24,7 @@ from host_sim.base.errors import OctetError, UsageError, meant
 from host_sim.base.paths import ROOT
 from host_sim.base.toml_file import read_toml
 from host_sim.lab.gymnasium_envs import ppo, q_learning
+from host_sim.lab.table import markdown
 from host_sim.protocol.generated import PROFILES
 from host_sim.sim.fleet import run_fleet
 from host_sim.sim.run_config import C_FILE, RunConfig
@@ -165,12 +166,7 @@ def main(words: list[str] | None = None) -> None:
     rows.sort(key=lambda row: -row.food.mean())
     last = arenas.first_seed + arenas.seeds - 1
     print(f"seeds {arenas.first_seed}..{last}, the first environment of each, {arenas.limit_s:g} s\n")
-    print("\n".join(f"| {line} |" for line in _markdown([_HEADINGS, *(row.cells() for row in rows)])))
-
-
-def _markdown(rows: list[tuple[str, ...]]) -> list[str]:
-    head, *rest = (" | ".join(row) for row in rows)
-    return [head, " | ".join(["---"] * len(_HEADINGS)), *rest]
+    print(markdown([_HEADINGS, *(row.cells() for row in rows)]))
 
 
 if __name__ == "__main__":

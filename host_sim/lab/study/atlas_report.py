@@ -1,7 +1,5 @@
 """The report of an atlas, as figures, picture and CSV: important cells, the best memory, memories of learners."""
 
-import csv
-import io
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -11,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from host_sim.base.extra_library import library
-from host_sim.base.files import replacing, write_bytes
+from host_sim.base.files import csv_text, replacing, write_bytes
 from host_sim.lab.study.atlas import MEMORIES, Atlas, Maps
 from host_sim.lab.study.contacts import OTHER, PROPER, digits_of
 from host_sim.lab.study.figures import LEVEL
@@ -181,21 +179,18 @@ def _unbiased(values: Floats) -> tuple[float, float, float]:
 
 def write_map(report: Report, path: Path) -> None:
     """Writes the mean time and the percentages of each memory under each condition as comma-separated values."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
     columns = {"mean_s": 1.0, "finished": 100.0, "trapped": 100.0}
     names = [
         f"{name} {column}" if len(report.atlases) > 1 else column for name in report.atlases for column in columns
     ]
-    writer.writerow(["memory", *names])
     values = [
         factor * (atlas.mean_s if column == "mean_s" else getattr(atlas, column).mean(0))
         for atlas in report.atlases.values()
         for column, factor in columns.items()
     ]
-    for memory, row in zip(MEMORIES, np.transpose(values), strict=True):
-        writer.writerow([digits_of(memory), *(f"{it:.1f}" for it in row)])
-    write_bytes(path, text.getvalue().encode())
+    every = zip(MEMORIES, np.transpose(values), strict=True)
+    rows = ([digits_of(memory), *(f"{it:.1f}" for it in row)] for memory, row in every)
+    write_bytes(path, csv_text([["memory", *names], *rows]).encode())
 
 
 def draw_map(report: Report, path: Path) -> None:

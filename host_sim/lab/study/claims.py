@@ -18,6 +18,7 @@ from host_sim.lab.study.contacts import PROPER
 from host_sim.lab.study.figures import wilson
 from host_sim.lab.study.plan import Plan, read_plan
 from host_sim.lab.study.trial import Trial
+from host_sim.lab.table import markdown
 from host_sim.lab.workers import processes, run_all
 from host_sim.protocol.generated import ROW, Reason, Side
 from host_sim.recording.history import pattern_of
@@ -126,10 +127,11 @@ class Row(NamedTuple):
     high: float
     unit: str = " %"
 
-    def __str__(self) -> str:
+    def cells(self) -> tuple[str, str]:
+        """The row as text."""
         digits = 1 if self.unit else 2
-        low, high = f"{self.low:.{digits}f}", f"{self.high:.{digits}f}"
-        return f"| {self.name} | {self.value:.{digits}f}{self.unit} ({low}..{high}) |"
+        value, low, high = (f"{it:.{digits}f}" for it in (self.value, self.low, self.high))
+        return self.name, f"{value}{self.unit} ({low}..{high})"
 
 
 def _share(name: str, truths: Sequence[Sequence[bool]] | Sequence[bool]) -> Row:
@@ -183,7 +185,7 @@ def table_of(lives: Sequence[Sequence[Life]]) -> str:
     rows += [it._replace(name=f"front sensor + 5 mm: {it.name}") for it in symmetric_rows(far, (2,))]
     met = [any(pattern in (5, 7) for pattern, _ in life.tried) for life in far]
     rows.append(_share("front sensor + 5 mm: a trial at pattern 5 or 7 in five environments", met))
-    return "\n".join(["| what | measured (95 % interval) |", "|---|---|", *map(str, rows)])
+    return markdown([("what", "measured (95 % interval)"), *(it.cells() for it in rows)])
 
 
 def measured(plan: Plan, jobs: int) -> list[list[Life]]:

@@ -20,6 +20,7 @@ import numpy as np
 from host_sim.lab.study.claims import STUDY, Life, measured
 from host_sim.lab.study.figures import wilson
 from host_sim.lab.study.plan import Plan, read_plan
+from host_sim.lab.table import markdown
 from host_sim.protocol.generated import CELL_COUNT, Side
 
 FIRST_SEED, SEEDS = 2_200_001, 500
@@ -91,8 +92,7 @@ HEADINGS = [
 
 def table_of(estimated_from: Sequence[Life], tested_on: Sequence[Life]) -> str:
     """The table in Markdown."""
-    rows = [HEADINGS, ["---"] * len(HEADINGS), *rows_of(estimated_from, tested_on)]
-    return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+    return markdown([HEADINGS, *rows_of(estimated_from, tested_on)])
 
 
 def plan_of(seeds: int) -> Plan:

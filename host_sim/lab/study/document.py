@@ -7,7 +7,6 @@ table itself follows a comment such as <!-- table learned.csv: finished median_s
 """
 
 import csv
-import io
 import re
 from collections.abc import Callable, Sequence
 from functools import cache
@@ -16,10 +15,11 @@ from pathlib import Path
 import numpy as np
 
 from host_sim.base.errors import OctetError
-from host_sim.base.files import write_bytes
+from host_sim.base.files import csv_text, write_bytes
 from host_sim.lab.study.figures import FIGURES, Figure, compare, estimate
 from host_sim.lab.study.sample import Sample
 from host_sim.lab.study.table import interval_of, text_of
+from host_sim.lab.table import markdown
 
 TABLES = "tables"
 
@@ -60,13 +60,9 @@ def rows_of(samples: Sequence[Sample]) -> Rows:
 
 def write_rows(rows: Rows, path: Path) -> None:
     """Writes figures as comma-separated values."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(_COLUMNS)
-    for key, values in rows.items():
-        writer.writerow([*key, *(f"{it:.6g}" for it in values)])
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_bytes(path, text.getvalue().encode())
+    lines = [_COLUMNS, *([*key, *(f"{it:.6g}" for it in values)] for key, values in rows.items())]
+    write_bytes(path, csv_text(lines).encode())
 
 
 def fill(text: str, folder: Path) -> str:
@@ -106,8 +102,7 @@ def fill(text: str, folder: Path) -> str:
 def _markdown(conditions: Sequence[str], figures: Sequence[str], cell: Callable[[str, str], str]) -> str:
     rows = [["", *(_ALL[figure].heading for figure in figures)]]
     rows += [[f"`{condition}`", *(cell(condition, figure) for figure in figures)] for condition in conditions]
-    lines = [f"| {' | '.join(row)} |\n" for row in rows]
-    return "".join([lines[0], f"|{'---|' * (len(figures) + 1)}\n", *lines[1:]])
+    return markdown(rows) + "\n"
 
 
 def _read(path: Path) -> Rows:

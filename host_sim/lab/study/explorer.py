@@ -11,7 +11,7 @@ bytes hold.
 
 import argparse
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -21,6 +21,7 @@ from host_sim.lab.study.figures import FIGURES, compare, estimate
 from host_sim.lab.study.fleets import sample_of
 from host_sim.lab.study.sample import Floats, Sample
 from host_sim.lab.study.table import interval_of, text_of
+from host_sim.lab.table import markdown
 from host_sim.protocol.words import PARAMETERS
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.geometry import Bar, Point, Pose, SimParams
@@ -194,14 +195,14 @@ def samples_of(seeds: int) -> list[Sample]:
     return [article, searcher, *(replace(article, name=name, robot_s=robot_s) for name, robot_s in others)]
 
 
-def rows_of(samples: Sequence[Sample]) -> Iterator[str]:
+def table_of(samples: Sequence[Sample]) -> str:
     """The table in Markdown, each by the first sample."""
-    mean = FIGURES["mean_s"]
-    yield "| who | mean | by `article` |\n|---|---|---|"
+    mean, rows = FIGURES["mean_s"], [("who", "mean", "by `article`")]
     for it in samples:
         value, part = estimate(mean, it), compare(mean, it, samples[0])
         seconds = f"{text_of(mean, value.value)} ({interval_of(mean, value.low, value.high).removesuffix(' s')})"
-        yield f"| {it.name} | {seconds} | {part.value:.2f} ({part.low:.2f}..{part.high:.2f}) |"
+        rows.append((it.name, seconds, f"{part.value:.2f} ({part.low:.2f}..{part.high:.2f})"))
+    return markdown(rows)
 
 
 def main() -> None:
@@ -210,7 +211,7 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, default=SEEDS, metavar="N", help="number of seeds")
     seeds = parser.parse_args().seeds
     print(f"seeds {FIRST_SEED}..{FIRST_SEED + seeds - 1}, {ENVIRONMENTS} environments each\n")
-    print("\n".join(rows_of(samples_of(seeds))))
+    print(table_of(samples_of(seeds)))
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ from host_sim.cli.main import main
 from host_sim.lab.study import workers
 from host_sim.lab.study.atlas import FOLDER, MEMORIES, Maps, SeedMap, map_of
 from host_sim.lab.study.atlas_report import CELLS, NAMED, correlation, explained, mirrored
-from host_sim.lab.study.explorer import Explorer, Room, rows_of, samples_of, sees
+from host_sim.lab.study.explorer import Explorer, Room, samples_of, sees, table_of
 from host_sim.lab.study.plan import read_plan
 from host_sim.lab.study.trial import Trial
 from host_sim.sim.fleet import Frozen, run_fleet
@@ -282,7 +282,7 @@ def numbers_of(text: str) -> dict[str, list[float]]:
 
 def test_learning_page_has_the_explorer_s_rows_and_few_seeds_agree():
     page = numbers_of((ROOT / "docs/learning.md").read_text())
-    few = numbers_of("\n".join(rows_of(samples_of(6))))
+    few = numbers_of(table_of(samples_of(6)))
 
     assert len(few) == 5
     assert {*few} <= {*page}
