@@ -74,7 +74,7 @@ def test_compare_runs_profiles_on_the_given_robot():
     words = ("compare", "article", "--robot", "emulated", "--seeds", "1")
 
     assert [
-        each.config.robot for each in handed("host_sim.lab.study.compare_command.with_progress", *words).args[0]
+        each.config.robot for each in handed("host_sim.lab.study.compare_command.with_progress", *words).args[1]
     ] == ["emulated"]
 
 

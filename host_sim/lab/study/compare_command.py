@@ -108,8 +108,7 @@ def _stages(arguments: argparse.Namespace) -> "Sequence[str]":
 
 def _compare(arguments: argparse.Namespace) -> int:
     from host_sim.lab.study.folder import used_seed_notes
-    from host_sim.lab.study.goals import judge
-    from host_sim.lab.study.table import coverage_table, table
+    from host_sim.lab.study.table import coverage_table, judge, table
 
     folder = Path(arguments.what[0])
     if folder.suffix == ".toml":
@@ -127,7 +126,7 @@ def _compare(arguments: argparse.Namespace) -> int:
         from host_sim.lab.study.plots import draw_plots
 
         print(f"wrote     {', '.join(map(str, draw_plots(samples, arguments.plots)))}")
-    judged = judge(plan.goals, samples)
+    judged = list(judge(plan.goals, samples))
     for each in judged:
         print(each)
     return 0 if all(each.is_reached for each in judged) else 1
@@ -184,7 +183,7 @@ def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]
     from host_sim.lab.study.plan import Plan
     from host_sim.lab.study.sample import samples_of
     from host_sim.lab.study.tables import tables_of
-    from host_sim.lab.study.trial import Trial
+    from host_sim.lab.study.trial import Trial, run_trial
     from host_sim.sim.run_config import C_FILE, RunConfig
     from host_sim.world.changes import Change
 
@@ -201,5 +200,5 @@ def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]
     ]
     plan = Plan(" ".join(names), list(map(Trial, configs, names)), a.seed, a.seeds)
     rehearse_all(plan, a.cluster)
-    runs = [run for some in with_progress(plan.trials(), workers_of(a), a.chunk) for run in some]
+    runs = [run for some in with_progress(run_trial, plan.trials(), workers_of(a), a.chunk) for run in some]
     return plan, samples_of(tables_of(runs), names)

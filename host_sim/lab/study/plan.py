@@ -4,6 +4,7 @@ Error messages name the line and the possible values.
 """
 
 import itertools
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -33,15 +34,15 @@ class Goal:
         figure: Name of the figure.
         condition: Name of the condition.
         against: Name of the condition to compare with, as a ratio or in percentage points; empty for none.
-        at_least: Lowest acceptable value; None for any.
-        at_most: Highest acceptable value; None for any.
+        at_least: Lowest acceptable value.
+        at_most: Highest acceptable value.
     """
 
     figure: str
     condition: str
     against: str = ""
-    at_least: float | None = None
-    at_most: float | None = None
+    at_least: float = -math.inf
+    at_most: float = math.inf
 
 
 @dataclass(frozen=True)

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from host_sim.lab.study.trial import Trial
     from host_sim.lab.workers import Workers
 
-    Work = Callable[[Sequence[Trial]], tuple[list[Any], str]]
-
 _EXAMPLES = """\
 examples:
   tools/octet study studies/learned.toml                          learned behaviour against programmed
@@ -153,9 +151,9 @@ def _document_atlas(report: "Report", docs: Path, name: str) -> None:
 def run_study(arguments: argparse.Namespace, plan: "Plan", out: Path) -> str:
     """Runs the missing trials of a study, and returns their number in words."""
     from host_sim.base.files import write_bytes
-    from host_sim.lab.study.atlas import Maps
+    from host_sim.lab.study.atlas import Maps, map_of
     from host_sim.lab.study.folder import PLAN_FILE, open_study, used_seed_notes
-    from host_sim.lab.study.workers import map_chunk, run_chunk
+    from host_sim.lab.study.trial import run_trial
 
     path: Path = arguments.plan
     if plan.is_fleet:
@@ -165,13 +163,13 @@ def run_study(arguments: argparse.Namespace, plan: "Plan", out: Path) -> str:
     rehearse_all(plan, arguments.cluster)
     with open_study(out, plan) as study:
         write_bytes(out / PLAN_FILE, path.read_bytes())
-        folder, work = (Maps(out), map_chunk) if plan.is_atlas else (study, run_chunk)
+        folder, make = (Maps(out), map_of) if plan.is_atlas else (study, run_trial)
         done = folder.done()
         trials = [trial for trial in plan.trials() if trial.key not in done]
         with ExitStack() as stack:
             writer = _PeriodicWriter(folder)
             stack.callback(writer.write)  # however the study ends
-            for runs in with_progress(trials, workers_of(arguments), arguments.chunk, work):
+            for runs in with_progress(make, trials, workers_of(arguments), arguments.chunk):
                 writer.extend(runs)
     return (
         f"{len(trials)} runs, {len(plan.trials()) - len(trials)} existed already" if done else f"{len(trials)} runs"
@@ -194,15 +192,15 @@ def rehearse_all(plan: "Plan", cluster: str | None) -> None:
 
 
 def with_progress(
-    trials: "Sequence[Trial]", workers: "Workers", chunk: int = 0, work: "Work | None" = None
+    make: "Callable[[Trial], Any]", trials: "Sequence[Trial]", workers: "Workers", chunk: int
 ) -> "Iterator[Sequence[Any]]":
-    """Runs trials, with a progress line. Yields the results of `work`, by default the rows of each trial."""
+    """As `host_sim.lab.study.trial.run_all`, with a progress line."""
     from host_sim.base.terminal import ProgressLine
-    from host_sim.lab.study.workers import run_all, run_chunk
+    from host_sim.lab.study.trial import run_all
 
     done = 0
     with ProgressLine(len(trials)) as line:
-        for runs in run_all(work or run_chunk, trials, workers, chunk):
+        for runs in run_all(make, trials, workers, chunk):
             done += len(runs)
             if line.is_due():
                 line.show("runs", done)

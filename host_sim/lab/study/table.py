@@ -1,15 +1,18 @@
-"""Samples side by side as a table for people."""
+"""Samples side by side as a table for people, and the goals for their figures."""
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from host_sim.lab.study.figures import FIGURES, LEVEL, OF_EACH, Estimate, Figure, compare, coverage, estimate
+from host_sim.lab.study.plan import Goal
 from host_sim.lab.study.sample import Sample
 from host_sim.lab.table import aligned
 
 _RATIO = "mean_s"
+_GOAL_LEVEL = 0.9
 
 
 def table(samples: Sequence[Sample], difference: float = 0.05) -> str:
@@ -102,3 +105,49 @@ def _notes(samples: Sequence[Sample], difference: float) -> Iterator[str]:
         needed = ratio.seeds_for(difference)
         seeds = "an unknown number of" if math.isnan(needed) else f"{needed:g}"
         yield f"To detect {100 * difference:g} % of the mean time of {sample.name}: {seeds} seeds (power 80 %)."
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A goal, and the estimate held against it."""
+
+    goal: Goal
+    found: Estimate
+
+    @property
+    def is_reached(self) -> bool:
+        """Whether the interval is within the goal's bounds."""
+        return self.goal.at_least <= self.found.low and self.found.high <= self.goal.at_most
+
+    @property
+    def verdict(self) -> str:
+        """The verdict that these seeds permit."""
+        if self.is_reached:
+            return "reached"
+        return "MISSED " if self.found.high < self.goal.at_least or self.goal.at_most < self.found.low else "UNSURE "
+
+    def __str__(self) -> str:
+        goal, found, figure = self.goal, self.found, FIGURES[self.goal.figure]
+        of = f"{goal.condition} by {goal.against}" if goal.against else goal.condition
+        bounds = (("least", goal.at_least), ("most", goal.at_most))
+        wanted = " and ".join(f"at {word} {bound:g}" for word, bound in bounds if math.isfinite(bound))
+        value = f"{text_of(figure, found.value)} ({interval_of(figure, found.low, found.high)})"
+        if goal.against:
+            value = f"{found.value:.3f} ({found.low:.3f}..{found.high:.3f}){' points' if figure.counted else ''}"
+        return f"{self.verdict}  {goal.figure} of {of}: {value}, wanted {wanted}"
+
+
+def judge(goals: Sequence[Goal], samples: Sequence[Sample]) -> Iterator[Judged]:
+    """Compares samples with goals.
+
+    A goal is reached if the figure's whole interval is within its bounds, and missed if all of it is outside; else
+    the seeds are too few to tell. The interval is one of 90 %, so that each bound is tested at 5 %: with at_least and
+    at_most, that is a test of equivalence (two one-sided tests).
+    """
+    by_name = {sample.name: sample for sample in samples}
+    for goal in goals:
+        figure, sample = FIGURES[goal.figure], by_name[goal.condition]
+        if goal.against:
+            yield Judged(goal, compare(figure, sample, by_name[goal.against], _GOAL_LEVEL))
+        else:
+            yield Judged(goal, estimate(figure, sample, _GOAL_LEVEL))

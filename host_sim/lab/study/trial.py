@@ -1,17 +1,22 @@
-"""One run of a study: robots in some environments, and data about their behaviour."""
+"""The runs of a study: robots in some environments, and data about their behaviour."""
 
 import json
 import math
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
+from typing import TypeVar
 
 import numpy as np
 
+from host_sim.base.errors import OctetError
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.lab.study.contacts import PROPER, ContactWatch, Course, digits_of, knows_wrong
 from host_sim.lab.study.tables import COLUMNS, Row, Rows
 from host_sim.lab.study.version import code_version
+from host_sim.lab.workers import Workers
+from host_sim.lab.workers import run_all as workers_run_all
 from host_sim.protocol.generated import PARAMETERS
 from host_sim.sim.make import make
 from host_sim.sim.native_loop import BLOCK_TICKS
@@ -131,3 +136,33 @@ def _known_s(memories: Course[Memory], first_tick: int, tick_s: float) -> float:
     """Robot time until a turn was known for each of the patterns of `PROPER`, s; infinite if it never was."""
     known = (ticks for ticks, memory in memories if all(sides_of(memory)[pattern] for pattern in PROPER))
     return round((first_tick + next(known, math.inf)) * tick_s, 3)
+
+
+Made = TypeVar("Made")
+
+
+def run_all(
+    make: Callable[[Trial], Made], trials: Sequence[Trial], workers: Workers, chunk: int = 0
+) -> Iterator[Sequence[Made]]:
+    """Makes something of each trial in other processes, all with the same version of robot and world.
+
+    Args:
+        make: What to make of a trial, such as `run_trial`.
+        trials: The trials.
+        workers: The workers.
+        chunk: Number of trials to hand over at once; 0 leaves it to the workers.
+
+    Yields:
+        Some results, as soon as they are made.
+
+    Raises:
+        OctetError: Workers die repeatedly, or one is of another version.
+    """
+    for made, code in workers_run_all(partial(_make_chunk, make), trials, workers, chunk):
+        if code != code_version():
+            raise OctetError("a worker has another version of robot or world; finished runs are kept")
+        yield made
+
+
+def _make_chunk(make: Callable[[Trial], Made], trials: Sequence[Trial]) -> tuple[list[Made], str]:
+    return [make(trial) for trial in trials], code_version()

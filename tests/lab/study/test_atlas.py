@@ -15,7 +15,6 @@ import pytest
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import ROOT
 from host_sim.cli.main import main
-from host_sim.lab.study import workers
 from host_sim.lab.study.atlas import FOLDER, MEMORIES, Maps, SeedMap, map_of
 from host_sim.lab.study.atlas_report import CELLS, NAMED, correlation, explained, mirrored
 from host_sim.lab.study.explorer import Explorer, Room, samples_of, sees, table_of
@@ -118,7 +117,7 @@ def test_atlas_resumes_and_adds_seeds(study, tmp_path, monkeypatch, capsys):
         made.append(trial.config.seed)
         return map_of(trial)
 
-    monkeypatch.setattr(workers, "map_of", watched)
+    monkeypatch.setattr("host_sim.lab.study.atlas.map_of", watched)
     assert study(2) == 0
     assert study(3) == 0
 

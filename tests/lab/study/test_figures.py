@@ -11,9 +11,8 @@ from host_sim.base.paths import ROOT
 from host_sim.lab.study.claims import Life, measured
 from host_sim.lab.study.clocks import HEADINGS, clocks_of, first_helped, left_of, plan_of, table_of
 from host_sim.lab.study.figures import FIGURES, Estimate, compare, coverage, estimate, wilson
-from host_sim.lab.study.goals import judge
 from host_sim.lab.study.plan import Goal
-from host_sim.lab.study.table import table
+from host_sim.lab.study.table import judge, table
 from host_sim.protocol.generated import Side
 from tests.lab.study.support import SWAPPED, contact, row, run, samples
 

@@ -13,9 +13,8 @@ import pytest
 from host_sim.base.errors import OctetError
 from host_sim.base.extra_library import library
 from host_sim.cli.main import main
-from host_sim.lab.study import workers
 from host_sim.lab.study.folder import StudyFolder
-from host_sim.lab.study.trial import run_trial
+from host_sim.lab.study.trial import run_all, run_trial
 from host_sim.lab.workers import cluster as cluster_of
 from host_sim.lab.workers import processes
 from tests.lab.study.support import trial
@@ -173,45 +172,44 @@ def test_damaged_part_is_reported_in_one_line(plan, tmp_path, capsys):
     assert capsys.readouterr().err.count("\n") == 1
 
 
-def die_once(trials):
-    """Makes runs as a worker does that dies in its first chunk."""
+def die_once(trial):
+    """Makes a run as a worker does that dies in its first one."""
     mark = Path(os.environ["OCTET_TEST_MARK"])
     if not mark.exists():
         mark.touch()
         os.kill(os.getpid(), signal.SIGKILL)
-    return [run_trial(trial) for trial in trials], workers.code_version()
+    return run_trial(trial)
 
 
 def test_runs_of_a_dead_worker_are_made_again(tmp_path, monkeypatch):
     monkeypatch.setenv("OCTET_TEST_MARK", str(tmp_path / "mark"))
-    monkeypatch.setattr(workers, "run_chunk", die_once)
     trials = [trial("article", seed, limit_s=5) for seed in range(4)]
 
-    every = workers.run_all(workers.run_chunk, trials, processes(2), chunk=1)
+    every = run_all(die_once, trials, processes(2), chunk=1)
     made = [run["runs"][0]["seed"] for runs in every for run in runs]
 
     assert sorted(made) == [0, 1, 2, 3]
 
 
-def die(_trials):
-    """A worker that dies in each chunk."""
+def die(_trial):
+    """A worker that dies in each run."""
     os.kill(os.getpid(), signal.SIGKILL)
 
 
 def test_study_gives_up_on_workers_that_die_each_time(plan, capsys, monkeypatch):
-    monkeypatch.setattr(workers, "run_chunk", die)
+    monkeypatch.setattr("host_sim.lab.study.trial.run_trial", die)
 
     assert study(plan(seeds=1)) == 1
 
     assert "octet: workers die each time, perhaps in the run tools/run --bus none" in capsys.readouterr().err
 
 
-def of_another_version(trials):
-    return [run_trial(trial) for trial in trials], "another"
+def of_another_version(make, trials):
+    return [make(trial) for trial in trials], "another"
 
 
 def test_rows_of_a_worker_of_another_version_are_not_taken(plan, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(workers, "run_chunk", of_another_version)
+    monkeypatch.setattr("host_sim.lab.study.trial._make_chunk", of_another_version)
 
     assert study(plan(seeds=1)) == 1
 
@@ -300,7 +298,7 @@ def test_runs_of_a_dead_cluster_worker_are_made_by_another(cluster):
     trials = [trial("article", seed, limit_s=60) for seed in range(12)]
 
     made = []
-    for runs in workers.run_all(workers.run_chunk, trials, cluster_of(cluster.address), chunk=1):
+    for runs in run_all(run_trial, trials, cluster_of(cluster.address), chunk=1):
         if not made:
             os.killpg(first.pid, signal.SIGKILL)
         made += runs
@@ -314,7 +312,7 @@ def test_lost_scheduler_is_reported(cluster, monkeypatch):
     monkeypatch.setattr("host_sim.lab.workers._CONNECT_S", 1)
     cluster.worker()
     trials = [trial("article", seed, limit_s=60) for seed in range(12)]
-    every = workers.run_all(workers.run_chunk, trials, cluster_of(cluster.address), chunk=1)
+    every = run_all(run_trial, trials, cluster_of(cluster.address), chunk=1)
 
     assert next(every)
     cluster.scheduler.kill()
