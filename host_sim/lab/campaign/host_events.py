@@ -1,17 +1,17 @@
 """Events of processes and of the wall clock, and a run in a process of its own that is killed midway."""
 
-import json
 import os
-import select
 import signal
 import subprocess
 import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack, suppress
 from itertools import chain, repeat
+from multiprocessing import Pipe, get_context
+from multiprocessing.connection import Connection
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -103,9 +103,6 @@ SILENT_S = 60.0
 ASK = "ask"
 """First word of a report by which a run requests an event from its parent process."""
 
-_HUNG = ["broke", f"the simulator hung for {SILENT_S:g} s"]
-_BLOCK = 65536
-
 Report = Callable[..., None]
 """Sends a report from a run that may be killed at any time: numbers, strings and lists of them."""
 
@@ -133,46 +130,32 @@ def run_killable(run: Callable[[Report], None], perform: Callable[[str, int], No
     Returns:
         Whether it was killed, and its reports; the last one says if it hung.
     """
-    ours, its = os.pipe()
-    child = os.fork()
-    if child == 0:
-        _run_to_the_end(run, lambda *words: _write(its, words))
-    os.close(its)
-    reports = []
-    with os.fdopen(ours, "rb") as pipe:
-        for words in _reports(pipe.fileno()):
+    ours, its = Pipe(duplex=False)
+    child = get_context("fork").Process(target=_run_to_the_end, args=(run, its))
+    child.start()
+    its.close()
+    reports: list[list[Any]] = []
+    with ours, suppress(EOFError):
+        while ours.poll(SILENT_S):
+            words = ours.recv()
             if words[0] == ASK:
                 perform(*words[1:])
             else:
                 reports.append(words)
-    if reports and reports[-1] == _HUNG:
-        os.kill(child, signal.SIGABRT)
-    _, status = os.waitpid(child, 0)
-    return os.waitstatus_to_exitcode(status) == -signal.SIGKILL, reports
+        reports.append(["broke", f"the simulator hung for {SILENT_S:g} s"])
+        assert child.pid is not None
+        os.kill(child.pid, signal.SIGABRT)  # not the signal of an event
+    child.join()
+    return child.exitcode == -signal.SIGKILL, reports
 
 
-def _reports(pipe: int) -> Iterator[list[Any]]:
-    """Yields the reports from a pipe until it is closed, or silent for `SILENT_S`; then `_HUNG` is the last."""
-    text = b""
-    while select.select([pipe], [], [], SILENT_S)[0]:
-        read = os.read(pipe, _BLOCK)
-        if not read:
-            return
-        *lines, text = (text + read).split(b"\n")
-        yield from map(json.loads, lines)
-    yield _HUNG
+def _run_to_the_end(run: Callable[[Report], None], pipe: Connection) -> None:
+    """Runs the function. A report is sent by one system call, so that it is complete or missing."""
 
+    def report(*words: object) -> None:
+        pipe.send([*words])
 
-def _write(descriptor: int, words: tuple[object, ...]) -> None:
-    """Writes with one system call, so that a report is complete or missing."""
-    os.write(descriptor, f"{json.dumps(words)}\n".encode())
-
-
-def _run_to_the_end(run: Callable[[Report], None], report: Report) -> None:
-    """Runs the function, then exits; does not return."""
     try:
         run(report)
     except Exception as error:
         report("ended" if isinstance(error, RobotError) else "broke", f"{type(error).__name__}: {error}")
-    finally:
-        os._exit(0)

@@ -71,26 +71,43 @@ def _ignore(*_: object) -> None:
     """Discards reports, for a run that is not killed."""
 
 
-class NoFiles:
-    """A run that writes no files; only the digest of its log is computed.
+class RunFiles:
+    """A log and a memory file in a folder of their own, kept as `tools/run` keeps them; or only the log's digest.
 
     Attributes:
+        folder: The folder; None for a run that writes no files.
         log: The log.
         events: File faults by name.
         struck: Whether a file fault was applied.
         messages: Messages about the files, in sentences.
         memory: The previous content of the memory file; None if there was none.
         note: Takes reports of the run that must survive its end.
+        killed_in_save: Number of the Python instruction of the next save at which this process is killed; 0 for none.
     """
 
-    memory: Memory | None = None
-    note: Report = staticmethod(_ignore)
+    def __init__(self, folder: Path | None, undo: ExitStack, report: Report = _ignore) -> None:
+        """Opens the files.
 
-    def __init__(self, log: CourseLog | None = None) -> None:
-        self.log = log or CourseLog()
+        Args:
+            folder: A folder with nothing but the memory file of an earlier run, as returned by `make_folder`.
+            undo: Closes the files, and reverts their faults.
+            report: Called with each memory before it is saved, and with everything passed to `note`.
+        """
+        self.folder, self._undo, self.note = folder, undo, report
+        self.log = CourseLog(folder and folder / _LOG)
         self.events: Mapping[str, Trigger] = {}
-        self.struck = False
-        self.messages: list[str] = []
+        self.struck, self.messages, self.killed_in_save = False, list[str](), 0
+        self.memory: Memory | None = None
+        self._saver: MemorySaver | None = None
+        self._finished = False
+        if folder:
+            self.events = {name: partial(self._strike, fault, folder) for name, fault in _EVENTS.items()}
+            self.memory = load_memory(folder / _MEMORY)
+            self._saver = MemorySaver(
+                folder / _MEMORY, self.memory, lambda line: self.messages.append(self.without_folder(line))
+            )
+        self._saved = None if self.memory is None else bytes(self.memory)
+        undo.callback(self.close)
 
     def save(self, memory: Sequence[int]) -> None:
         """Takes over the memory after a tick.
@@ -98,60 +115,8 @@ class NoFiles:
         Raises:
             OctetError: The memory cannot be saved.
         """
-
-    def finish(self, memory: Sequence[int]) -> None:  # noqa: ARG002 - saved where there is a file
-        """Takes over the memory at the end, and closes the log.
-
-        Raises:
-            OctetError: Memory or log cannot be written.
-        """
-        self.log.flush()
-        self.log.close()
-
-    def close(self) -> str:
-        """Closes the log, however the run ended. Returns the digest of the frames handed over."""
-        with suppress(OctetError):  # the run ended with this error, or with a worse one
-            self.log.close()
-        return self.log.close()
-
-    def without_folder(self, text: str) -> str:
-        """Removes the folder's name from a message about a file."""
-        return text
-
-    def lost(self) -> str:
-        """Data missing from the files without a warning, in words; empty if they are complete."""
-        return ""
-
-
-class RunFiles(NoFiles):
-    """A log and a memory file in a folder of their own, kept as `tools/run` keeps them.
-
-    Attributes:
-        folder: The folder.
-        killed_in_save: Number of the Python instruction of the next save at which this process is killed; 0 for none.
-    """
-
-    def __init__(self, folder: Path, undo: ExitStack, report: Report = _ignore) -> None:
-        """Opens the files.
-
-        Args:
-            folder: A folder with nothing but the memory file of an earlier run.
-            undo: Reverts the file faults.
-            report: Called with each memory before it is saved, and with everything passed to `note`.
-        """
-        self.folder, self._undo, self.note = folder, undo, report
-        self._log_path, self._memory_path = folder / _LOG, folder / _MEMORY
-        super().__init__(CourseLog(self._log_path))
-        self.events = {name: partial(self._strike, trigger) for name, trigger in _EVENTS.items()}
-        self.memory = load_memory(self._memory_path)
-        self._saver = MemorySaver(
-            self._memory_path, self.memory, lambda line: self.messages.append(self.without_folder(line))
-        )
-        self._saved = None if self.memory is None else bytes(self.memory)
-        self._finished, self.killed_in_save = False, 0
-
-    def save(self, memory: Sequence[int]) -> None:
-        """As in `NoFiles`."""
+        if not self._saver:
+            return
         if bytes(memory) != self._saved:
             self.note("saving", bytes(memory).hex())
             if self.killed_in_save:
@@ -160,49 +125,66 @@ class RunFiles(NoFiles):
         self._saved = bytes(memory)
 
     def finish(self, memory: Sequence[int]) -> None:
-        """As in `NoFiles`."""
-        self._saver.finish(memory)
-        self._saved = bytes(memory)
-        super().finish(memory)
+        """Takes over the memory at the end, and closes the log.
+
+        Raises:
+            OctetError: Memory or log cannot be written.
+        """
+        if self._saver:
+            self._saver.finish(memory)
+            self._saved = bytes(memory)
+        self.log.flush()
+        self.log.close()
         self._finished = True
 
+    def close(self) -> str:
+        """Closes the log, however the run ended. Returns the digest of the frames handed over."""
+        with suppress(OctetError):  # the run ended with this error, or with a worse one
+            self.log.close()
+        return self.log.close()
+
     def lost(self) -> str:
-        """As in `NoFiles`."""
-        if self._finished and _digest(self._log_path) != self.log.close():
+        """Data missing from the files without a warning, in words; empty if they are complete."""
+        if not self.folder:
+            return ""
+        log, memory = self.folder / _LOG, self.folder / _MEMORY
+        if self._finished and (not log.exists() or digest_of(log.read_bytes()) != self.log.close()):
             return "the log"
-        held = self._memory_path.read_bytes() if self._memory_path.exists() else None
+        held = memory.read_bytes() if memory.exists() else None
         is_gone = held is None and not self._finished  # a run that ended early has given the reason
         return "" if is_gone or held == self._saved else "the memory"
 
     def without_folder(self, text: str) -> str:
-        """As in `NoFiles`."""
+        """Removes the folder's name from a message about a file."""
         return text.replace(f"{self.folder}/", "")
 
-    def _strike(self, trigger: Callable[["RunFiles", int], None], size: int) -> None:
+    def _strike(self, fault: "_Fault", folder: Path, size: int) -> None:
         self.struck = True
-        trigger(self, size)
+        fault(self, folder, size)
 
-    def fill_disk(self, room: int) -> None:
+    def fill_disk(self, _: Path, room: int) -> None:
         """Limits file sizes, in bytes, so that no file can grow beyond the limit."""
         soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
         self._undo.callback(resource.setrlimit, resource.RLIMIT_FSIZE, (soft, hard))
         resource.setrlimit(resource.RLIMIT_FSIZE, (room, hard))
 
-    def forbid(self, _: int) -> None:
+    def forbid(self, folder: Path, _: int) -> None:
         """Makes the folder read-only, for root too."""
-        self._undo.callback(self.folder.chmod, self.folder.stat().st_mode)
-        self.folder.chmod(_READ_ONLY)
+        self._undo.callback(folder.chmod, folder.stat().st_mode)
+        folder.chmod(_READ_ONLY)
         obey_permissions(self._undo)
 
 
-_EVENTS: Mapping[str, Callable[[RunFiles, int], None]] = {
+_Fault = Callable[[RunFiles, Path, int], object]
+
+_EVENTS: Mapping[str, _Fault] = {
     "disk-full": RunFiles.fill_disk,
     "read-only": RunFiles.forbid,
-    "folder-gone": lambda files, _: shutil.rmtree(files.folder),
-    "log-gone": lambda files, _: (files.folder / f"{_LOG}.part").unlink(),
-    "memory-gone": lambda files, _: (files.folder / _MEMORY).unlink(),
-    "kill-simulator": lambda _, number: kill_at(number),
-    "kill-saving": lambda files, number: setattr(files, "killed_in_save", number),
+    "folder-gone": lambda _, folder, __: shutil.rmtree(folder),
+    "log-gone": lambda _, folder, __: (folder / f"{_LOG}.part").unlink(),
+    "memory-gone": lambda _, folder, __: (folder / _MEMORY).unlink(),
+    "kill-simulator": lambda _, __, number: kill_at(number),
+    "kill-saving": lambda files, _, number: setattr(files, "killed_in_save", number),
 }
 
 FILE_EVENTS = frozenset(_EVENTS)
@@ -218,13 +200,6 @@ def make_folder(events: Iterable[Event], undo: ExitStack) -> Path | None:
     return folder
 
 
-def open_files(folder: Path | None, undo: ExitStack, report: Report = _ignore) -> NoFiles:
-    """Opens the files of a run in the folder of `make_folder`; `undo` reverts their faults and closes them."""
-    files = NoFiles() if folder is None else RunFiles(folder, undo, report)
-    undo.callback(files.close)
-    return files
-
-
 def is_memory_held(folder: Path | None, saved: Sequence[str]) -> bool:
     """Whether the memory file of a killed run is complete, and not older than permitted.
 
@@ -235,7 +210,3 @@ def is_memory_held(folder: Path | None, saved: Sequence[str]) -> bool:
     memory = None if folder is None else load_memory(folder / _MEMORY)
     held = "" if memory is None else bytes(memory).hex()
     return held in (["", *saved])[-2:]
-
-
-def _digest(path: Path) -> str:
-    return digest_of(path.read_bytes()) if path.exists() else ""

@@ -12,7 +12,7 @@ from host_sim.client.commands import stop
 from host_sim.client.robot_client import RobotClient
 from host_sim.lab.campaign.cell import KILL_EVENTS, Cell, Outcome
 from host_sim.lab.campaign.host_events import ASK, CLOCK_EVENTS, Report, Trigger, clock_events, run_killable
-from host_sim.lab.campaign.run_files import FILE_EVENTS, NoFiles, is_memory_held, make_folder, open_files
+from host_sim.lab.campaign.run_files import FILE_EVENTS, RunFiles, is_memory_held, make_folder
 from host_sim.lab.campaign.setups import Setup, check_events, open_setup
 from host_sim.lab.workers import processes
 from host_sim.protocol.generated import TICK_SPAN, Side
@@ -97,7 +97,7 @@ def _run_with_setup(outcome: Outcome) -> None:
         if is_killed and not _run_killed(outcome, setup, folder):
             return
         setup.settle()
-        files = open_files(folder, stack)
+        files = RunFiles(folder, stack)
         files.messages += ["the simulator was killed, and another one went on with its memory"] * is_killed
         try:
             _run(outcome, setup, files, {**setup.events, **files.events, **clock_events(stack)})
@@ -118,7 +118,7 @@ def _run_killed(outcome: Outcome, setup: Setup, folder: Path | None) -> bool:
 
     def run(report: Report) -> None:
         with ExitStack() as stack:
-            files = open_files(folder, stack, report)
+            files = RunFiles(folder, stack, report)
             remote = {name: partial(report, ASK, name) for name in setup.opener_only}
             _run(outcome, setup, files, {**setup.events, **remote, **files.events, **clock_events(stack)})
 
@@ -133,7 +133,7 @@ def _run_killed(outcome: Outcome, setup: Setup, folder: Path | None) -> bool:
     return was_killed
 
 
-def _note_end(outcome: Outcome, error: Exception, files: NoFiles) -> None:
+def _note_end(outcome: Outcome, error: Exception, files: RunFiles) -> None:
     if isinstance(error, RobotError):
         outcome.end = outcome.seen = str(error).partition(";")[0]
     elif isinstance(error, OctetError) and files.struck:
@@ -142,7 +142,7 @@ def _note_end(outcome: Outcome, error: Exception, files: NoFiles) -> None:
         outcome.end, outcome.broke = f"{type(error).__name__}: {error}", True
 
 
-def _run(outcome: Outcome, setup: Setup, files: NoFiles, events: Mapping[str, Trigger]) -> None:
+def _run(outcome: Outcome, setup: Setup, files: RunFiles, events: Mapping[str, Trigger]) -> None:
     def ready(client: RobotClient) -> None:
         _note(outcome, client)
         setup.found(client)
