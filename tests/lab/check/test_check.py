@@ -15,12 +15,7 @@ from host_sim.lab.check.checking import CHECKS, check_robot
 from host_sim.lab.check.sentences import NOT_CHECKED, prose, sentences
 from host_sim.sim.robot_process import PROGRAM
 from host_sim.transport.link import Frame
-from tests.lab.check.canaries import (  # noqa: F401 - they note their robots
-    conversation,
-    messages,
-    owner_and_held,
-)
-from tests.lab.check.canaries.meddled import CANARIES, Robot
+from tests.lab.check.canaries import CANARIES, Robot
 from tests.lab.check.virtual import EXAMPLE, example, one_for_all, virtual
 
 OF_OTHERS = (
