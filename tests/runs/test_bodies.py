@@ -250,9 +250,7 @@ def test_crate_pushed_to_an_impossible_place_stays_where_it_was(monkeypatch, end
 
 
 @pytest.mark.parametrize(
-    "words",
-    [("--physics", "fast"), ("--robots", "2", "--worlds", "own"), ("--robots", "40")],
-    ids=" ".join,
+    "words", [("--physics", "fast"), ("--robots", "2", "--worlds", "own"), ("--robots", "40")], ids=" ".join
 )
 def test_crates_world_is_refused_with_fast_physics_and_for_fleets(tmp_path, words):
     done = octet("run", "--world", "crates", *words, "--out", str(tmp_path / "out"))

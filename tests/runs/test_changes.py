@@ -78,11 +78,7 @@ def test_impossible_change_is_reported_and_counted_and_the_run_goes_on(run):
 
     assert done.code == 0
     assert done.errors == "octet: at 2.00 s grow@2s could not happen: there is no plant in this environment\n"
-    assert done.summary["changes"] == {
-        "happened": [],
-        "refused": ["grow@2s"],
-        "missed": ["plant:3999,2999@env2+99s"],
-    }
+    assert done.summary["changes"] == {"happened": [], "refused": ["grow@2s"], "missed": ["plant:3999,2999@env2+99s"]}
     assert "changes   1 could not happen, 1 came after the end\n" in done.output
     assert len(done.summary["environments"]) == 2
 

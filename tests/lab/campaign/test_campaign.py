@@ -96,7 +96,7 @@ def test_robot_must_report_denied_wheels_and_learn_nothing_wrong():
     assert told.problems == Outcome(cell, seen="what it does", wrong=(1,)).problems == []
     assert replace(told, cell=replace(cell, denies=True)).problems == []
     assert Outcome(replace(cell, denies=True), seen="what it does", wrong=(1,)).problems == [
-        *("unseen", "wrong without a warning"),
+        *("unseen", "wrong without a warning")
     ]
 
 

@@ -209,12 +209,7 @@ def test_conditions_are_compared_on_the_seeds_that_all_have():
 
 def test_table_has_a_line_for_each_condition():
     runs = [
-        run(
-            "a",
-            1,
-            row(100.0, [contact(0.5)]),
-            row(300.0, [contact(61.0)], finished=False, sides=LEFT_OF_LEFT),
-        ),
+        run("a", 1, row(100.0, [contact(0.5)]), row(300.0, [contact(61.0)], finished=False, sides=LEFT_OF_LEFT)),
         run("b", 1, row(50.0), row(150.0, collisions=1)),
     ]
 
