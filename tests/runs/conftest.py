@@ -1,11 +1,13 @@
 """Whole runs, each in a folder of its own."""
 
+import subprocess
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 
-from tests.runs.support import Run, assert_healthy, octet, octet_process
+from tests.runs.support import Run, assert_healthy, octet, octet_process, robot_at
 
 
 @pytest.fixture
@@ -27,3 +29,10 @@ def run(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Callable[...
         for ended in done:
             if ended.code == 0:
                 assert_healthy(ended.summary)
+
+
+@pytest.fixture
+def robot_on() -> Iterator[Callable[[str], subprocess.Popen]]:
+    """Starts robots on links; they end with the test."""
+    with ExitStack() as stack:
+        yield lambda link: stack.enter_context(robot_at(link))

@@ -112,6 +112,17 @@ def start_octet(*words: str | Path) -> subprocess.Popen:
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
+@contextlib.contextmanager
+def robot_at(link: str, node: int = 1) -> Iterator[subprocess.Popen]:
+    """A robot in a process of its own, which listens on a link."""
+    with subprocess.Popen([os.fspath(ROBOT), "--node", str(node), link], stdout=subprocess.PIPE) as robot:
+        try:
+            assert b"listens" in robot.stdout.readline()
+            yield robot
+        finally:
+            robot.kill()
+
+
 def wait_until(is_so: Callable[[], object], what: str) -> None:
     """Waits for something to become true, in bounded time."""
     give_up = time.monotonic() + DEADLINE_S

@@ -1,8 +1,6 @@
 """Many robots on one bus: on vcan, and behind one slcan adapter."""
 
-import os
 import socket
-import subprocess
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -18,7 +16,7 @@ from host_sim.recording.log_reader import read_log
 from host_sim.report.bus_load import robot_bits_a_second, worst_bits
 from tests.report.bits_sent import bits_sent
 from tests.runs.slcan_adapter import Adapter
-from tests.runs.support import ROBOT, Run, assert_healthy, octet
+from tests.runs.support import Run, assert_healthy, octet, robot_at
 
 MANY = 28
 BIT_RATE = 500_000
@@ -32,17 +30,10 @@ RCVBUFFORCE = 33
 @contextmanager
 def robots_at(links: dict[int, str]) -> Iterator[None]:
     """Robots that are there already, by node, each with its link."""
-    robots = []
-    try:
+    with ExitStack() as stack:
         for node, link in links.items():
-            command = [os.fspath(ROBOT), "--node", str(node), link]
-            robots.append(subprocess.Popen(command, stdout=subprocess.PIPE))
-            assert b"listens" in robots[-1].stdout.readline()
+            stack.enter_context(robot_at(link, node))
         yield
-    finally:
-        for robot in robots:
-            robot.kill()
-            robot.communicate()
 
 
 @pytest.fixture

@@ -1,35 +1,18 @@
 """A bus that others use too, and that goes down and comes back: real SocketCAN."""
 
-import os
 import subprocess
 import time
-from collections.abc import Callable, Iterator
 
 import pytest
 
 from host_sim.protocol.codec import Protocol
 from host_sim.protocol.generated import Opcode
-from tests.runs.support import DEADLINE_S, ROBOT, halted, octet, start_octet, wait_for_lines
+from tests.runs.support import DEADLINE_S, halted, octet, start_octet, wait_for_lines
 from tests.runs.test_slcan import drives_in
 
 pytestmark = [pytest.mark.vcan, pytest.mark.faulty]
 VCAN = ("--bus", "socketcan:vcan0")
 LONG = ("--environments", "20", "--quiet")
-
-
-@pytest.fixture
-def second_robot() -> Iterator[Callable[[], None]]:
-    """Starts a robot with the number of the run's."""
-    robots: list[subprocess.Popen] = []
-
-    def start() -> None:
-        robots.append(subprocess.Popen([os.fspath(ROBOT), "socketcan:vcan0"], stdout=subprocess.PIPE))
-        assert b"listens" in robots[-1].stdout.readline()
-
-    yield start
-    for robot in robots:
-        robot.kill()
-        robot.communicate()
 
 
 def test_bus_that_goes_down_and_comes_back_changes_no_drive(run, tmp_path):
@@ -53,11 +36,11 @@ def test_bus_that_goes_down_and_comes_back_changes_no_drive(run, tmp_path):
     assert "gone" in output
 
 
-def test_second_robot_with_the_same_number_ends_the_run(tmp_path, second_robot):
+def test_second_robot_with_the_same_number_ends_the_run(tmp_path, robot_on):
     process = start_octet("run", "--out", tmp_path, *LONG, *VCAN)
     wait_for_lines(process, tmp_path / "run.log", 1000)
 
-    second_robot()
+    robot_on("socketcan:vcan0")
 
     _, errors = process.communicate(timeout=DEADLINE_S)
     assert process.returncode == 1

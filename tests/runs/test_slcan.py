@@ -1,9 +1,7 @@
 """A robot behind a serial line: slcan text through two ptys, clean and noisy, plugged and unplugged."""
 
 import json
-import os
 import re
-import subprocess
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing
 
@@ -11,7 +9,7 @@ import pytest
 
 from host_sim.transport.cable import Cable, Socket
 from tests.runs.slcan_adapter import Adapter
-from tests.runs.support import BUSY_HOST, DEADLINE_S, ROBOT, octet, start_octet, wait_until
+from tests.runs.support import BUSY_HOST, DEADLINE_S, octet, robot_at, start_octet, wait_until
 
 LEARNED = bytes([0, 1, 1, 1, 2, 1, 2, 1])
 SOME_TICKS = 6000
@@ -19,27 +17,14 @@ SOME_TICKS = 6000
 
 
 @pytest.fixture
-def robot_on() -> Iterator[Callable[[Cable], subprocess.Popen]]:
-    """Starts a robot at the first end of a cable."""
-    robots = []
-
-    def start(cable: Cable) -> subprocess.Popen:
-        robot = subprocess.Popen([os.fspath(ROBOT), f"slcan:{cable.ends[0]}"], stdout=subprocess.PIPE)
-        robots.append(robot)
-        assert b"listens" in robot.stdout.readline()
-        return robot
-
-    yield start
-    for robot in robots:
-        robot.kill()
-        robot.communicate()
-
-
-@pytest.fixture
 def cable() -> Iterator[Cable]:
     plugged = Cable()
     yield plugged
     plugged.close()
+
+
+def robots_end(cable: Cable) -> str:
+    return f"slcan:{cable.ends[0]}"
 
 
 def external(cable: Cable) -> tuple[str, ...]:
@@ -53,7 +38,7 @@ def drives_in(log: bytes) -> list[bytes]:
 
 def test_run_over_slcan_leaves_the_same_bytes_as_in_process(run, robot_on, cable):
     words = ("--environments", "1", "--limit-s", "20")
-    robot_on(cable)
+    robot_on(robots_end(cable))
 
     over_slcan = run(*words, *external(cable))
     within = run(*words, "--bus", "none")
@@ -65,7 +50,7 @@ def test_run_over_slcan_leaves_the_same_bytes_as_in_process(run, robot_on, cable
 
 def test_external_robot_can_be_run_again_and_keeps_its_memory(run, robot_on, cable):
     words = ("--environments", "1", "--limit-s", "40", *external(cable))
-    robot_on(cable)
+    robot_on(robots_end(cable))
 
     first, second = run(*words), run(*words)
 
@@ -79,7 +64,7 @@ def test_external_robot_can_be_run_again_and_keeps_its_memory(run, robot_on, cab
 @pytest.mark.faulty
 def test_noise_on_the_serial_line_repeats_frames_and_changes_no_drive(run, robot_on, cable):
     words = ("--environments", "1", "--limit-s", "5")
-    robot_on(cable)
+    robot_on(robots_end(cable))
     cable.noise = 0.01
 
     noisy = run(*words, *external(cable))
@@ -97,7 +82,7 @@ def test_noise_on_the_serial_line_repeats_frames_and_changes_no_drive(run, robot
 def test_run_waits_for_an_adapter_that_is_unplugged_and_plugged_in_again(robot_on, tmp_path):
     socket = Socket(tmp_path / "tty")
     first = Cable()
-    robot = robot_on(first)
+    robot = robot_on(robots_end(first))
     socket.plug(first.ends[1])
     words = ("--environments", "1", "--limit-s", "30", "--bus", f"slcan:{socket.path}", "--robot", "external")
     (tmp_path / "robot.mem").write_bytes(LEARNED)
@@ -108,7 +93,7 @@ def test_run_waits_for_an_adapter_that_is_unplugged_and_plugged_in_again(robot_o
     socket.unplug()
     first.close()
     second = Cable()
-    robot_on(second)
+    robot_on(robots_end(second))
     socket.plug(second.ends[1])
 
     output, errors = process.communicate(timeout=DEADLINE_S)
@@ -126,7 +111,7 @@ def test_run_waits_for_an_adapter_that_is_unplugged_and_plugged_in_again(robot_o
 @pytest.mark.faulty
 def test_run_ends_with_one_message_when_the_serial_line_stays_away(robot_on, tmp_path):
     socket, cable = Socket(tmp_path / "tty"), Cable()
-    robot_on(cable)
+    robot_on(robots_end(cable))
     socket.plug(cable.ends[1])
     words = ("--environments", "9", "--reconnect-s", "0.5", "--bus", f"slcan:{socket.path}", "--robot", "external")
     process = start_octet("run", "--out", tmp_path / "out", *words)
@@ -146,13 +131,13 @@ def test_restarted_robot_keeps_its_memory_and_the_run_is_doubtful(robot_on, cabl
     words = ("--environments", "1", *external(cable), "--limit-s", *length)
     memory = tmp_path / "robot.mem"
     memory.write_bytes(LEARNED)
-    robot = robot_on(cable)
+    robot = robot_on(robots_end(cable))
     process = start_octet("run", "--out", tmp_path / "out", "--memory", memory, *words)
     wait_until(lambda: cable.passed > SOME_TICKS, "ticks")
 
     robot.kill()
     robot.wait()
-    robot_on(cable)
+    robot_on(robots_end(cable))
 
     _, errors = process.communicate(timeout=DEADLINE_S)
     assert process.returncode == 1
@@ -165,7 +150,7 @@ def test_restarted_robot_keeps_its_memory_and_the_run_is_doubtful(robot_on, cabl
 
 @pytest.mark.faulty
 def test_watched_external_robot_runs_in_real_time_on_its_own_clock(robot_on, cable, tmp_path):
-    robot_on(cable)
+    robot_on(robots_end(cable))
     words = ("--environments", "1", "--limit-s", "3", "--port", "0", "--json", *external(cable))
 
     done = octet("run", "--watch", *BUSY_HOST, "--out", tmp_path, *words)
@@ -183,9 +168,7 @@ def adapter_that() -> Iterator[Callable[[str], str]]:
 
         def plug(habit: str) -> str:
             adapter = stack.enter_context(closing(Adapter(1, node_of=lambda _id: 1, habit=habit)))
-            robot = subprocess.Popen([os.fspath(ROBOT), f"slcan:{adapter.robots[1]}"], stdout=subprocess.PIPE)
-            stack.callback(robot.communicate)
-            stack.callback(robot.kill)
+            stack.enter_context(robot_at(f"slcan:{adapter.robots[1]}"))
             return adapter.host
 
         yield plug

@@ -6,14 +6,13 @@ its end, or something wrong was learned. A sample is among the tests.
 """
 
 import argparse
-import os
-import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from host_sim.transport.cable import Cable
-from tests.runs.support import ROBOT, Run, is_right, octet_process
+from tests.runs.support import Run, is_right, octet_process, robot_at
 
 CHANCE = 0.05
 TICKS_PER_S = 50
@@ -21,21 +20,13 @@ TICKS_PER_S = 50
 
 def run_through_noise(out: Path, limit_s: float, chance: float = CHANCE, *, lockstep: bool = False) -> Run:
     """A run in one environment, which ends early only if all the food is eaten."""
-    cable = Cable()
-    robot = subprocess.Popen([os.fspath(ROBOT), f"slcan:{cable.ends[0]}"], stdout=subprocess.PIPE)
-    try:
-        assert robot.stdout is not None
-        robot.stdout.readline()
+    with closing(Cable()) as cable, robot_at(f"slcan:{cable.ends[0]}"):
         cable.noise = chance
         words = ["--environments", "1", "--limit-s", f"{limit_s:g}", "--memory", out / "robot.mem"]
         words += [] if lockstep else ["--real-time"]
         bus = ("--bus", f"slcan:{cable.ends[1]}", "--robot", "external")
         out.mkdir()
         done = octet_process("run", "--out", out, *words, *bus)
-    finally:
-        robot.kill()
-        robot.communicate()
-        cable.close()
     return Run(done.returncode, done.stdout, done.stderr, out)
 
 
