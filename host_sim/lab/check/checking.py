@@ -3,7 +3,7 @@
 import os
 import signal
 import threading
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, ExitStack, closing, contextmanager
 from dataclasses import dataclass
@@ -120,15 +120,6 @@ class Verdict:
     frames: tuple[str, ...] = ()
 
 
-@dataclass
-class _CheckResult:
-    """The result of one check."""
-
-    number: str
-    why: str
-    talk: Talk | None
-
-
 def check_robot(robots: Robots, missing: Collection[str] = (), jobs: int = 1, tries: int = 1) -> list[Verdict]:
     """Judges each sentence.
 
@@ -147,38 +138,34 @@ def check_robot(robots: Robots, missing: Collection[str] = (), jobs: int = 1, tr
     possible.sort(key=lambda number: CHECKS[number].__module__ != silence.__name__)  # slowest checks first
     with ThreadPoolExecutor(jobs) as pool:
         results = pool.map(lambda number: _run(number, robots, tries), possible)
-        done = {result.number: result for result in counted(results, len(possible), "sentences")}
+        done = dict(zip(possible, counted(results, len(possible), "sentences"), strict=True))
         return list(_judge(done, missing))
 
 
-def _run(number: str, robots: Robots, tries: int) -> _CheckResult:
-    result = _run_once(number, robots)
-    is_broken = result.why or (result.talk is not None and any(breaches(result.talk.frames)))
-    return _run(number, robots, tries - 1) if is_broken and tries > 1 else result
-
-
-def _run_once(number: str, robots: Robots) -> _CheckResult:
-    result = _CheckResult(number, "", None)
+def _run(number: str, robots: Robots, tries: int) -> tuple[str, Talk | None]:
+    """Runs a check until it succeeds or has failed so often. Returns the fault, and the talk if there was one."""
+    why, talk = "", None
     try:
-        with robots() as result.talk:
-            CHECKS[number](result.talk)
+        with robots() as talk:
+            CHECKS[number](talk)
     except (BrokenError, RobotError) as error:
-        result.why = str(error)
-    return result
+        why = str(error)
+    is_broken = why or (talk is not None and any(breaches(talk.frames)))
+    return _run(number, robots, tries - 1) if is_broken and tries > 1 else (why, talk)
 
 
-def _judge(results: dict[str, _CheckResult], missing: Collection[str]) -> Iterator[Verdict]:
+def _judge(results: Mapping[str, tuple[str, Talk | None]], missing: Collection[str]) -> Iterator[Verdict]:
     broken: dict[str, tuple[str, tuple[str, ...]]] = {}
     heard: set[str] = set()
-    for result in results.values():
-        talk = result.talk
+    for number, (why, talk) in results.items():
         frames = talk.frames if talk is not None else []
         heard |= {each.name for each in frames if each.by_robot}
-        if result.why:
-            broken[result.number] = (result.why, tuple(talk.lines(_FRAMES)) if talk is not None else ())
+        if why:
+            broken[number] = (why, tuple(talk.lines(len(frames), _FRAMES)) if talk is not None else ())
         for breach in breaches(frames):
             assert talk is not None
-            broken.setdefault(breach.number, (breach.why, tuple(_until(talk, breach.seen))))
+            end = 1 + next(i for i, each in enumerate(frames) if each is breach.seen)
+            broken.setdefault(breach.number, (breach.why, tuple(talk.lines(end, _FRAMES // 3))))
     for number, text in sentences().items():
         message = number.partition(".")[0]
         if number in broken:
@@ -190,8 +177,3 @@ def _judge(results: dict[str, _CheckResult], missing: Collection[str]) -> Iterat
             yield Verdict(number, text, "not checked", f"no {message} came")
         else:
             yield Verdict(number, text, "holds")
-
-
-def _until(talk: Talk, last: SeenFrame) -> Iterator[str]:
-    index = next(i for i, each in enumerate(talk.frames) if each is last)
-    return Talk(talk.link, talk.clock, talk.protocol, frames=talk.frames[: index + 1]).lines(_FRAMES // 3)

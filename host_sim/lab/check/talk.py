@@ -176,9 +176,9 @@ class Talk:
         """
         return answering(self.step(ahead, feel), f"SENSES of tick {self.tick % TICK_SPAN}")
 
-    def lines(self, last: int) -> Iterator[str]:
-        """The last frames, for people."""
-        for seen in self.frames[-last:]:
+    def lines(self, end: int, count: int) -> Iterator[str]:
+        """So many frames before an index, for people."""
+        for seen in self.frames[max(0, end - count) : end]:
             way = "robot" if seen.by_robot else "     "
             yield f"{seen.at_s - self.frames[0].at_s:8.3f} s {way} {self.protocol.describe(seen.frame)}"
 
