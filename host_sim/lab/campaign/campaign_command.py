@@ -186,9 +186,9 @@ def _repeat(text: str, program: str) -> int:
     from host_sim.lab.campaign.cell import Cell
     from host_sim.lab.campaign.html_report import account
     from host_sim.lab.campaign.matrix import recognised
-    from host_sim.lab.campaign.running import run_all
+    from host_sim.lab.campaign.running import run_one
 
-    (outcome,) = run_all([replace(recognised(Cell.parse(text)), command_of_own=program)])
+    outcome = run_one(replace(recognised(Cell.parse(text)), command_of_own=program))
     print(account(outcome))
     return int(bool(outcome.problems))
 
@@ -205,11 +205,7 @@ def _shrink(text: str, program: str) -> int:
 
 def _shrunk(cell: "Cell") -> "Iterator[Outcome]":
     """The outcomes of ever smaller cells of the same kind."""
-    from host_sim.lab.campaign.running import run_all
+    from host_sim.lab.campaign.running import run_one
     from host_sim.lab.campaign.walk import shrink
 
-    def attempt(smaller: "Cell") -> "Outcome":
-        (outcome,) = run_all([smaller])
-        return outcome
-
-    return shrink(cell, attempt)
+    return shrink(cell, run_one)

@@ -53,6 +53,12 @@ def run_all(cells: Sequence[Cell], jobs: int = 1) -> Iterator[Outcome]:
             yield outcome
 
 
+def run_one(cell: Cell) -> Outcome:
+    """As `run_all`, for one cell."""
+    (outcome,) = run_all([cell])
+    return outcome
+
+
 def _runs(cells: Iterable[Cell]) -> Iterator[Cell]:
     """Yields each cell with a fault, and before the first of a configuration the run without one."""
     seen: set[Cell] = set()

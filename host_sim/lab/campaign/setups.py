@@ -198,22 +198,16 @@ def open_setup(link: str, command: str = "") -> AbstractContextManager[Setup]:
         UsageError: There is no such link, or this machine does not have it.
         OctetError: Something that must be built or installed is missing.
     """
-    if link == "none":
-        return nullcontext(Setup())
-    if link == "fd":
-        return nullcontext(SocketPair())
-    if link == "external":
-        return nullcontext(OwnProgram(command))
     if link in ("slcan", "vcan"):
         return serial_line() if link == "slcan" else virtual_bus()
-    if link in BOARDS:
-        from host_sim.lab.campaign.board_setup import Board  # noqa: PLC0415 - needs the emulator
+    if link in (*BOARDS, PINS_LINK):
+        from host_sim.lab.campaign.board_setup import Board, PinsRobot  # noqa: PLC0415 - needs the emulator
 
-        return nullcontext(Board(link))
-    if link == PINS_LINK:
-        from host_sim.lab.campaign.board_setup import PinsRobot  # noqa: PLC0415 - see above
-
-        return nullcontext(PinsRobot("blue_pill"))
+        return nullcontext(Board(link) if link in BOARDS else PinsRobot("blue_pill"))
+    if link in ("none", "fd"):
+        return nullcontext(Setup() if link == "none" else SocketPair())
+    if link == "external":
+        return nullcontext(OwnProgram(command))
     raise UsageError(f"there is no link {link!r}; there are {', '.join(LINKS)}")
 
 

@@ -16,7 +16,7 @@ from host_sim.lab.campaign.run_files import RunFiles
 from host_sim.protocol.codec import Frame
 from host_sim.recording.memory_file import MemorySaver
 from host_sim.transport.cable import Cable
-from tests.lab.campaign.support import leaves_a_trace, outcome_of
+from tests.lab.campaign.support import outcome_of
 from tests.runs.support import OPCODES, forge_on_vcan, octet
 
 LEARNS = "article none lockstep seed=12 limit=12"
@@ -173,11 +173,6 @@ def test_simulator_that_ends_before_its_kill_fails_the_campaign(monkeypatch):
     outcome = outcome_of(line)
     assert "broke" in outcome.problems
     assert outcome.end == "ZeroDivisionError: integer division or modulo by zero"
-
-
-@pytest.mark.parametrize("event", ["clock-ahead:3600", "clock-back:3600"])
-def test_changed_wall_clock_in_lockstep_leaves_the_log_unchanged(event):
-    assert not leaves_a_trace(event, "fd", limit_s=1)
 
 
 def test_world_continues_when_the_clock_is_set_back_during_a_hang():
