@@ -26,8 +26,7 @@ from host_sim.base.toml_file import read_toml
 from host_sim.lab.gymnasium_envs import ppo, q_learning
 from host_sim.lab.table import markdown
 from host_sim.protocol.generated import PROFILES
-from host_sim.sim.fleet import run_fleet
-from host_sim.sim.run_config import C_FILE, RunConfig
+from host_sim.sim.run_config import C_FILE
 
 BOARD = ROOT / "studies" / "board.toml"
 _TRAININGS = (1, 2, 3)
@@ -73,19 +72,6 @@ def read_board(path: Path = BOARD) -> tuple[Arenas, list[str]]:
     return Arenas(content["first_seed"], content["seeds"], float(content["limit_s"])), list(content["profiles"])
 
 
-def food_of_profile(profile: str, arenas: Arenas) -> NDArray[np.int64]:
-    """Food that firmware robots eat in each arena, each with an empty memory at first."""
-    config = RunConfig(
-        profile=profile,
-        seed=arenas.first_seed,
-        robots=arenas.seeds,
-        worlds="own",
-        environments=1,
-        limit_s=arenas.limit_s,
-    )
-    return np.array([it.food_eaten for it in sorted(run_fleet(config), key=lambda it: it.robot)])
-
-
 def food_of_policy(begin: Callable[[int], Policy], arenas: Arenas) -> NDArray[np.int64]:
     """Food that a policy eats in each arena."""
     env: Any = gymnasium.make_vec("octet/Arena-v0", num_envs=arenas.seeds, limit_s=arenas.limit_s)
@@ -115,7 +101,7 @@ def _of_file(path: Path) -> Callable[[Arenas], Row]:
 
 
 def _of_profile(profile: str, arenas: Arenas) -> Row:
-    return Row(f"`{profile}`", food_of_profile(profile, arenas))
+    return Row(f"`{profile}`", q_learning.food_of(profile, *arenas))
 
 
 def _of_q_table(seed: int, arenas: Arenas) -> Row:

@@ -88,10 +88,10 @@ def policy(table: NDArray[np.float64], seed: int, arenas: int) -> Callable[[NDAr
     return act
 
 
-def food_of(profile: str) -> float:
-    """Mean food eaten by a thousand firmware robots in their first minute, starting with an empty memory."""
-    config = RunConfig(profile=profile, robots=1000, worlds="own", environments=1, limit_s=SECONDS)
-    return float(np.mean([result.food_eaten for result in run_fleet(config)]))
+def food_of(profile: str, first_seed: int = 1, robots: int = 1000, limit_s: float = SECONDS) -> NDArray[np.int64]:
+    """Food that each of some firmware robots eats in its first environment, starting with an empty memory."""
+    config = RunConfig(seed=first_seed, environments=1, profile=profile, robots=robots, worlds="own", limit_s=limit_s)
+    return np.array([it.food_eaten for it in sorted(run_fleet(config), key=lambda it: it.robot)])
 
 
 def _states(senses: NDArray[np.int32], actions: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -118,7 +118,7 @@ def main() -> None:
     parser.add_argument("--plot", type=Path, metavar="FILE", help="draw the curves into this PNG")
     arguments = parser.parse_args()
     learned = [learn(seed) for seed in (1, 2, 3)]
-    firmware = {profile: food_of(profile) for profile in ("article", "searcher")}
+    firmware = {profile: float(food_of(profile).mean()) for profile in ("article", "searcher")}
     for seed, each in enumerate(learned, 1):
         _, curve = each.curve()
         first, last = curve[0], curve[-4:].mean()

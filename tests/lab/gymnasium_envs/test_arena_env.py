@@ -13,7 +13,6 @@ import host_sim.lab.gymnasium_envs  # noqa: F401 - registers the environments
 from host_sim.lab.gymnasium_envs.arena_env import ArenaEnv
 from host_sim.lab.gymnasium_envs.arena_parallel_env import ArenaParallelEnv
 from host_sim.lab.gymnasium_envs.rules import Rewards
-from host_sim.protocol.generated import Senses
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.geometry import SimParams
@@ -74,27 +73,18 @@ def test_turns_have_the_angles_of_the_action_table(env, action, degrees):
     assert forward == pytest.approx(abs(degrees) * COUNTS_PER_DEGREE, abs=0.5 * COUNTS_PER_DEGREE)
 
 
-def test_environment_senses_as_the_firmware_s_robot_tick_by_tick():
+@pytest.mark.parametrize(("body", "settings", "ticks"), [("ideal", {}, 62), ("kit", {"speed_mm_s": 200}, 40)])
+def test_environment_senses_as_the_firmware_s_robot_tick_by_tick(body, settings, ticks):
     """Straight on until something is near: the firmware's own robot senses the same, tick by tick."""
-    env = ArenaEnv(step_ticks=1)
+    env = ArenaEnv(step_ticks=1, body=body)
     env.reset(options={"environment": (3, 1)})
-    with make(RunConfig(seed=3, environments=1, settings={"look_min_deg": 1, "step_mm": 250})) as simulation:
+    far = {"look_min_deg": 1, "step_mm": 250, **settings}
+    with make(RunConfig(seed=3, environments=1, body=body, settings=far)) as simulation:
         simulation.enter(1)
-        for _ in range(62):
+        for _ in range(ticks):
             simulation.step()
-            assert env.step(FORWARD)[0].tolist()[1:] == [*map(int, next_senses(simulation))][1:]
-
-
-def test_kit_body_of_an_episode_equals_that_of_the_firmware_s_run():
-    env = ArenaEnv(step_ticks=1, body="kit")
-    env.reset(options={"environment": (3, 1)})
-    with make(
-        RunConfig(seed=3, environments=1, body="kit", settings={"look_min_deg": 1, "step_mm": 250, "speed_mm_s": 200})
-    ) as simulation:
-        simulation.enter(1)
-        for _ in range(40):
-            simulation.step()
-            assert env.step(FORWARD)[0].tolist()[1:] == [*map(int, next_senses(simulation))][1:]
+            sensed = simulation.arena.body.sense(simulation.tick)
+            assert env.step(FORWARD)[0].tolist()[1:] == [*map(int, sensed)][1:]
 
 
 def test_kit_bodies_differ_from_episode_to_episode():
@@ -105,10 +95,6 @@ def test_kit_bodies_differ_from_episode_to_episode():
         ways.append(tuple(env.step(TRY_LEFT)[0][5:]))
 
     assert len(set(ways)) == len(ways)
-
-
-def next_senses(simulation) -> Senses:
-    return simulation.arena.body.sense(simulation.tick)
 
 
 def test_eaten_food_is_rewarded_and_removed():
@@ -154,9 +140,6 @@ def test_bump_lowers_the_reward():
     assert min(rewards) == -1  # against a wall, sooner or later
 
 
-ALL_FORWARD, ALL_LEFT, ALL_ABOUT = 0, 1, 5
-
-
 @pytest.fixture
 def parallel_env() -> ArenaParallelEnv:
     return ArenaParallelEnv(robots=3, limit_s=20)
@@ -176,7 +159,7 @@ def test_parallel_environment_of_one_robot_equals_the_single_one():
     alone, other = ArenaParallelEnv(robots=1), ArenaEnv()
     senses, _ = alone.reset(seed=4)
     assert senses["robot_1"].tolist() == other.reset(seed=4)[0].tolist()
-    for action in (ALL_FORWARD, ALL_LEFT, ALL_ABOUT, ALL_FORWARD, ALL_FORWARD) * 10:
+    for action in (FORWARD, LEFT, ABOUT, FORWARD, FORWARD) * 10:
         senses, rewards, *_ = alone.step({"robot_1": action})
         theirs, reward, *_ = other.step(action)
         assert (senses["robot_1"].tolist(), rewards["robot_1"]) == (theirs.tolist(), reward)
@@ -184,7 +167,7 @@ def test_parallel_environment_of_one_robot_equals_the_single_one():
 
 def test_parallel_step_ends_with_the_longest_action(parallel_env):
     parallel_env.reset(seed=1)
-    senses, _, _, _, infos = parallel_env.step({"robot_1": ALL_FORWARD, "robot_2": ALL_ABOUT, "robot_3": ALL_LEFT})
+    senses, _, _, _, infos = parallel_env.step({"robot_1": FORWARD, "robot_2": ABOUT, "robot_3": LEFT})
 
     assert {info["robot_s"] for info in infos.values()} == {1.02}
     assert senses["robot_1"][5:].tolist() == [120, 120]
@@ -194,7 +177,7 @@ def feels(robots: int, number: int) -> list[int]:
     """What the first robot feels as all go straight on."""
     parallel_env = ArenaParallelEnv(robots)
     parallel_env.reset(options={"environment": (1, number)})
-    return [parallel_env.step(dict.fromkeys(parallel_env.agents, ALL_FORWARD))[0]["robot_1"][1] for _ in range(60)]
+    return [parallel_env.step(dict.fromkeys(parallel_env.agents, FORWARD))[0]["robot_1"][1] for _ in range(60)]
 
 
 def test_robots_sense_each_other():
@@ -205,7 +188,7 @@ def test_robots_sense_each_other():
 def test_episodes_of_all_robots_end_at_once(parallel_env):
     parallel_env.reset(seed=1)
     while parallel_env.agents:
-        *_, terminations, truncations, _ = parallel_env.step(dict.fromkeys(parallel_env.agents, ALL_ABOUT))
+        *_, terminations, truncations, _ = parallel_env.step(dict.fromkeys(parallel_env.agents, ABOUT))
 
     assert truncations == dict.fromkeys(parallel_env.possible_agents, True)
     assert terminations == dict.fromkeys(parallel_env.possible_agents, False)
@@ -222,7 +205,7 @@ def envs() -> gymnasium.vector.VectorEnv:
 def test_vector_environment_equals_single_environments(envs):
     draws = np.random.default_rng(1)
     single = [ArenaEnv(limit_s=6) for _ in range(COUNT)]
-    alone = [parallel_env.reset(seed=7 + i)[0] for i, parallel_env in enumerate(single)]
+    alone = [env.reset(seed=7 + i)[0] for i, env in enumerate(single)]
     together, _ = envs.reset(seed=7)
     ended = [False] * COUNT
     episodes = 0
@@ -230,12 +213,12 @@ def test_vector_environment_equals_single_environments(envs):
         assert np.array_equal(together, alone)
         actions = draws.integers(6, size=COUNT)
         together, rewards, terminated, truncated, infos = envs.step(actions)
-        for i, parallel_env in enumerate(single):
+        for i, env in enumerate(single):
             if ended[i]:
-                alone[i], info = parallel_env.reset()
+                alone[i], info = env.reset()
                 wanted = (0.0, False, False)
             else:
-                alone[i], *wanted, info = parallel_env.step(int(actions[i]))
+                alone[i], *wanted, info = env.step(int(actions[i]))
             assert (rewards[i], terminated[i], truncated[i]) == tuple(wanted)
             assert infos["robot_s"][i] == pytest.approx(info["robot_s"])
             ended[i] = bool(wanted[1] or wanted[2])
@@ -270,14 +253,12 @@ def test_vector_step_can_be_one_tick():
 def test_reset_options_choose_the_environment_of_each_arena(envs):
     chosen = [(7, 2), (8, 1), (9, 3), (7, 2), (1, 1), (2, 1)]
     single = [ArenaEnv(limit_s=6) for _ in chosen]
-    alone = [
-        parallel_env.reset(options={"environment": one})[0] for parallel_env, one in zip(single, chosen, strict=True)
-    ]
+    alone = [env.reset(options={"environment": one})[0] for env, one in zip(single, chosen, strict=True)]
     together, _ = envs.reset(options={"environments": chosen})
     for _ in range(80):
         assert np.array_equal(together, alone)
         together = envs.step(np.zeros(COUNT, np.int64))[0]
-        alone = [parallel_env.step(0)[0] for parallel_env in single]
+        alone = [env.step(0)[0] for env in single]
 
     assert np.array_equal(together[0], together[3])
     assert len({senses.tobytes() for senses in together}) > 1

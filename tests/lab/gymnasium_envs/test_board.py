@@ -14,9 +14,9 @@ from gymnasium.utils.env_checker import check_env
 
 from host_sim.base.paths import ROOT
 from host_sim.lab.gymnasium_envs import board, ppo
-from host_sim.lab.gymnasium_envs.board import Arenas, food_of_policy, food_of_profile, main, read_board
+from host_sim.lab.gymnasium_envs.board import Arenas, food_of_policy, main, read_board
 from host_sim.lab.gymnasium_envs.ppo import Network, ScaledSenses, Training, scaled
-from host_sim.lab.gymnasium_envs.q_learning import Learned, learn
+from host_sim.lab.gymnasium_envs.q_learning import Learned, food_of, learn
 
 PAGE = (ROOT / "docs/python.md").read_text()
 FEW = Arenas(3_000_001, 40, 60.0)
@@ -59,7 +59,7 @@ def test_policy_plays_in_the_arenas_of_the_fleet():
             ended = terminated or truncated
         assert food == 3 - info["food_left"]
     assert about.sum() == 0
-    assert food_of_profile("searcher", FEW).mean() > 2
+    assert food_of("searcher", *FEW).mean() > 2
 
 
 @pytest.mark.usefixtures("few")
