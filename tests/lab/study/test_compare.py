@@ -39,49 +39,50 @@ def test_command_line_with_a_body_is_judged_without_packages():
     assert (judged.returncode, judged.stderr) == (0, "")
 
 
+@pytest.fixture
+def compared(tmp_path, capsys):
+    """Makes studies of texts, one after the other in a folder; the exit code of compare, and what it says."""
+
+    def compare(*texts: str, name: str = "a") -> tuple[int, str]:
+        plan, out = tmp_path / f"{name}.toml", str(tmp_path / "out")
+        for text in texts:
+            plan.write_text(f"environments = 1\n{text}")
+            assert main(["study", str(plan), "--out", out, "--jobs", "1"]) == 0
+        capsys.readouterr()
+        return main(["compare", out]), capsys.readouterr().out
+
+    return compare
+
+
 @pytest.mark.parametrize(("word", "bound", "code"), [("least", 0, 0), ("most", -1, 1)])
-def test_compare_exits_with_1_if_a_goal_is_missed(tmp_path, capsys, word, bound, code):
-    plan, out = tmp_path / "a.toml", str(tmp_path / "out")
-    text = 'title = "Mine"\nprofiles = ["article", "never"]\nseeds = 1\nenvironments = 1\nlimit_s = 20\n'
-    plan.write_text(text + GOAL.format(word=word, bound=bound))
-    assert main(["study", str(plan), "--out", out, "--jobs", "1"]) == 0
+def test_compare_exits_with_1_if_a_goal_is_missed(compared, word, bound, code):
+    text = 'title = "Mine"\nprofiles = ["article", "never"]\nseeds = 1\nlimit_s = 20\n'
 
-    assert main(["compare", out]) == code
+    found, said = compared(text + GOAL.format(word=word, bound=bound))
 
-    printed = capsys.readouterr().out
-    assert "Mine: 1 seed of 1 environment each" in printed
-    assert ("MISSED" in printed) == (code == 1)
+    assert found == code
+    assert "Mine: 1 seed of 1 environment each" in said
+    assert ("MISSED" in said) == (code == 1)
 
 
-def test_seeds_that_are_no_longer_in_the_plan_are_not_compared(tmp_path, capsys):
-    plan, out = tmp_path / "a.toml", str(tmp_path / "out")
-    for seeds in ("first_seed = 1", "first_seed = 11\nchosen_on = [1, 10]"):
-        plan.write_text(f'profiles = ["article"]\nseeds = 2\nenvironments = 1\nlimit_s = 5\n{seeds}\n')
-        assert main(["study", str(plan), "--out", out, "--jobs", "1"]) == 0
-    capsys.readouterr()
+def test_seeds_that_are_no_longer_in_the_plan_are_not_compared(compared):
+    text = 'profiles = ["article"]\nseeds = 2\nlimit_s = 5\n'
 
-    assert main(["compare", out]) == 0
+    _, said = compared(f"{text}first_seed = 1", f"{text}first_seed = 11\nchosen_on = [1, 10]")
 
-    assert "a: 2 seeds of 1 environment each, none of 1..10" in capsys.readouterr().out
+    assert "a: 2 seeds of 1 environment each, none of 1..10" in said
 
 
-def test_compare_of_equal_conditions_says_that_they_are_equal(tmp_path, capsys):
-    plan, out = tmp_path / "a.toml", str(tmp_path / "out")
-    plan.write_text('profiles = ["fixed"]\nseeds = 2\nenvironments = 1\nlimit_s = 5\n[settings.a]\n[settings.b]\n')
-    assert main(["study", str(plan), "--out", out, "--jobs", "1"]) == 0
+def test_compare_of_equal_conditions_says_that_they_are_equal(compared):
+    _, said = compared('profiles = ["fixed"]\nseeds = 2\nlimit_s = 5\n[settings.a]\n[settings.b]\n')
 
-    assert main(["compare", out]) == 0
-
-    assert "b takes as long as a with each seed." in capsys.readouterr().out
+    assert "b takes as long as a with each seed." in said
 
 
-def test_study_without_a_title_is_named_after_its_file(tmp_path, capsys):
-    (tmp_path / "mine.toml").write_text('profiles = ["fixed"]\nseeds = 1\nenvironments = 1\nlimit_s = 5\n')
-    assert main(["study", str(tmp_path / "mine.toml"), "--out", str(tmp_path / "out"), "--jobs", "1"]) == 0
+def test_study_without_a_title_is_named_after_its_file(compared):
+    _, said = compared('profiles = ["fixed"]\nseeds = 1\nlimit_s = 5\n', name="mine")
 
-    assert main(["compare", str(tmp_path / "out")]) == 0
-
-    assert "mine: 1 seed of" in capsys.readouterr().out
+    assert "mine: 1 seed of" in said
 
 
 @pytest.mark.parametrize(

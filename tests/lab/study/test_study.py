@@ -261,30 +261,12 @@ def cluster(tmp_path):
     cluster.stop()
 
 
-@pytest.fixture
-def cluster_plan(tmp_path) -> Path:
-    text = 'profiles = ["article", "never"]\nseeds = 3\nenvironments = 1\nlimit_s = 20\n'
-    (tmp_path / "a.toml").write_text(text)
-    return tmp_path / "a.toml"
-
-
-def test_two_workers_of_a_cluster_make_the_rows_of_a_local_run(cluster, cluster_plan, tmp_path):
+def test_two_workers_of_a_cluster_make_the_rows_of_a_local_run(cluster, plan, tmp_path):
     cluster.worker()
     cluster.worker()
 
-    words = [
-        "study",
-        str(cluster_plan),
-        "--out",
-        str(tmp_path / "there"),
-        "--cluster",
-        cluster.address,
-        "--chunk",
-        "1",
-    ]
-    assert main(words) == 0
-
-    assert main(["study", str(cluster_plan), "--out", str(tmp_path / "here"), "--jobs", "1"]) == 0
+    for where, how in (("there", ["--cluster", cluster.address, "--chunk", "1"]), ("here", ["--jobs", "1"])):
+        assert main(["study", str(plan(seeds=3)), "--out", str(tmp_path / where), *how]) == 0
     there, here = (
         dict(zip(zip(runs["condition"], runs["seed"], strict=True), runs["log_sha256"], strict=True))
         for runs in (StudyFolder(tmp_path / name).tables()["runs"] for name in ("there", "here"))
@@ -321,9 +303,9 @@ def test_lost_scheduler_is_reported(cluster, monkeypatch):
         list(every)
 
 
-def test_unreachable_scheduler_is_reported_in_one_line(cluster_plan, capsys, monkeypatch):
+def test_unreachable_scheduler_is_reported_in_one_line(plan, capsys, monkeypatch):
     monkeypatch.setattr("host_sim.lab.workers._CONNECT_S", 1)
 
-    assert main(["study", str(cluster_plan), "--cluster", "tcp://127.0.0.1:1"]) == 2
+    assert main(["study", str(plan()), "--cluster", "tcp://127.0.0.1:1"]) == 2
 
     assert capsys.readouterr().err.count("\n") == 1

@@ -151,19 +151,8 @@ def test_tune_prints_what_it_found_and_run_takes_a_file_of_settings(tmp_path, ca
     preset.write_text("# by hand\nturn_deg=20  # wider\nstep_mm=15\n")
 
     def log_of(*words: str) -> str:
-        short = [
-            "run",
-            "--environments",
-            "1",
-            "--limit-s",
-            "5",
-            "--bus",
-            "none",
-            "--quiet",
-            "--out",
-            str(tmp_path / "run"),
-        ]
-        assert main([*short, *words]) == 0
+        short = ["run", "--environments", "1", "--limit-s", "5", "--bus", "none", "--quiet"]
+        assert main([*short, "--out", str(tmp_path / "run"), *words]) == 0
         return str(json.loads((tmp_path / "run/summary.json").read_text())["log_sha256"])
 
     last_wins = log_of("--set", f"@{preset}", "--set", "step_mm=16")
