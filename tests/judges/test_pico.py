@@ -5,6 +5,7 @@ import struct
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack, closing
 from pathlib import Path
 
 import pytest
@@ -36,15 +37,8 @@ Start = Callable[..., PicoBoard]
 @pytest.fixture
 def start(tmp_path: Path) -> Iterator[Start]:
     """Starts boards, which end with the test."""
-    boards: list[PicoBoard] = []
-
-    def started(*options: str, flash: bytes | None = None) -> PicoBoard:
-        boards.append(PicoBoard(tmp_path, *options, flash=flash))
-        return boards[-1]
-
-    yield started
-    for board in boards:
-        board.close()
+    with ExitStack() as stack:
+        yield lambda *options, flash=None: stack.enter_context(closing(PicoBoard(tmp_path, *options, flash=flash)))
 
 
 def talk_to(board: PicoBoard) -> Talk:

@@ -5,6 +5,7 @@ Its edges of PWM are those at the pins; its encoders turn at the pins, and PIO c
 
 import math
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack, closing
 from pathlib import Path
 from statistics import mean
 
@@ -16,13 +17,11 @@ from host_sim.sim.make import make
 from host_sim.sim.pico_pins import PicoOnPins
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from tests.judges.labwired_board import SECTOR, flash_of
+from tests.judges.labwired_board import flash_of
+from tests.judges.test_pico import FULL
 from tests.judges.test_starts import page
 from tests.judges.test_starts import store_record as stored
 
-COUNT = SECTOR // 16 - 1
-FULL = page(COUNT) + page(0) + b"".join(stored(COUNT + 1 + n, bytes((0, 2, *[0] * 6))) for n in range(COUNT))
-"""A store whose two sectors are full, so that the next record needs the first one erased."""
 ROOM = page(1) + stored(1, bytes((0, 2, *[0] * 6)))
 PINS = RunConfig(seed=2, environments=1, robot="emulated", board="pico", body="pins", limit_s=20)
 WORST_TICK_US, PAGE_US = 250, 400
@@ -33,17 +32,14 @@ Start = Callable[..., PicoOnPins]
 @pytest.fixture
 def start(tmp_path: Path) -> Iterator[Start]:
     """Starts boards, which end with the test."""
-    boards: list[PicoOnPins] = []
+    path = tmp_path / "flash.bin"
+    with ExitStack() as stack:
 
-    def started(store: bytes = b"", *options: str) -> PicoOnPins:
-        path = tmp_path / f"flash-{len(boards)}.bin"
-        path.write_bytes(flash_of(store, "pins"))
-        boards.append(PicoOnPins(path, *options))
-        return boards[-1]
+        def started(store: bytes = b"", *options: str) -> PicoOnPins:
+            path.write_bytes(flash_of(store, "pins"))
+            return stack.enter_context(closing(PicoOnPins(path, *options)))
 
-    yield started
-    for board in boards:
-        board.close()
+        yield started
 
 
 def board_of(simulation: Simulation) -> PicoOnPins:
