@@ -1,7 +1,7 @@
 """The facts about chips that are compared with ST's SVD files: chips.toml, and svd.txt, which svd_judge.py makes."""
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -85,11 +85,46 @@ class Svd:
         return all_of[register][name]
 
 
+RANGE = re.compile(r"0x([\da-f]+)\+0x([\da-f]+) (\S*)\[(\d+)-(\d+)\](.*)")
+"""A row for registers that differ by a number in their names: first offset, distance, and the numbers."""
+
+
+def each_of(rows: Iterable[str]) -> Iterator[str]:
+    """The rows of a block, one for each register."""
+    for row in rows:
+        if match := RANGE.fullmatch(row):
+            offset, step, first, last = int(match[1], 16), int(match[2], 16), int(match[4]), int(match[5])
+            for i in range(last - first + 1):
+                yield f"0x{offset + i * step:03x} {match[3]}{first + i}{match[6]}"
+        else:
+            yield row
+
+
+def together(rows: Iterable[str]) -> Iterator[str]:
+    """The rows of a block, with one for three or more registers that differ by a number and are equally far apart."""
+    left = {name: (int(offset, 16), rest) for offset, name, rest in (row.split(" ", 2) for row in rows)}
+    while left:
+        name = next(iter(left))
+        offset, rest = left[name]
+        row, names = f"0x{offset:03x} {name} {rest}", [name]
+        for match in re.finditer(r"\d+", name):
+            head, first, tail = name[: match.start()], int(match[0]), name[match.end() :]
+            step = left.get(f"{head}{first + 1}{tail}", (0, ""))[0] - offset
+            run = [name]
+            while left.get(another := f"{head}{first + len(run)}{tail}") == (offset + len(run) * step, rest):
+                run.append(another)
+            if len(run) > max(2, len(names)):
+                row, names = f"0x{offset:03x}+0x{step:x} {head}[{first}-{first + len(run) - 1}]{tail} {rest}", run
+        yield row
+        for it in names:
+            del left[it]
+
+
 def read_table(text: str) -> dict[str, Svd]:
     """The facts of each chip."""
     chips = {chip: Svd() for chip in COMPARED}
     block: dict[int, list[SvdRegister]] = {}
-    for line in text.splitlines()[1:]:
+    for line in each_of(text.splitlines()[1:]):
         first, name, value, *more = line.split()
         if first in chips:
             registers = chips[first].registers

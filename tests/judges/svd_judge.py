@@ -27,7 +27,7 @@ from host_sim.emulator.chips import CHIPS
 from host_sim.emulator.flash import BASE
 from host_sim.emulator.hardware import Faults, Hardware
 from host_sim.emulator.registers import BoardError, Register
-from tests.judges.chips import COMPARED, SETUP, TABLE, Svd, entries, fields_compared, fields_of
+from tests.judges.chips import COMPARED, SETUP, TABLE, Svd, entries, fields_compared, fields_of, together
 
 PERIPHERAL = re.compile(r"pub type (\w+) = crate::Periph<(\w+)::RegisterBlock, (0x[\da-f_]+)>")
 MEMBER = re.compile(
@@ -106,7 +106,7 @@ def rows(device: Path, chip: str) -> Iterator[str]:
         block = tuple(block_rows(device, borrowed[1] if borrowed else named, fields_compared(chip, name)))
         first = seen.setdefault(block, name)
         yield f"{chip} {name} 0x{number(base):08x} {first}"
-        yield from block if first == name else ()
+        yield from together(block) if first == name else ()
 
 
 def text_of(element: Element, name: str, default: str = "0") -> str:
@@ -147,9 +147,10 @@ def svd_rows(file: Path, chip: str) -> Iterator[str]:
         wanted = fields_compared(chip, name)
         first = peripheral.get("derivedFrom", name)
         yield f"{chip} {name} 0x{number(text_of(peripheral, 'baseAddress')):08x} {first}"
-        for offset, register, element in svd_registers(block) if block is not None else ():
-            reset = number(text_of(element, "resetValue"))
-            yield row(offset, register.upper(), reset, svd_fields(element), wanted)
+        yield from together(
+            row(offset, register.upper(), number(text_of(it, "resetValue")), svd_fields(it), wanted)
+            for offset, register, it in (svd_registers(block) if block is not None else ())
+        )
 
 
 def main() -> None:

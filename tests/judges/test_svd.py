@@ -1,8 +1,10 @@
 """Headers, drivers, linker scripts and emulated chips against ST's SVD files, as Rust crates publish them."""
 
+import re
+
 import pytest
 
-from tests.judges.chips import SETUP, TABLE, read_table
+from tests.judges.chips import SETUP, TABLE, each_of, read_table, together
 from tests.judges.svd_judge import JUDGES, bases, drivers, emulated, offsets, unexplained
 
 TEXT = TABLE.read_text()
@@ -36,6 +38,13 @@ def test_changed_svd_fact_is_named(judge, fact, changed, difference):
     names = [name for name, _ in judge(read_table(TEXT.replace(fact, changed)))]
 
     assert difference in names
+
+
+def test_table_has_one_row_for_registers_that_differ_by_a_number():
+    blocks = [block.splitlines()[1:] for block in re.split(r"(?m)^(?=stm32|rp2040)", TEXT)[1:]]
+
+    assert sum(len(block) for block in blocks) < sum(len([*each_of(block)]) for block in blocks) / 1.5
+    assert all([*together(each_of(block))] == block for block in blocks)
 
 
 def test_field_that_the_svd_files_lack_is_an_error():
