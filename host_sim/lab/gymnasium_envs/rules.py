@@ -42,16 +42,12 @@ class Rewards:
     second: float = -0.01
     bump: float = -0.1
 
-    def of(self, eaten: Any, ticks: Any, collisions: Any) -> Any:
-        """The reward of a step, for numbers or for arrays of them."""
-        return self.food * eaten + self.second * PARAMS.tick_s * ticks + self.bump * collisions
-
     def of_step(self, worlds: DrivenWorlds, actions: NDArray[np.uint8]) -> NDArray[np.float64]:
         """Carries out the robots' actions, and returns their rewards: shape (worlds, robots)."""
         before = worlds.ticks.astype(np.int64)
         worlds.step(actions)
-        ticks = (worlds.ticks - before)[:, np.newaxis]
-        return np.asarray(self.of(worlds.food_eaten, ticks, worlds.collisions))
+        seconds = PARAMS.tick_s * (worlds.ticks - before)[:, np.newaxis]
+        return np.asarray(self.food * worlds.food_eaten + self.second * seconds + self.bump * worlds.collisions)
 
 
 def senses_space() -> spaces.Box:
@@ -73,7 +69,8 @@ def driven_worlds(worlds: int, robots: int, limit_s: float, step_ticks: int | No
     """
     if not 1 <= robots <= NODE_MAX:
         raise error.Error(f"{robots} robots do not fit: give 1 to {NODE_MAX}")
-    check_seconds(limit_s)
+    if not PARAMS.tick_s <= limit_s <= SECONDS_MAX:
+        raise error.Error(f"{limit_s} s is not a possible length: give {PARAMS.tick_s} to {SECONDS_MAX:.0f} s")
     if step_ticks is not None and not 1 <= step_ticks <= STEP_TICKS_MAX:
         raise error.Error(f"step_ticks is {step_ticks}: give 1 to {STEP_TICKS_MAX}, or None")
     try:
@@ -91,16 +88,6 @@ def check_open(closed: bool) -> None:
         raise error.ClosedEnvironmentError("the environment was closed: make a new one")
 
 
-def check_seconds(seconds: float) -> None:
-    """Checks the length of a step or of an episode.
-
-    Raises:
-        error.Error: The length is out of its range.
-    """
-    if not PARAMS.tick_s <= seconds <= SECONDS_MAX:
-        raise error.Error(f"{seconds} s is not a possible length: give {PARAMS.tick_s} to {SECONDS_MAX:.0f} s")
-
-
 def draw_environment(draws: np.random.Generator, robots: int) -> tuple[Layout, int]:
     """Draws an environment with room for the robots. Returns it and the seed used for it and the bodies.
 
@@ -114,11 +101,11 @@ def draw_environment(draws: np.random.Generator, robots: int) -> tuple[Layout, i
     raise error.Error(f"{robots} robots are too many: none of {_DRAWS} random arenas has room for them")
 
 
-def chosen_environment(options: dict[str, Any] | None) -> tuple[int, int] | None:
-    """Seed and number in the options of `reset`, `{"environment": (seed, number)}`; None if they have none.
+def chosen_layout(options: dict[str, Any] | None, robots: int) -> tuple[Layout, int] | None:
+    """The environment in the options of `reset`, `{"environment": (seed, number)}`, and its seed; None if not given.
 
     Raises:
-        error.Error: The option is not a seed and a number.
+        error.Error: The option is not a seed and a number, or that environment has no room for the robots.
     """
     if not options or "environment" not in options:
         return None
@@ -127,21 +114,10 @@ def chosen_environment(options: dict[str, Any] | None) -> tuple[int, int] | None
     except (TypeError, ValueError):
         seed = number = -1
     if not 0 <= seed < SEED_SPAN or not 1 <= number <= NUMBER_MAX:
-        raise error.Error(
-            f"environment is {options['environment']!r}: give a seed 0..{SEED_SPAN - 1} and a number 1..{NUMBER_MAX}"
-        )
-    return seed, number
-
-
-def chosen_layout(options: dict[str, Any] | None, robots: int) -> tuple[Layout, int] | None:
-    """The environment selected by the options of `reset`, and its seed; None if there is none.
-
-    Raises:
-        error.Error: There is no such environment, or it has no room for the robots.
-    """
-    chosen = chosen_environment(options)
+        given = f"environment is {options['environment']!r}"
+        raise error.Error(f"{given}: give a seed 0..{SEED_SPAN - 1} and a number 1..{NUMBER_MAX}")
     try:
-        return chosen and (generate(*chosen, PARAMS, robots), chosen[0])
+        return generate(seed, number, PARAMS, robots), seed
     except NoRoomError as fault:
         raise error.Error(f"{robots} robots are too many: {fault}") from None
 
@@ -166,15 +142,11 @@ def checked_actions(actions: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
     Raises:
         error.InvalidAction: They are not integers from 0 to 5 in this shape.
     """
-    given = _as_array(actions)
+    try:
+        given = np.asarray(actions)
+    except (ValueError, OverflowError):
+        given = np.asarray(None)
     if given.shape != shape or given.dtype.kind not in "iu" or not np.all((given >= 0) & (given < action_count())):
         needed = f"whole numbers 0..{action_count() - 1} of shape {shape}"
         raise error.InvalidAction(f"{actions!r} is not an action: give {needed}")
     return given.astype(np.uint8)
-
-
-def _as_array(given: Any) -> NDArray[Any]:
-    try:
-        return np.asarray(given)
-    except (ValueError, OverflowError):
-        return np.asarray(None)
