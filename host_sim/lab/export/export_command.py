@@ -48,22 +48,15 @@ def _parquet(path: Path, frames: "Iterable[Recorded]") -> None:
     write_parquet(path, frames)
 
 
-def _asc(path: Path, frames: "Iterable[Recorded]") -> None:
-    from can import ASCWriter
+def _can(name: str) -> "Callable[[Path, Iterable[Recorded]], None]":
+    """A writer of python-can, by its name."""
 
-    _write(ASCWriter(path), frames)
+    def write(path: Path, frames: "Iterable[Recorded]") -> None:
+        import can
 
+        _write(getattr(can, name)(path), frames)
 
-def _blf(path: Path, frames: "Iterable[Recorded]") -> None:
-    from can import BLFWriter
-
-    _write(BLFWriter(path), frames)
-
-
-def _trc(path: Path, frames: "Iterable[Recorded]") -> None:
-    from can import TRCWriter
-
-    _write(TRCWriter(path), frames)
+    return write
 
 
 def _mf4(path: Path, frames: "Iterable[Recorded]") -> None:
@@ -91,9 +84,9 @@ def _write(writer: "MessageWriter", frames: "Iterable[Recorded]") -> None:
 FORMATS = {
     "csv": Format("a table with a row for each frame and a column for each signal", _csv),
     "parquet": Format("the same table as Parquet", _parquet, library="pyarrow"),
-    "asc": Format("frames in Vector's ASC format", _asc, _YEAR_9999_S),
-    "blf": Format("frames in Vector's BLF format", _blf, _YEAR_9999_S),
-    "trc": Format("frames in PEAK's TRC format", _trc, _YEAR_9999_S),
+    "asc": Format("frames in Vector's ASC format", _can("ASCWriter"), _YEAR_9999_S),
+    "blf": Format("frames in Vector's BLF format", _can("BLFWriter"), _YEAR_9999_S),
+    "trc": Format("frames in PEAK's TRC format", _can("TRCWriter"), _YEAR_9999_S),
     "mf4": Format("frames as the bus logging of ASAM MDF 4", _mf4, _NANOSECONDS_S, "asammdf"),
 }
 _EXAMPLES = """\
