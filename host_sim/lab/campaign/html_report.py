@@ -103,14 +103,14 @@ def _lines(outcome: Outcome) -> list[str]:
     return [line for line in lines if line]
 
 
+def _row(fault: str, cells: Iterable[str], more: str = "") -> str:
+    return f'<tr><th scope="row">{escape(fault or "no fault")}{more}</th>{"".join(cells)}</tr>\n'
+
+
 def _bad(outcomes: Sequence[Outcome]) -> str:
     """The failed runs, which need attention first."""
-    rows = "".join(
-        f'<tr><th scope="row">{escape(each.cell.fault or "no fault")}<p>{escape(each.cell.configuration)}</p></th>'
-        f"{_cell(each)}</tr>\n"
-        for each in outcomes
-        if each.problems
-    )
+    bad = [each for each in outcomes if each.problems]
+    rows = "".join(_row(it.cell.fault, [_cell(it)], f"<p>{escape(it.cell.configuration)}</p>") for it in bad)
     return f"<h2>Not as they should be</h2>\n<table><tbody>\n{rows}</tbody></table>\n" if rows else ""
 
 
@@ -131,23 +131,21 @@ def _figures(outcomes: Sequence[Outcome]) -> str:
     """The campaign's figures: the number of runs with a fault that meet each requirement."""
     faulty = [outcome for outcome in outcomes if outcome.cell.fault]
     counts = {
-        "safe: no wheel turned for more than 100 ms without a new drive": [
-            "unsafe" not in outcome.problems for outcome in faulty
-        ],
-        "seen: counted, told, or without any effect": ["unseen" not in outcome.problems for outcome in faulty],
-        "recovered: the robot took part again to the end": [outcome.recovered for outcome in faulty],
-        "learned nothing wrong": [not outcome.wrong for outcome in faulty],
-        "learned nothing wrong without a warning": [
-            "wrong without a warning" not in outcome.problems for outcome in faulty
-        ],
+        "safe: no wheel turned for more than 100 ms without a new drive": _without("unsafe", faulty),
+        "seen: counted, told, or without any effect": _without("unseen", faulty),
+        "recovered: the robot took part again to the end": sum(outcome.recovered for outcome in faulty),
+        "learned nothing wrong": sum(not outcome.wrong for outcome in faulty),
+        "learned nothing wrong without a warning": _without("wrong without a warning", faulty),
     }
-    rows = "".join(
-        f'<tr><th scope="row">{name}</th><td>{sum(are)} of {len(are)}</td></tr>' for name, are in counts.items()
-    )
+    rows = "".join(_row(name, [f"<td>{count} of {len(faulty)}</td>"]) for name, count in counts.items())
     slowest = max((outcome.rest_ms for outcome in outcomes), default=0)
-    rows += f'<tr><th scope="row">longest time to rest</th><td>{slowest} ms</td></tr>'
+    rows += _row("longest time to rest", [f"<td>{slowest} ms</td>"])
     head = '<thead><tr><th scope="col">runs with a fault</th><th scope="col">how many</th></tr></thead>'
     return f"<table>{head}<tbody>{rows}</tbody></table>\n"
+
+
+def _without(problem: str, outcomes: Sequence[Outcome]) -> int:
+    return sum(problem not in outcome.problems for outcome in outcomes)
 
 
 def _table(profile: str, outcomes: Sequence[Outcome]) -> str:
@@ -155,12 +153,7 @@ def _table(profile: str, outcomes: Sequence[Outcome]) -> str:
     columns = dict.fromkeys((outcome.cell.link, outcome.cell.pace) for outcome in outcomes)
     found = {(each.cell.fault, (each.cell.link, each.cell.pace)): each for each in outcomes}
     head = "".join(f'<th scope="col">{escape(f"{link}, {pace}")}</th>' for link, pace in columns)
-    rows = "".join(
-        f'<tr><th scope="row">{escape(fault or "no fault")}</th>'
-        + "".join(_cell(found.get((fault, column))) for column in columns)
-        + "</tr>\n"
-        for fault in faults
-    )
+    rows = "".join(_row(fault, [_cell(found.get((fault, column))) for column in columns]) for fault in faults)
     return (
         f'<h2 id="{escape(profile)}">{escape(profile)}</h2>\n'
         f'<div class="wide" role="region" tabindex="0" aria-label="{escape(profile)}"><table><thead><tr>'
