@@ -1,5 +1,6 @@
 """Runs in processes of their own that a signal or a full disk interrupts, and what is left of their memory."""
 
+import ctypes
 import mmap
 import os
 import resource
@@ -18,73 +19,58 @@ from host_sim.recording.memory_file import MemorySaver
 BEFORE = bytes([0, 0, 0, 0, 0, 0, 0, 2])
 """What the memory files hold at first."""
 
-_CELLS = 8
 _WORDS = ("run", "--environments", "1", "--limit-s", "25", "--seed", "12", "--bus", "none", "--quiet")
 
 Interruption = Callable[[], None]
 Save = Callable[..., None]
 
 
-class Witness:
-    """What a run was about to save, in memory that outlives its process."""
+class Witness(ctypes.Structure):
+    """What a run was about to save, in memory that outlives its process.
+
+    Attributes:
+        saves: Number of different memories that were to be saved, one after the other.
+        instructions: Number of Python instructions of a run to which nothing happens.
+        saving: Number of those that saved a memory.
+        is_saving: Whether a memory is being saved.
+    """
+
+    _Eight = ctypes.c_ubyte * 8
+    _Number = ctypes.c_uint64
+    _fields_ = (
+        *(("_last", _Eight), ("_saved", _Eight)),
+        *(("saves", _Number), ("instructions", _Number), ("saving", _Number)),
+    )
+    is_saving = False
+
+    def __new__(cls) -> "Witness":
+        return cls.from_buffer(mmap.mmap(-1, mmap.PAGESIZE))
 
     def __init__(self) -> None:
-        self._map = mmap.mmap(-1, mmap.PAGESIZE)
-        self._put(0, BEFORE)
-        self._put(1, BEFORE)
-        self.is_saving = False
-
-    def _put(self, at: int, content: bytes) -> None:
-        self._map[at * _CELLS : (at + 1) * _CELLS] = content
-
-    def _get(self, at: int) -> bytes:
-        return self._map[at * _CELLS : (at + 1) * _CELLS]
-
-    def _number(self, at: int) -> int:
-        return int.from_bytes(self._get(at), "big")
+        self._last[:] = self._saved[:] = BEFORE
 
     def watch(self, save: Save) -> Save:
         """`MemorySaver.save`, watched."""
 
         def watched(saver: MemorySaver, memory: Sequence[int], *, doubtful: bool = False) -> None:
-            self._put(2, (self.saves + (bytes(memory) != self.last)).to_bytes(_CELLS, "big"))
-            self._put(0, bytes(memory))
+            self.saves += bytes(memory) != self.last
+            self._last[:] = memory
             self.is_saving = self.last != self.saved
             save(saver, memory, doubtful=doubtful)
             self.is_saving = False
-            self._put(1, bytes(memory))
+            self._saved[:] = memory
 
         return watched
-
-    def note_instructions(self, every: int, of_saving: int) -> None:
-        """Notes how many Python instructions there were so far."""
-        self._put(3, every.to_bytes(_CELLS, "big"))
-        self._put(4, of_saving.to_bytes(_CELLS, "big"))
 
     @property
     def last(self) -> bytes:
         """What was to be saved last."""
-        return self._get(0)
+        return bytes(self._last)
 
     @property
     def saved(self) -> bytes:
         """What was saved last for certain: the last one, or the one before it."""
-        return self._get(1)
-
-    @property
-    def saves(self) -> int:
-        """Number of different memories that were to be saved, one after the other."""
-        return self._number(2)
-
-    @property
-    def instructions(self) -> int:
-        """Number of Python instructions of a run to which nothing happens."""
-        return self._number(3)
-
-    @property
-    def saving(self) -> int:
-        """Number of those that saved a memory."""
-        return self._number(4)
+        return bytes(self._saved)
 
 
 @dataclass(frozen=True)
@@ -132,7 +118,7 @@ def at_instruction(number: int, signal_number: int, witness: Witness, *, only_sa
         if counts[only_saving] == number and (witness.is_saving or not only_saving):
             os.kill(os.getpid(), signal_number)
         elif not number:
-            witness.note_instructions(*counts.values())
+            witness.instructions, witness.saving = counts.values()
 
     return lambda: before_each_instruction(count)
 
