@@ -32,32 +32,19 @@ def fleet_figures() -> list[Figure]:
     processors = len(os.sched_getaffinity(0))
     single = Value("one robot with its frames", _single_ticks_per_second)
     own = Value("fleet of 1,000, each in its own world", _fleet_ticks_per_second)
+    in_c = Value("one robot with its frames, article in a C file", partial(_single_ticks_per_second, _TEMPLATE))
+    fleet_in_c = Value("the same fleet, article in a C file", partial(_fleet_ticks_per_second, profile=_TEMPLATE))
+    kits = Value("fleet of 1,000 with bodies of the kit", partial(_fleet_ticks_per_second, body_kind(KIT)))
+    whole = Value(f"fleet of 1,000 with its worlds, processors: {processors}", _whole_fleet)
+    ticks = Value("vector environment of 1,000, a tick a step", partial(_steps_per_second, 1))
+    actions = Value("the same, an action a step", partial(_steps_per_second, None))
     return [
         rate(own, single, 2),
-        rate(
-            Value("one robot with its frames, article in a C file", partial(_single_ticks_per_second, _TEMPLATE)),
-            single,
-            0.9,
-        ),
-        rate(
-            Value("the same fleet, article in a C file", partial(_fleet_ticks_per_second, profile=_TEMPLATE)),
-            own,
-            0.9,
-        ),
-        rate(
-            Value("fleet of 1,000 with bodies of the kit", partial(_fleet_ticks_per_second, body_kind(KIT))), own, 0.3
-        ),
-        rate(
-            Value(f"fleet of 1,000 with its worlds, processors: {processors}", _whole_fleet),
-            Value("the same on one of them", _whole_fleet_on_one),
-            0.95 * processors,
-        ),
-        rate(
-            Value("vector environment of 1,000, a tick a step", partial(_steps_per_second, 1)),
-            Value("the same, an action a step", partial(_steps_per_second, None)),
-            2,
-            "steps/s",
-        ),
+        rate(in_c, single, 0.9),
+        rate(fleet_in_c, own, 0.9),
+        rate(kits, own, 0.3),
+        rate(whole, Value("the same on one of them", _whole_fleet_on_one), 0.95 * processors),
+        rate(ticks, actions, 2, "steps/s"),
     ]
 
 

@@ -37,30 +37,21 @@ _NUMPY = "import time, numpy; print(1000 * time.process_time())"
 
 def lockstep_figures() -> list[Figure]:
     """The rows of one robot, without vcan."""
-    real_time = Value("real time", lambda: _REAL_TIME_PER_S)
     with TemporaryDirectory() as folder, on_one_processor():
-        start = Value(
-            "processor time until the first tick", partial(_ms, "-m", "host_sim.lab.bench.first_tick", folder)
-        )
+        first_tick = partial(_ms, "-m", "host_sim.lab.bench.first_tick", folder)
+        start = Value("processor time until the first tick", first_tick)
+        # On one processor: across processors, idle states would dominate a frame's time.
+        pair = Value("lockstep over a socket pair", partial(_ticks_per_second, "fd", _WHOLE_S))
         rows = [
             cost(start, Value("Python with numpy", partial(_ms, "-c", _NUMPY)), 1.6),
-            # On one processor: across processors, idle states would dominate a frame's time.
-            rate(
-                Value("lockstep over a socket pair", partial(_ticks_per_second, "fd", _WHOLE_S)),
-                Value("C ping-pong over a socket pair", _c_turns_per_second),
-                0.7,
-            ),
+            rate(pair, Value("C ping-pong over a socket pair", _c_turns_per_second), 0.7),
         ]
-    return [
-        *rows,
-        rate(
-            Value("in process, with log and trajectory", partial(_recorded_ticks_per_second, True)),
-            Value("the same in Python", partial(_recorded_ticks_per_second, False)),
-            12,
-        ),
-        rate(Value("CAN image on an emulated board", partial(_image_ticks_per_second, "emulated")), real_time, 160),
-        rate(Value("slcan image in QEMU", partial(_image_ticks_per_second, "qemu")), real_time, 4),
-    ]
+    within = Value("in process, with log and trajectory", partial(_recorded_ticks_per_second, True))
+    in_python = Value("the same in Python", partial(_recorded_ticks_per_second, False))
+    emulated = Value("CAN image on an emulated board", partial(_image_ticks_per_second, "emulated"))
+    qemu = Value("slcan image in QEMU", partial(_image_ticks_per_second, "qemu"))
+    real_time = Value("real time", lambda: _REAL_TIME_PER_S)
+    return [*rows, rate(within, in_python, 12), rate(emulated, real_time, 160), rate(qemu, real_time, 4)]
 
 
 def vcan_figure() -> Figure:

@@ -46,22 +46,14 @@ def page_figures() -> list[Figure]:
     with sync_playwright() as playwright, TemporaryDirectory() as name:
         browser, folder = playwright.chromium.launch(executable_path=_CHROMIUM, args=["--no-sandbox"]), Path(name)
         try:
+            drawing = Value("drawing one frame, median", partial(_drawing_ms, browser, folder))
+            watched = Value("a run at full speed with a page", partial(_watched_ticks_per_second, browser, folder))
+            unwatched = Value("without a page", partial(_watched_ticks_per_second, None, folder))
+            recorded = Value("a recorded page, to its first picture", partial(_first_picture_ms, browser, folder))
             return [
-                cost(
-                    Value("drawing one frame, median", partial(_drawing_ms, browser, folder)),
-                    Value("a frame of the screen", lambda: _SCREEN_MS),
-                    0.25,
-                ),
-                rate(
-                    Value("a run at full speed with a page", partial(_watched_ticks_per_second, browser, folder)),
-                    Value("without a page", partial(_watched_ticks_per_second, None, folder)),
-                    0.9,
-                ),
-                cost(
-                    Value("a recorded page, to its first picture", partial(_first_picture_ms, browser, folder)),
-                    Value("an empty page", partial(_empty_page_ms, browser)),
-                    20,
-                ),
+                cost(drawing, Value("a frame of the screen", lambda: _SCREEN_MS), 0.25),
+                rate(watched, unwatched, 0.9),
+                cost(recorded, Value("an empty page", partial(_empty_page_ms, browser)), 20),
             ]
         finally:
             browser.close()
