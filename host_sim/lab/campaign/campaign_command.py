@@ -17,6 +17,12 @@ _LINKS = ("none", "fd", "external", "slcan", "vcan", *BOARDS, "pins")
 _JOBS = 16
 """Runs in lockstep at once: those with a robot in a process of its own mostly wait."""
 
+_PROFILES_HELP = f"behaviours: {', '.join(PROFILES)} (default: all)"
+_LINKS_HELP = (
+    "how to reach the robot: none (in this process), fd (socket pair), external (your own program), slcan (serial "
+    f"line), vcan (inside tools/with-vcan), or an emulated board: {', '.join(BOARDS)}; or pins: a stand-alone robot "
+    "on a Blue Pill (default: none)"
+)
 _EXAMPLES = """\
 examples:
   tools/octet campaign --html out/campaign.html              every behaviour in lockstep, within this process
@@ -45,47 +51,19 @@ def add(commands: Subparsers) -> None:
     )
     add = parser.add_argument
     add("--html", type=output_of(".html"), metavar="FILE.html", help="write the report here")
-    add(
-        "--profiles",
-        nargs="+",
-        choices=PROFILES,
-        default=list(PROFILES),
-        metavar="NAME",
-        help=f"behaviours: {', '.join(PROFILES)} (default: all)",
-    )
-    add(
-        "--links",
-        nargs="+",
-        choices=_LINKS,
-        default=["none"],
-        metavar="LINK",
-        help="how to reach the robot: none (in this process), fd (socket pair), external (your own program), slcan "
-        "(serial line), vcan (inside tools/with-vcan), or an emulated board: "
-        f"{', '.join(BOARDS)}; or pins: a stand-alone robot on a Blue Pill (default: none)",
-    )
+    profiles, links = list(PROFILES), ["none"]
+    add("--profiles", nargs="+", choices=PROFILES, default=profiles, metavar="NAME", help=_PROFILES_HELP)
+    add("--links", nargs="+", choices=_LINKS, default=links, metavar="LINK", help=_LINKS_HELP)
     add("--robot-command", default="", metavar="CMD", help="program to start as the robot, for --links external")
     add("--json", type=output_of(".json"), metavar="FILE.json", help="also write the outcomes as JSON")
     add("--junit", type=output_of(".xml"), metavar="FILE.xml", help="also write the outcomes as JUnit XML")
     add("--real-time", action="store_true", help="also run in real time (not with --links none)")
-    add(
-        "--limit-s",
-        type=number(1, 600, float),
-        metavar="S",
-        help="robot time of each run, 1..600 s (default: 60, in real time 10); longer for faults that show later",
-    )
-    add(
-        "--jobs",
-        type=number(1, 64),
-        metavar="N",
-        help=f"runs at once, each in a process (default: {_JOBS}; in real time and on vcan 1)",
-    )
-    add(
-        "--walk",
-        type=number(1, 100_000),
-        default=0,
-        metavar="N",
-        help="instead of each fault by itself, N random schedules of 1 to 6 faults; those that fail are shrunk",
-    )
+    limit = "robot time of each run, 1..600 s (default: 60, in real time 10); longer for faults that show later"
+    add("--limit-s", type=number(1, 600, float), metavar="S", help=limit)
+    jobs = f"runs at once, each in a process (default: {_JOBS}; in real time and on vcan 1)"
+    add("--jobs", type=number(1, 64), metavar="N", help=jobs)
+    walk = "instead of each fault by itself, N random schedules of 1 to 6 faults; those that fail are shrunk"
+    add("--walk", type=number(1, 100_000), default=0, metavar="N", help=walk)
     add("--seed", type=number(0, 2**32 - 1), default=1, help="seed of these schedules (default: %(default)d)")
     add("--repeat", metavar="RUN", help="rerun one run of a report and print its outcome")
     add("--shrink", metavar="RUN", help="find the smallest schedule of faults with the same outcome")

@@ -40,12 +40,8 @@ def add(commands: Subparsers) -> None:
     )
     add = parser.add_argument
     add("--robot-command", metavar="CMD", help="start this program as the robot, for each check")
-    add(
-        "--bus",
-        default="fd",
-        metavar="BUS",
-        help="fd (a socket pair, with --robot-command), or INTERFACE:CHANNEL (default: fd)",
-    )
+    bus = "fd (a socket pair, with --robot-command), or INTERFACE:CHANNEL (default: fd)"
+    add("--bus", default="fd", metavar="BUS", help=bus)
     add("--node", type=number(1, 31), default=1, help="the robot's node number, 1..31 (default: 1)")
     add("--json", type=output_of(".json"), metavar="FILE.json", help="also write the results as JSON")
     add("--junit", type=output_of(".xml"), metavar="FILE.xml", help="also write the results as JUnit XML")

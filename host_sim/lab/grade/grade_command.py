@@ -46,9 +46,8 @@ def add(commands: Subparsers) -> None:
     parser.add_argument("exercise", type=number(1, EXERCISES), metavar="N", help=f"the exercise, 1..{EXERCISES}")
     parser.add_argument("paths", nargs="+", type=file_path, metavar="FILE", help="a C file, or a folder with C files")
     parser.add_argument("--seed", type=number(0, 2**31), default=1, help="seed of worlds and robots (default: 1)")
-    for flag, what in zip(
-        _OUTPUTS, ("a page", "a table for spreadsheets", "a report in JUnit's format"), strict=True
-    ):
+    kinds = "a page", "a table for spreadsheets", "a report in JUnit's format"
+    for flag, what in zip(_OUTPUTS, kinds, strict=True):
         parser.add_argument(flag, type=file_path, metavar="FILE", help=f"write {what} to FILE")
     page = f"of one file: write the run up to its first wrong decision to {_PAGE}, and open it there"
     parser.add_argument("--page", action="store_true", help=page)

@@ -104,9 +104,8 @@ def plan_of(seeds: int) -> Plan:
 def main() -> None:
     """Prints the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument(
-        "--seeds", type=int, default=SEEDS, metavar="N", help="seeds to estimate from, and again to test on"
-    )
+    seeds = "seeds to estimate from, and again to test on"
+    parser.add_argument("--seeds", type=int, default=SEEDS, metavar="N", help=seeds)
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="processes")
     arguments = parser.parse_args()
     plan = plan_of(arguments.seeds)

@@ -49,32 +49,22 @@ def add(commands: Subparsers) -> None:
         stages=_stages,
     )
     add = parser.add_argument
-    words = (
-        f"folder of a study; its file, to run it as fleets, without logs; or profiles: {', '.join(PROFILES)}, MINE.C"
-    )
+    profiles = f"profiles: {', '.join(PROFILES)}, MINE.C"
+    words = f"folder of a study; its file, to run it as fleets, without logs; or {profiles}"
     add("what", nargs="+", metavar="STUDY|PROFILE", help=words)
-    add(
-        "--difference",
-        type=number(0.01, 100, float),
-        default=5,
-        metavar="PERCENT",
-        help="smallest difference of interest, %%; prints how many seeds it takes to detect it" + DEFAULT,
-    )
+    least = "smallest difference of interest, %%; prints how many seeds it takes to detect it" + DEFAULT
+    add("--difference", type=number(0.01, 100, float), default=5, metavar="PERCENT", help=least)
     add("--plots", type=file_path, metavar="FOLDER", help="draw plots into this folder")
-    add(
-        "--coverage",
-        type=number(10, 100_000),
-        metavar="N",
-        help="print how often the intervals from N seeds of the study contain the figures of all its seeds",
-    )
-    profiles = parser.add_argument_group("with profiles").add_argument
-    profiles("--seeds", type=number(1, 100_000), default=100, metavar="N", help="number of seeds" + DEFAULT)
-    profiles("--seed", type=number(0, 2**31), default=1, metavar="SEED", help="first seed" + DEFAULT)
-    profiles("--environments", type=number(1, 1000), default=5, metavar="N", help="environments per seed" + DEFAULT)
-    profiles("--set", type=settings, action="append", default=[], metavar="NAME=VALUE", help=_SET_HELP)
-    profiles("--body", default="ideal", metavar="BODY", help="the robots' bodies, as tools/run has them" + DEFAULT)
-    profiles("--change", action="append", default=[], metavar="CHANGE", help="one change, as tools/run has them")
-    profiles("--robot", choices=("spawn", "emulated"), default="spawn", help="where robots come from" + DEFAULT)
+    coverage = "print how often the intervals from N seeds of the study contain the figures of all its seeds"
+    add("--coverage", type=number(10, 100_000), metavar="N", help=coverage)
+    add = parser.add_argument_group("with profiles").add_argument
+    add("--seeds", type=number(1, 100_000), default=100, metavar="N", help="number of seeds" + DEFAULT)
+    add("--seed", type=number(0, 2**31), default=1, metavar="SEED", help="first seed" + DEFAULT)
+    add("--environments", type=number(1, 1000), default=5, metavar="N", help="environments per seed" + DEFAULT)
+    add("--set", type=settings, action="append", default=[], metavar="NAME=VALUE", help=_SET_HELP)
+    add("--body", default="ideal", metavar="BODY", help="the robots' bodies, as tools/run has them" + DEFAULT)
+    add("--change", action="append", default=[], metavar="CHANGE", help="one change, as tools/run has them")
+    add("--robot", choices=("spawn", "emulated"), default="spawn", help="where robots come from" + DEFAULT)
     add_workers(parser)
     parser.set_defaults(untouched={name: parser.get_default(name) for name in _OF_RUNS})
 

@@ -67,12 +67,14 @@ def _flat(values: Floats, take: Take) -> Floats:
     return values.reshape(*take.shape[:-1], -1)
 
 
+_BLOCKED = f"robot time from blocked to clear, mean; counted up to {TRAPPED_S:g} s"
 _TOWARD = "robots that at the end know a turn toward an obstacle beside them"
 _SCORE = "Heiserman's: turns after which the way was clear, of all turns"
 _KNOWN = "robot time until a turn is known for patterns 1, 3, 4 and 6, median"
 
 _BY_TOUR = "time until finished by that of the shortest tour, straight through all food without turning, median"
 _FIRST = "robots that at some time after the change knew the turns beside an obstacle, and no wrong one"
+_UNTIL = "contacts until then, median"
 _LASTING = "robots that still knew them, and no wrong one, when the run ended"
 
 FIGURES: dict[str, Figure] = {
@@ -80,13 +82,7 @@ FIGURES: dict[str, Figure] = {
     "median_s": Figure("median", "time until half of the environments are finished", " s", 0, _median("finished_s")),
     "mean_s": Figure("mean", "robot time of an environment, up to the limit of the run", " s", 0, _mean("robot_s")),
     "by_tour": Figure("by tour", _BY_TOUR, "", 2, _median("by_tour")),
-    "blocked_s": Figure(
-        "blocked",
-        f"robot time from blocked to clear, mean; counted up to {TRAPPED_S:g} s",
-        " s",
-        2,
-        _share("blocked_s", "contacts"),
-    ),
+    "blocked_s": Figure("blocked", _BLOCKED, " s", 2, _share("blocked_s", "contacts")),
     "trapped": _percentage("trapped", f"environments with more than {TRAPPED_S:g} s of that at once", "trapped"),
     "wrong": _percentage("wrong cells", _TOWARD, "wrong"),
     "bumped": _percentage("bumps", "environments in which a body touched something", "bumped"),
@@ -94,11 +90,9 @@ FIGURES: dict[str, Figure] = {
     "score": Figure("score", _SCORE, "", 2, _share("cleared", "turns")),
     "known_s": Figure("known", _KNOWN, " s", 0, _median("known_s")),
     "recovered": _percentage("recovered", _FIRST, "recovered"),
-    "recovery": Figure("after", "contacts until then, median", " contacts", 0, _median("recovery")),
+    "recovery": Figure("after", _UNTIL, " contacts", 0, _median("recovery")),
     "lasting": _percentage("lasting", _LASTING, "lasting"),
-    "lasting_recovery": Figure(
-        "to lasting recovery", "contacts until then, median", " contacts", 0, _median("settled")
-    ),
+    "lasting_recovery": Figure("to lasting recovery", _UNTIL, " contacts", 0, _median("settled")),
 }
 """The figures by their names in a study's goals."""
 

@@ -48,13 +48,8 @@ def add(commands: Subparsers) -> None:
     add("--set", type=settings, action="append", default=[], metavar="NAME=VALUE", help="fix a parameter at a value")
     add("--environments", type=number(1, 1000), default=2, metavar="N", help="environments per seed" + DEFAULT)
     add("--trials", type=number(4, 100_000), default=200, metavar="N", help="number of settings to try" + DEFAULT)
-    add(
-        "--seeds",
-        type=number(3, 100_000),
-        default=120,
-        metavar="N",
-        help="seeds for a generation's best settings" + DEFAULT,
-    )
+    seeds = "seeds for a generation's best settings" + DEFAULT
+    add("--seeds", type=number(3, 100_000), default=120, metavar="N", help=seeds)
     add("--held-out", type=number(2, 100_000), default=400, metavar="N", help="seeds for the comparison" + DEFAULT)
     add("--out", type=file_path, default=Path("out/tune"), metavar="FOLDER", help="folder for the results" + DEFAULT)
     add_workers(parser)
