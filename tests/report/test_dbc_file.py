@@ -19,8 +19,8 @@ from host_sim.protocol.codec import NODE_MAX, Frame, Protocol
 from host_sim.protocol.every_node import hear
 from host_sim.protocol.generated import MESSAGES
 from host_sim.recording.log_reader import read_log
-from host_sim.report.bus_load import frames_a_second, load_tables, worst_bits
 from host_sim.report.dbc_file import dbc_text
+from host_sim.report.protocol_page import frames_a_second, load_tables, worst_bits
 from host_sim.sim.run_config import RunConfig
 from tests.recording.support import open_simulation, record_run, run_through
 from tests.report.bits_sent import bits_sent, crc15

@@ -13,7 +13,7 @@ from host_sim.client.robot_reports import REPORTS
 from host_sim.protocol.codec import Frame, node_of
 from host_sim.protocol.every_node import hear
 from host_sim.recording.log_reader import read_log
-from host_sim.report.bus_load import robot_bits_a_second, worst_bits
+from host_sim.report.protocol_page import robot_bits_a_second, worst_bits
 from tests.report.bits_sent import bits_sent
 from tests.runs.slcan_adapter import Adapter
 from tests.runs.support import Run, assert_healthy, octet, robot_at

@@ -26,7 +26,7 @@ install(FILES ${OCTET_GENERATED}/robot_words.h DESTINATION ${tree}/build/host/ge
 
 file(GLOB pins RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/hal/*/boards/*.cmake
   ${PROJECT_SOURCE_DIR}/hal/*/pins.toml ${PROJECT_SOURCE_DIR}/hal/stm32/*/pins.toml)
-foreach(file docs/tables/atlas-map.csv firmware/io.h firmware/memory/memory.h hal/link/link.h firmware/motion/speed_control.h host_sim/program/own/mine.c
+foreach(file docs/protocol.md docs/tables/atlas-map.csv firmware/io.h firmware/memory/memory.h hal/link/link.h firmware/motion/speed_control.h host_sim/program/own/mine.c
     hal/pins_body/wiring.toml hal/protocol/octet.dbc hal/protocol/robot.toml ${pins})
   get_filename_component(folder ${file} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/${file} DESTINATION ${tree}/${folder})
