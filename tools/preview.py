@@ -8,8 +8,7 @@ from PIL import Image
 
 from host_sim.api import RunConfig, resimulate, run
 from host_sim.report.animation import draw_frame
-from host_sim.report.drawing import PAPER, write, write_image
-from host_sim.report.palette import in_palette
+from host_sim.report.drawing import PAPER, in_palette, write, write_image
 
 SIZE, MARGIN, ARENA_PX = (1280, 640), 40, 700
 WORDS = ("A small robot that", "teaches itself to avoid", "obstacles, with eight", "bytes of memory.")

@@ -12,9 +12,12 @@ from host_sim.recording.phrases import lesson_sentence, sentence
 from host_sim.recording.state_types import Lesson, State
 from host_sim.recording.trajectory import RobotTrack, Trajectory, at
 from host_sim.report.drawing import (
+    BEAM,
     CONE_DARK,
     CONE_LIT,
     FLOOR,
+    IN_USE,
+    LEARNED,
     PAPER,
     Plan,
     draw_cell,
@@ -22,10 +25,10 @@ from host_sim.report.drawing import (
     draw_robot,
     draw_scene,
     draw_trail,
+    in_palette,
     write,
     write_image,
 )
-from host_sim.report.palette import BEAM, IN_USE, LEARNED, in_palette
 from host_sim.world.geometry import Pose, SimParams, ahead_of
 from host_sim.world.native_world import CONE_BEARINGS_DEG
 

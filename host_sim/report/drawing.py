@@ -1,13 +1,14 @@
-"""Common drawing functions: a plan in mm with its colours, and robot, food, cones and cells on it."""
+"""Common drawing functions: a plan in mm, robot, food, cones and cells on it, sheets of images, and a palette."""
 
 import math
 from collections.abc import Iterable, Sequence
+from functools import cache
 from io import BytesIO
-from itertools import groupby
+from itertools import combinations, groupby
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageColor, ImageDraw, ImageFont
 
 from host_sim.base.files import write_bytes
 from host_sim.protocol.generated import FEEL, Reason, Side
@@ -18,6 +19,11 @@ from host_sim.world.native_world import CONE_BEARINGS_DEG, cone_outline
 
 PAPER, INK, FLOOR, OBSTACLE = "#ffffff", "#20262e", "#f6f5f1", "#4b535d"
 CONE_LIT, CONE_DARK = "#e69f00", "#e1e4e8"
+BEAM, IN_USE, LEARNED = "#d8efe7", "#fdeecb", "#bfe5d8"
+WIDTH_PX, MARGIN_PX, GAP_PX = 1608, 36, 24
+LINE_PX, TEXT_PX, HEADING_PX = 30, 18, 21
+"""Measures of a sheet: rows of images under lines of text."""
+
 FOOD_MM = 100.0
 FRONT_BITS = (FEEL["FRONT_RIGHT"], FEEL["FRONT"], FEEL["FRONT_LEFT"])
 """The bits of feel that form the pattern: front-right, front, front-left."""
@@ -218,3 +224,52 @@ def write_world_picture(path: Path, layout: Layout, params: SimParams, width_px:
     for start in layout.starts:
         draw_robot(plan, start, 2 * params.body_radius_mm, PAPER)
     write_image(path, plan.done().quantize(), "PNG", optimize=True)
+
+
+def titled(title: str, image: Image.Image) -> Image.Image:
+    """An image under a line of text."""
+    sheet = Image.new("RGB", (image.width, image.height + LINE_PX), PAPER)
+    sheet.paste(image, (0, LINE_PX))
+    write(sheet, (0, LINE_PX * 0.4), title, HEADING_PX, "lm")
+    return sheet
+
+
+def abreast(images: Sequence[Image.Image], gap_px: int) -> Image.Image:
+    """Images of one size side by side."""
+    step = images[0].width + gap_px
+    row = Image.new("RGB", (len(images) * step - gap_px, images[0].height), PAPER)
+    for i, image in enumerate(images):
+        row.paste(image, (i * step, 0))
+    return row
+
+
+def stacked(rows: Sequence[Image.Image]) -> Image.Image:
+    """Rows one below the other on the finished sheet."""
+    height = 2 * MARGIN_PX + sum(row.height for row in rows) + (len(rows) - 1) * GAP_PX
+    sheet = Image.new("RGB", (WIDTH_PX + 2 * MARGIN_PX, height), PAPER)
+    y = MARGIN_PX
+    for row in rows:
+        sheet.paste(row, (MARGIN_PX, y))
+        y += row.height + GAP_PX
+    return sheet
+
+
+def in_palette(image: Image.Image) -> Image.Image:
+    """An image with each of its colours replaced by the nearest one of the palette."""
+    return image.quantize(palette=_palette(), dither=Image.Dither.NONE)
+
+
+@cache
+def _palette() -> Image.Image:
+    """The drawing colours, with their blends into paper and floor, and halfway into each other.
+
+    One palette serves all pictures: computing the best one for each takes longer than drawing.
+    """
+    drawn = (PAPER, FLOOR, INK, OBSTACLE, CONE_LIT, CONE_DARK, BEAM, IN_USE, LEARNED)
+    bases = dict.fromkeys(map(ImageColor.getrgb, (*drawn, *(mark.colour for mark in MARKS.values()))))
+    blends = [(a, b, 0.5) for a, b in combinations(bases, 2)]
+    blends += [(a, ImageColor.getrgb(b), part) for a in bases for b in (PAPER, FLOOR) for part in (0.25, 0.75)]
+    mixed = [tuple(round(x + (y - x) * part) for x, y in zip(a, b, strict=True)) for a, b, part in blends]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([value for colour in [*bases, *mixed] for value in colour])
+    return palette

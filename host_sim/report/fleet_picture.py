@@ -11,17 +11,23 @@ from host_sim.recording.fleet_summary import learned
 from host_sim.report.drawing import (
     FLOOR,
     FOOD_MM,
+    GAP_PX,
     INK,
+    LINE_PX,
     PAPER,
+    TEXT_PX,
+    WIDTH_PX,
     Plan,
+    abreast,
     draw_cell,
     draw_food,
     draw_obstacles,
     draw_robot,
+    stacked,
+    titled,
     write,
     write_image,
 )
-from host_sim.report.sheet import GAP_PX, LINE_PX, TEXT_PX, WIDTH_PX, abreast, stacked, titled
 from host_sim.sim.fleet import FleetResult
 from host_sim.world.geometry import SimParams
 from host_sim.world.layouts import Layout

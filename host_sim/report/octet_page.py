@@ -4,6 +4,7 @@ import csv
 import re
 from collections.abc import Mapping
 from dataclasses import asdict
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +15,8 @@ from host_sim.protocol.generated import PARAMETERS
 from host_sim.recording.state import measures
 from host_sim.report.laboratory import NO_FIRMWARE
 from host_sim.report.page_bundle import packed, packed_page, page_of, script, with_data
-from host_sim.report.speakers import with_speakers
-from host_sim.talk.languages import template, with_languages
+from host_sim.talk.conversation import SPEAKERS, script_named, texts_of
+from host_sim.talk.languages import as_script, template, with_languages
 from host_sim.world.names import STILL_WORLDS
 from host_sim.world.worlds import world_of
 
@@ -97,7 +98,17 @@ def _with_parts(page: str, others: Mapping[str, Any]) -> str:
     parts = {"worlds": world_dimensions(), **common, **others}
     if "why" not in parts:
         parts |= {"wasm": packed(_wasm()), "worker": script(_WORKER)}
-    return with_speakers(with_data(page, "parts", parts))
+    return with_data(with_data(page, "parts", parts), "speakers", _speakers())
+
+
+@cache
+def _speakers() -> str:
+    return packed(as_script(speakers()))
+
+
+def speakers() -> dict[str, Any]:
+    """The speakers by name: `script` from `host_sim.talk.script`, and `texts` from `host_sim.talk.texts`."""
+    return {name: {"script": script_named(name), "texts": texts_of(name)} for name in SPEAKERS}
 
 
 def _wasm() -> bytes:

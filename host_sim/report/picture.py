@@ -12,22 +12,28 @@ from host_sim.recording.trajectory import Trajectory, at
 from host_sim.report.drawing import (
     FLOOR,
     FOOD_MM,
+    GAP_PX,
     INK,
+    LINE_PX,
     MARKS,
     PAPER,
     PATHS,
+    TEXT_PX,
+    WIDTH_PX,
     Plan,
+    abreast,
     draw_cell,
     draw_food,
     draw_mark,
     draw_robot,
     draw_scene,
     draw_trail,
+    in_palette,
+    stacked,
+    titled,
     write,
     write_image,
 )
-from host_sim.report.palette import in_palette
-from host_sim.report.sheet import GAP_PX, LINE_PX, TEXT_PX, WIDTH_PX, abreast, stacked, titled
 from host_sim.world.geometry import Point, Pose, SimParams
 
 _MOST_ENVIRONMENTS, _COLUMNS = 9, 3
