@@ -10,6 +10,7 @@ from host_sim.lab.check.talk import (
     answering,
     damaged,
     expect,
+    expect_of_another,
     one,
     sentence,
     without_silence,
@@ -122,28 +123,23 @@ def _the_same_command_gets_the_same_answer(talk: Talk) -> None:
     _expect_held(talk, crc32(command.data[1:], held))
 
 
-def _expect_of_another(talk: Talk, opcode: Opcode, wanted: Result, when: str) -> None:
-    result = talk.result(opcode, owner=2).signals["result"]
-    expect(result == wanted, f"{when}, another sender's {opcode.name.lower()} gets result {result}")
-
-
 @sentence("O1")
 def _stop_ends_the_ownership(talk: Talk) -> None:
     talk.drive_once()
     talk.stop(owner=1)
-    _expect_of_another(talk, Opcode.GET, Result.DONE, "after the owner's stop")
+    expect_of_another(talk, Opcode.GET, Result.DONE, "after the owner's stop")
 
 
 @sentence("O4")
 def _others_are_refused(talk: Talk) -> None:
     talk.drive_once()
-    _expect_of_another(talk, Opcode.ERASE, Result.OWNED, "while it has an owner")
+    expect_of_another(talk, Opcode.ERASE, Result.OWNED, "while it has an owner")
 
 
 @sentence("O5")
 def _anybody_may_stop_it(talk: Talk) -> None:
     talk.drive_once()
-    _expect_of_another(talk, Opcode.STOP, Result.DONE, "while it has an owner")
+    expect_of_another(talk, Opcode.STOP, Result.DONE, "while it has an owner")
 
 
 @sentence("O6")

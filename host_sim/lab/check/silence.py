@@ -3,7 +3,7 @@
 from itertools import pairwise
 from statistics import median
 
-from host_sim.lab.check.talk import SeenFrame, Talk, expect, one, sentence, without_silence
+from host_sim.lab.check.talk import SeenFrame, Talk, expect, expect_of_another, one, sentence, without_silence
 from host_sim.protocol.generated import TICK_SPAN, Opcode, Reason, Result
 
 _SILENCE_S, _LATE_S = 0.1, 0.08
@@ -113,24 +113,17 @@ def _in_lockstep_silence_is_no_fault(talk: Talk) -> None:
     talk.drive()
 
 
-def _result_for_another(talk: Talk) -> int:
-    return talk.result(Opcode.GET, owner=2).signals["result"]
-
-
 @sentence("O2")
 def _silence_ends_the_ownership(talk: Talk) -> None:
     _started(talk)
     talk.hear(2 * _SILENCE_S)
-    result = _result_for_another(talk)
-    expect(result == Result.DONE, f"after 200 ms without SENSES, another sender's command gets result {result}")
+    expect_of_another(talk, Opcode.GET, Result.DONE, "after 200 ms without SENSES")
 
 
 @sentence("O3")
 def _in_lockstep_only_a_second_of_silence_does(talk: Talk) -> None:
     _started(talk, lockstep=1)
     talk.hear(3 * _SILENCE_S)
-    early = _result_for_another(talk)
-    expect(early == Result.OWNED, f"in lockstep, after 300 ms another sender's command gets result {early}")
+    expect_of_another(talk, Opcode.GET, Result.OWNED, "in lockstep, after 300 ms")
     talk.hear(_LONG_S)
-    late = _result_for_another(talk)
-    expect(late == Result.DONE, f"in lockstep, after 1.6 s another sender's command gets result {late}")
+    expect_of_another(talk, Opcode.GET, Result.DONE, "in lockstep, after 1.6 s")

@@ -13,6 +13,7 @@ from host_sim.protocol.generated import (
     Fault,
     Opcode,
     Reason,
+    Result,
     Senses,
 )
 from host_sim.transport.link import Clock, Frame, Link
@@ -219,6 +220,16 @@ def expect(is_so: bool, otherwise: str) -> None:
     """
     if not is_so:
         raise BrokenError(otherwise)
+
+
+def expect_of_another(talk: Talk, opcode: Opcode, wanted: Result, when: str) -> None:
+    """Checks the result of another sender's command.
+
+    Raises:
+        BrokenError: It is another result.
+    """
+    result = talk.result(opcode, owner=2).signals["result"]
+    expect(result == wanted, f"{when}, another sender's {opcode.name.lower()} gets result {result}")
 
 
 Check = Callable[[Talk], None]
