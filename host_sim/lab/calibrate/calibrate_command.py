@@ -139,15 +139,9 @@ def _print(before: Mapping[str, int], after: Mapping[str, int], true: Mapping[st
     from host_sim.lab.calibrate.calibration import CALIBRATION_VALUES
     from host_sim.lab.table import aligned
 
-    head = ("", "before", "now", *(("true",) if true else ()), "unit")
-    rows = [
-        (
-            name,
-            str(before[name]),
-            str(after[name]),
-            *((f"{true[name]:.1f}",) if true else ()),
-            CALIBRATION_VALUES[name].unit,
-        )
-        for name in CALIBRATION_VALUES
-    ]
+    head = ("", "before", "now", *["true"] * bool(true), "unit")
+    rows = []
+    for name, row in CALIBRATION_VALUES.items():
+        shown = [f"{true[name]:.1f}"] if true else []
+        rows.append((name, str(before[name]), str(after[name]), *shown, row.unit))
     print("\n".join(aligned([head, *rows], right=range(1, len(head) - 1))))

@@ -30,7 +30,7 @@ class Learned:
     """The result of a learner.
 
     Attributes:
-        table: Shape (states, actions): value of a action. A state is the front sensors' pattern, whether food is
+        table: Shape (states, actions): value of an action. A state is the front sensors' pattern, whether food is
             seen, and the last action.
         food: Pieces of food eaten in each episode of a minute, in the order in which the episodes ended.
         steps: For each episode, the step in which it ended.
@@ -61,9 +61,8 @@ def learn(seed: int, steps: int = STEPS) -> Learned:
         senses, reward, ended, truncated, _ = env.step(actions)
         after, goes_on = _states(senses, actions), ~(ended | truncated)
         target = reward + _DISCOUNT * goes_on * values.reshape(-1, _ACTIONS)[after].max(-1)
-        cell = (state * _ACTIONS + actions)[
-            ~over
-        ]  # a step after an end only begins the next episode and teaches nothing
+        # A step after an end only begins the next episode, and teaches nothing.
+        cell = (state * _ACTIONS + actions)[~over]
         times = np.bincount(cell, minlength=len(values))
         error = np.bincount(cell, (target - values[state * _ACTIONS + actions])[~over], len(values))
         values += (1 - (1 - max(0.01, 0.2 - 0.4 * part)) ** times) * error / np.maximum(times, 1)

@@ -110,34 +110,25 @@ class Window:
 
 def frame(worlds: DrivenWorlds, world: int) -> Frame:
     """Draws a world; raises gymnasium.error.ResetNeeded if no episode has begun in it."""
-    from host_sim.report.drawing import (  # noqa: PLC0415 - learners that look at nothing need no Pillow
-        CONE_DARK,
-        CONE_LIT,
-        FLOOR,
-        FOOD_MM,
-        PAPER,
-        Plan,
-        draw_cone,
-        draw_food,
-        draw_obstacles,
-        draw_robot,
-    )
+    from host_sim.report import drawing  # noqa: PLC0415 - learners that look at nothing need no Pillow
     from host_sim.world.native_world import CONE_BEARINGS_DEG  # noqa: PLC0415
 
     arena, params = worlds.arenas[world], SimParams()
     if arena is None:
         raise error.ResetNeeded("no episode has begun: call reset")
-    plan = Plan(params.width_mm, params.height_mm, _WIDTH_PX, FLOOR)
+    plan = drawing.Plan(params.width_mm, params.height_mm, _WIDTH_PX, drawing.FLOOR)
     poses = [Pose(body.x_mm, body.y_mm, body.heading_rad) for body in arena.inside.bodies]
     reach_mm = params.body_radius_mm + params.sensor_reach_mm
     for pose, senses in zip(poses, worlds.senses[world], strict=True):
         for bit, bearing_deg in CONE_BEARINGS_DEG.items():
-            draw_cone(plan, pose, bearing_deg, reach_mm, CONE_LIT if senses[_FEEL] & bit else CONE_DARK)
+            drawing.draw_cone(
+                plan, pose, bearing_deg, reach_mm, drawing.CONE_LIT if senses[_FEEL] & bit else drawing.CONE_DARK
+            )
     for food in arena.inside.food:
-        draw_food(plan, (food.x_mm, food.y_mm), FOOD_MM, bool(food.eaten))
-    draw_obstacles(plan, arena.layout.bars, params)
+        drawing.draw_food(plan, (food.x_mm, food.y_mm), drawing.FOOD_MM, bool(food.eaten))
+    drawing.draw_obstacles(plan, arena.layout.bars, params)
     for pose in poses:
-        draw_robot(plan, pose, 2 * params.body_radius_mm, PAPER)
+        drawing.draw_robot(plan, pose, 2 * params.body_radius_mm, drawing.PAPER)
     picture: Frame = np.array(plan.done(), np.uint8)
     return picture
 

@@ -34,11 +34,10 @@ NAMED: Mapping[str, Memory] = {
 }
 """Memories that are compared, besides the best one and those of learners."""
 
+_SEVERAL = ((1, 4), (3, 6), (5, 7), (1, 3, 4, 6), (2, 5, 7))
 CELLS: Mapping[str, Sequence[int]] = {
     **{f"cell {cell}": (cell,) for cell in range(1, CELL_COUNT)},
-    **{
-        f"cells {' and '.join(map(str, cells))}": cells for cells in ((1, 4), (3, 6), (5, 7), (1, 3, 4, 6), (2, 5, 7))
-    },
+    **{f"cells {' and '.join(map(str, cells))}": cells for cells in _SEVERAL},
 }
 """Cells whose part in the variance of the mean times is computed."""
 

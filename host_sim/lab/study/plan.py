@@ -100,11 +100,7 @@ _GOAL_KEYS = ("figure", "condition", "against", "at_least", "at_most")
 _PLAIN = "plain"
 _NO_CHANGE = "none"
 _DONE_ON = {"chosen_on": "was chosen", "judged_on": "is judged"}
-_NOT_IN_ATLAS = {
-    "judged_on": 'needs memories = "all"',
-    "goals": "are not in an atlas",
-    "plots": "are not in an atlas",
-}
+_WRONG_KIND = {"judged_on": 'needs memories = "all"'}
 
 
 def read_plan(path: Path) -> Plan:
@@ -145,7 +141,7 @@ class _Reader:
     def _is_atlas(self, conditions: Sequence[Trial]) -> bool:
         for key in ("judged_on",) if "memories" not in self._content else ("goals", "plots"):
             if key in self._content:
-                raise self._error(f"{key} {_NOT_IN_ATLAS[key]}", "", key)
+                raise self._error(f"{key} {_WRONG_KIND.get(key, 'are not in an atlas')}", "", key)
         if self._content.get("memories", "all") != "all":
             raise self._error('memories are "all"', "", "memories")
         runs = [it.config for it in conditions]
