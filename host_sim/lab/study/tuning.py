@@ -186,31 +186,25 @@ def samples_of(config: RunConfig, settings: Sequence[Settings], first: int, seed
     ]
 
 
-class _Notes:
+class _Notes(dict[_Key, float]):
     """The values found by a search, in a file of JSON lines: settings, first seed, number of seeds, and value."""
 
     def __init__(self, path: Path, about: str) -> None:
+        super().__init__()
         self._path = path
-        self._known: dict[_Key, float] = {}
         lines = read_text(path, _NOTES_MAX).splitlines() if path.exists() else [about]
         if lines[:1] != [about]:
             raise UsageError(f"{path} is of another search, or of another version; choose another folder with --out")
         for line in lines[1:]:
             with suppress(ValueError):  # the last line of a search that was killed
                 settings, first, seeds, value = json.loads(line)
-                self._known[tuple((name, number) for name, number in settings), first, seeds] = value
+                self[tuple((name, number) for name, number in settings), first, seeds] = value
         path.parent.mkdir(parents=True, exist_ok=True)
-        whole = (json.dumps([*key, value]) for key, value in self._known.items())
+        whole = (json.dumps([*key, value]) for key, value in self.items())
         write_bytes(path, "".join(f"{line}\n" for line in (about, *whole)).encode())
 
-    def __contains__(self, key: object) -> bool:
-        return key in self._known
-
-    def __getitem__(self, key: _Key) -> float:
-        return self._known[key]
-
     def add(self, key: _Key, value: float) -> None:
-        self._known[key] = value
+        self[key] = value
         with self._path.open("a", encoding="ascii") as file:
             file.write(json.dumps([*key, value]) + "\n")
 
