@@ -31,12 +31,7 @@ from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 
 FAULTS = (
-    "drop:0.05%",
-    "duplicate:0.05%",
-    "reorder:0.02%:2",
-    "delay:0.05%:0-300ms",
-    "corrupt:0.05%",
-    "truncate:0.05%",
+    *("drop:0.05%", "duplicate:0.05%", "reorder:0.02%:2", "delay:0.05%:0-300ms", "corrupt:0.05%", "truncate:0.05%"),
     "flood:0.5%:50",
 )
 """In a minute, 6,000 frames: three of each kind, and thirty bursts of foreign frames."""
