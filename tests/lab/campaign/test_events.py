@@ -114,8 +114,9 @@ def test_event_without_effect_fails_the_campaign(monkeypatch, where, event):
     assert (outcome.problems, outcome.seen) == (["unseen"], "")
 
 
-def test_wheels_stop_in_time_when_a_robot_hangs_in_real_time():
-    outcome = outcome_of("article fd real-time seed=12 limit=2 event=hang:500@20")
+@pytest.mark.parametrize("clock", ["", " event=clock-back:3600@20"])
+def test_wheels_stop_in_time_when_a_robot_hangs_in_real_time(clock):
+    outcome = outcome_of(f"article fd real-time seed=12 limit=2 event=hang:500@20{clock}")
 
     assert outcome.problems == []
     assert "lost" in outcome.seen

@@ -113,14 +113,16 @@ def test_command_that_is_no_robot_is_reported_in_one_line(capsys, monkeypatch, c
     assert err.count("\n") == 1
 
 
-def test_check_reports_an_unknown_bus(capsys):
-    assert main(["check", "--bus", "socketcan:no-such-bus"]) == 2
-    assert "cannot open the bus socketcan:no-such-bus" in capsys.readouterr().err
-
-
-def test_check_without_a_robot_asks_for_one(capsys):
-    assert main(["check"]) == 2
-    assert "--robot-command CMD" in capsys.readouterr().err
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--bus", "socketcan:no-such-bus"], "cannot open the bus socketcan:no-such-bus"),
+        ([], "--robot-command CMD"),
+    ],
+)
+def test_check_reports_an_unknown_bus_and_a_missing_robot(capsys, words, said):
+    assert main(["check", *words]) == 2
+    assert said in capsys.readouterr().err
 
 
 class Dumb(Robot):

@@ -249,18 +249,17 @@ def test_explorer_sees_food_where_a_robot_looking_there_does():
     assert {*seen} == {False, True}
 
 
-def finish_s(layout: Layout, *, turns: bool) -> float:
-    return Explorer(Room(layout, SimParams()), turns=turns).finish_s()
+@pytest.mark.parametrize(
+    ("turns", "way_mm", "turned_s"),
+    [
+        (False, 3500, 0),  # 500 mm back, 1,500 and 1,500 mm on: to the nearest first
+        (True, 5500, 1),  # 1,000 and 1,500 mm on, to what it sees first; half a turn at 180 degrees/s, 3,000 mm back
+    ],
+)
+def test_explorer_takes_straight_ways_at_200_mm_s_less_its_reach(turns, way_mm, turned_s):
+    finish_s = Explorer(Room(EMPTY, SimParams()), turns=turns).finish_s()
 
-
-def test_explorer_that_sees_all_takes_straight_ways_less_its_reach():
-    """500 mm back, 1,500 and 1,500 mm on, less 150 mm each, at 200 mm/s."""
-    assert finish_s(EMPTY, turns=False) == pytest.approx((3500 - 3 * 150) / 200)
-
-
-def test_turning_explorer_goes_first_to_the_food_that_it_sees_first():
-    """1,000 and 1,500 mm on, then half a turn at 180 degrees/s and 3,000 mm back."""
-    assert finish_s(EMPTY, turns=True) == pytest.approx((5500 - 3 * 150) / 200 + 1)
+    assert finish_s == pytest.approx((way_mm - 3 * 150) / 200 + turned_s)
 
 
 def test_explorer_takes_longer_for_food_behind_a_wall():

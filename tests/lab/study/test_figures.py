@@ -28,55 +28,31 @@ def value(name: str, *runs) -> float:
 FOUR = [run("a", seed, row(robot_s)) for seed, robot_s in enumerate((100.0, 200.0, 300.0, 1000.0))]
 
 
-@pytest.mark.parametrize(("name", "expected"), [("median_s", 250), ("mean_s", 400)])
-def test_median_s_and_mean_s_are_those_of_the_run_times(name, expected):
-    assert value(name, *FOUR) == expected
+TRAPPED = (row(contacts=[contact(60.0)] * 2), row(contacts=[contact(61.0)]))
+FEW, MANY = row(contacts=[contact(1.0)]), row(contacts=[contact(0.2)] * 3)
+TURNS = row(contacts=[contact(turns=3), contact(turns=2, cleared=False)])
+WRONG, RIGHT = row(sides=LEFT_OF_LEFT), row()
+LATE = [run("a", seed, row(600.0, finished=False)) for seed in range(3)]
+MEASURED = {
+    "median of the run times": ("median_s", FOUR, 250),
+    "mean of the run times": ("mean_s", FOUR, 400),
+    "median with three unfinished of seven": ("median_s", LATE + [run("a", i, row(100.0)) for i in range(3, 7)], 100),
+    "median with three unfinished of four": ("median_s", [*LATE, run("a", 3, row(100.0))], math.inf),
+    "mean with three unfinished of four": ("mean_s", [*LATE, run("a", 3, row(100.0))], 475),
+    "median time in shortest tours": ("by_tour", [*FOUR, run("a", 4, row(600.0, finished=False))], 15),
+    "percentage of finished environments": ("finished", [run("a", 1, row(), row(finished=False))], 50),
+    "mean over all contacts": ("blocked_s", [run("a", 1, FEW), run("a", 2, MANY)], 0.4),
+    "trapped contact counts a minute": ("blocked_s", [run("a", 1, row(contacts=[contact(2.0), contact(500.0)]))], 31),
+    "environments with a contact over a minute": ("trapped", [run("a", 1, *TRAPPED)], 50),
+    "part of the turns that cleared the way": ("score", [run("a", 1, TURNS)], 0.2),
+    "known in the last environment": ("wrong", [run("a", 1, WRONG, RIGHT), run("a", 2, RIGHT, WRONG)], 50),
+    "exchanged while a body is mirrored": ("wrong", [run("a", 1, row(sides=LEFT_OF_LEFT, body=SWAPPED))], 0),
+}
 
 
-def test_unfinished_environment_counts_as_infinite_in_the_median():
-    runs = [run("a", seed, row(600.0, finished=False)) for seed in range(3)]
-
-    assert value("median_s", *runs, *(run("a", seed, row(100.0)) for seed in range(3, 7))) == 100
-    assert value("median_s", *runs, run("a", 3, row(100.0))) == math.inf
-    assert value("mean_s", *runs, run("a", 3, row(100.0))) == 475
-
-
-def test_by_tour_is_the_median_time_in_shortest_tours():
-    assert value("by_tour", *FOUR, run("a", 4, row(600.0, finished=False))) == 15
-
-
-def test_finished_is_the_percentage_of_finished_environments():
-    assert value("finished", run("a", 1, row(), row(finished=False))) == 50
-
-
-def test_blocked_time_is_a_mean_over_all_contacts():
-    few, many = row(contacts=[contact(1.0)]), row(contacts=[contact(0.2)] * 3)
-
-    assert value("blocked_s", run("a", 1, few), run("a", 2, many)) == pytest.approx(0.4)
-
-
-def test_blocked_time_counts_a_trapped_contact_for_a_minute_only():
-    assert value("blocked_s", run("a", 1, row(contacts=[contact(2.0), contact(500.0)]))) == 31
-
-
-def test_trapped_counts_environments_with_a_contact_over_a_minute():
-    assert value("trapped", run("a", 1, row(contacts=[contact(60.0)] * 2), row(contacts=[contact(61.0)]))) == 50
-
-
-def test_score_is_the_part_of_the_turns_that_cleared_the_way():
-    contacts = [contact(turns=3), contact(turns=2, cleared=False)]
-
-    assert value("score", run("a", 1, row(contacts=contacts))) == pytest.approx(0.2)
-
-
-def test_wrong_counts_what_is_known_in_the_last_environment():
-    wrong, right = row(sides=LEFT_OF_LEFT), row()
-
-    assert value("wrong", run("a", 1, wrong, right), run("a", 2, right, wrong)) == 50
-
-
-def test_wrong_judges_turns_as_exchanged_while_a_body_is_mirrored():
-    assert value("wrong", run("a", 1, row(sides=LEFT_OF_LEFT, body=SWAPPED))) == 0
+@pytest.mark.parametrize(("name", "runs", "expected"), MEASURED.values(), ids=MEASURED)
+def test_figure_is_what_its_description_says(name, runs, expected):
+    assert value(name, *runs) == pytest.approx(expected)
 
 
 def after_swap(seed: int, *sides) -> object:
