@@ -82,14 +82,23 @@ def test_mistake_is_reported_with_its_line_before_the_run_begins(tmp_path, capsy
     assert not (out / "run.log").exists()
 
 
+@pytest.fixture
+def run_text(tmp_path, capsys):
+    """Runs a program in one environment and gives what is said; the log is in tmp_path."""
+
+    def run_text(text: str, bus: str, limit_s: int = 60) -> str:
+        words = ["--environments", "1", "--limit-s", str(limit_s), "--bus", bus, "--out", str(tmp_path)]
+        assert main(["run", "--profile", written(tmp_path, text), *words]) == 0
+        return capsys.readouterr().out
+
+    return run_text
+
+
 @pytest.mark.parametrize("bus", ["none", "fd"])
-def test_endless_loop_in_a_program_is_stopped_and_reported(bus, tmp_path, capsys):
-    program = written(tmp_path, "rForward 2\nwhile true\nwend\n")
+def test_endless_loop_in_a_program_is_stopped_and_reported(bus, run_text):
+    said = run_text("rForward 2\nwhile true\nwend\n", bus, limit_s=3)
 
-    short = ["--environments", "1", "--limit-s", "3"]
-    assert main(["run", "--profile", program, "--out", str(tmp_path), "--bus", bus, *short]) == 0
-
-    assert 'line 2: "while": expected rForward, rTurn or delay in the loop' in capsys.readouterr().out
+    assert 'line 2: "while": expected rForward, rTurn or delay in the loop' in said
 
 
 def test_missing_large_or_binary_program_is_refused(tmp_path):
@@ -137,35 +146,26 @@ print "not complete";
 
 
 @pytest.mark.parametrize("bus", ["none", "fd"])
-def test_run_prints_what_its_program_prints(bus, tmp_path, capsys):
-    program = written(tmp_path, PRINTS)
+def test_run_prints_what_its_program_prints(bus, run_text):
+    lines = run_text(PRINTS, bus).splitlines()
 
-    assert main(["run", "--profile", program, "--out", str(tmp_path), "--bus", bus, "--environments", "1"]) == 0
-
-    lines = capsys.readouterr().out.splitlines()
     assert [line for line in lines if line.startswith("printed")] == ["printed   step 1", "printed   step 3"]
 
 
 @pytest.mark.parametrize("bus", ["none", "fd"])
-def test_output_of_an_endlessly_printing_program_is_limited(bus, tmp_path, capsys):
-    program = written(tmp_path, "while true\nrForward 1\nfor i = 1 to 999\nprint i, i, i\nnext\nwend\n")
-    words = ["--environments", "1", "--limit-s", "5", "--bus", bus]
+def test_output_of_an_endlessly_printing_program_is_limited(bus, run_text):
+    said = run_text("while true\nrForward 1\nfor i = 1 to 999\nprint i, i, i\nnext\nwend\n", bus, limit_s=5)
 
-    assert main(["run", "--profile", program, "--out", str(tmp_path), *words]) == 0
-
-    lines = [line for line in capsys.readouterr().out.splitlines() if line.startswith("printed")]
+    lines = [line for line in said.splitlines() if line.startswith("printed")]
     assert lines[-1].split()[1] == lines[-1].split()[3]
     assert 300 < len(lines) < 500
 
 
 @pytest.mark.parametrize("bus", ["none", "fd"])
-def test_program_that_asks_for_distances_gets_them(bus, tmp_path, capsys):
-    text = "while rRange() > 6\nrForward 1\nwend\nprint rRange() > 2, rFeel() & 4\n"
-    words = ["--environments", "1", "--seed", "1", "--bus", bus, "--out", str(tmp_path)]
+def test_program_that_asks_for_distances_gets_them(bus, tmp_path, run_text):
+    said = run_text("while rRange() > 6\nrForward 1\nwend\nprint rRange() > 2, rFeel() & 4\n", bus)
 
-    assert main(["run", "--profile", written(tmp_path, text), *words]) == 0
-
-    assert "printed   1 4" in capsys.readouterr().out
+    assert "printed   1 4" in said
     assert main(["replay", str(tmp_path / "run.log")]) == 0
 
 
@@ -209,10 +209,5 @@ print "turned", turned
 
 
 @pytest.mark.parametrize("name", COURSE)
-def test_program_in_the_manner_of_a_course_runs(name, tmp_path, capsys):
-    program = written(tmp_path, COURSE[name])
-    words = ["--environments", "1", "--limit-s", "60", "--bus", "none", "--out", str(tmp_path)]
-
-    assert main(["run", "--profile", program, *words]) == 0
-
-    assert "expected" not in capsys.readouterr().out
+def test_program_in_the_manner_of_a_course_runs(name, run_text):
+    assert "expected" not in run_text(COURSE[name], "none")

@@ -22,33 +22,9 @@ from host_sim.recording.log_reader import read_log
 from host_sim.recording.world_file import world_path
 
 
-def cut_inside_its_first_line(log: Path) -> None:
-    log.write_bytes(log.read_bytes()[:20])
-
-
-def cut_before_the_first_tick(log: Path) -> None:
-    log.write_text("".join(log.read_text().splitlines(keepends=True)[:7]))
-
-
-def make_binary(log: Path) -> None:
-    log.write_bytes(bytes(range(256)) * 8)
-
-
-def make_text(log: Path) -> None:
-    log.write_text("Dear robot,\nhow are you?\n")
-
-
-def make_empty(log: Path) -> None:
-    log.write_bytes(b"")
-
-
-def remove(log: Path) -> None:
-    log.unlink()
-
-
-def make_folder(log: Path) -> None:
-    log.unlink()
-    log.mkdir()
+def make_folder(path: Path) -> None:
+    path.unlink()
+    path.mkdir()
 
 
 def make_other_protocol(log: Path) -> None:
@@ -73,44 +49,35 @@ def take_the_world_of_another_seed(log: Path) -> None:
     change_world(log, environments=[{"seed": 5, "number": 1, "first_tick": 0}])
 
 
-def let_the_world_begin_later(log: Path) -> None:
-    change_world(log, environments=[{"seed": 333, "number": 1, "first_tick": 9}])
-
-
-def edit_what_cannot_be(log: Path) -> None:
-    change_world(log, edits=[{"tick": 50, "do": "remove_bar", "id": 77}])
-
-
-def make_world_no_json(log: Path) -> None:
-    world_path(log).write_text("{")
-
-
-def make_world_folder(log: Path) -> None:
-    world_path(log).unlink()
-    world_path(log).mkdir()
-
-
 BAD = {
-    cut_inside_its_first_line: (2, "no whole line"),
-    cut_before_the_first_tick: (2, "no tick"),
-    make_binary: (2, "it is not text"),
-    make_text: (2, "line 1"),
-    make_empty: (2, "empty"),
-    remove: (2, "there is no file"),
-    make_folder: (2, "it is a folder"),
-    make_other_protocol: (2, "another octet.dbc"),
-    take_the_world_of_another_seed: (1, "not recorded in the world of"),
-    let_the_world_begin_later: (1, "begins later"),
-    edit_what_cannot_be: (1, "there is no such number"),
-    make_world_no_json: (2, "not a world file"),
-    make_world_folder: (2, "it is a folder"),
+    "cut inside its first line": (lambda log: log.write_bytes(log.read_bytes()[:20]), 2, "no whole line"),
+    "cut before the first tick": (lambda log: log.write_text(re.match(".*\n" * 7, log.read_text())[0]), 2, "no tick"),
+    "binary": (lambda log: log.write_bytes(bytes(range(256)) * 8), 2, "it is not text"),
+    "text": (lambda log: log.write_text("Dear robot,\nhow are you?\n"), 2, "line 1"),
+    "empty": (lambda log: log.write_bytes(b""), 2, "empty"),
+    "removed": (Path.unlink, 2, "there is no file"),
+    "folder": (make_folder, 2, "it is a folder"),
+    "other protocol": (make_other_protocol, 2, "another octet.dbc"),
+    "world of another seed": (take_the_world_of_another_seed, 1, "not recorded in the world of"),
+    "world that begins later": (
+        lambda log: change_world(log, environments=[{"seed": 333, "number": 1, "first_tick": 9}]),
+        1,
+        "begins later",
+    ),
+    "edit that cannot be": (
+        lambda log: change_world(log, edits=[{"tick": 50, "do": "remove_bar", "id": 77}]),
+        1,
+        "there is no such number",
+    ),
+    "world no JSON": (lambda log: world_path(log).write_text("{"), 2, "not a world file"),
+    "world folder": (lambda log: make_folder(world_path(log)), 2, "it is a folder"),
 }
 
 
 @pytest.mark.parametrize("command", [["replay", "--html"], ["picture", "--png"]], ids=["page", "picture"])
-@pytest.mark.parametrize("spoil", BAD, ids=lambda spoil: spoil.__name__)
-def test_log_without_a_run_is_refused_in_one_line(short, tmp_path, capsys, spoil, command):
-    code, named = BAD[spoil]
+@pytest.mark.parametrize("bad", BAD)
+def test_log_without_a_run_is_refused_in_one_line(short, tmp_path, capsys, bad, command):
+    spoil, code, named = BAD[bad]
     spoil(short.log)
     made = tmp_path / "made"
 

@@ -2,53 +2,64 @@
 
 import re
 import shutil
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 
 from host_sim.client.commands import stop
-from host_sim.client.frame_log import FrameLog
-from host_sim.protocol.codec import Protocol, crc8
+from host_sim.client.frame_log import line_of
+from host_sim.protocol.codec import Frame, Protocol, crc8
 from host_sim.protocol.generated import MESSAGES, Opcode, Reason
 from host_sim.recording.conversation import check_conversation
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.recording import read_recording
 from host_sim.recording.replay import replay
-from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
+from tests.recording.support import open_simulation
 from tests.runs.support import BUSY_HOST, octet
 
 PROTOCOL = Protocol()
+ASK = PROTOCOL.encode("COMMAND", {"counter": 9, "opcode": Opcode.REPORT, "owner": 1})
 
 
-def edited(log, name: str, nth: int, edit) -> None:
-    """Gives the n-th frame of a message other bytes, or takes it away where there are none."""
+def replaced(log: Path, name: str, nth: int, change) -> None:
+    """Puts other lines in the place of the line with the n-th frame of a message."""
     lines = log.read_text().splitlines(keepends=True)
     at = [i for i, line in enumerate(lines) if f" {PROTOCOL.id_of(name):03X}#" in line][nth]
-    head, data = lines[at].rstrip().split("#")
-    changed = edit(bytearray.fromhex(data))
-    lines[at] = f"{head}#{changed.hex().upper()}\n" if changed else ""
+    lines[at] = change(lines[at])
     log.write_text("".join(lines))
 
 
-def with_crc(name: str, data: bytearray) -> bytearray:
-    data[0] = crc8(PROTOCOL.id_of(name), bytes(data))
-    return data
+def edited(log: Path, name: str, nth: int, edit) -> None:
+    """Gives the n-th frame of a message other bytes, or takes it away where there are none."""
+
+    def change(line: str) -> str:
+        head, data = line.rstrip().split("#")
+        changed = edit(bytearray.fromhex(data))
+        return f"{head}#{changed.hex().upper()}\n" if changed else ""
+
+    replaced(log, name, nth, change)
 
 
-def faster(data: bytearray) -> bytearray:
-    data[3] ^= 1
-    return with_crc("DRIVE", data)
+def followed(log: Path, name: str, nth: int, frame: Frame) -> None:
+    """Puts a frame after the n-th frame of a message, at the same time."""
+    said = f"{frame.id:03X}#{frame.data.hex().upper()}"
+    replaced(log, name, nth, lambda line: f"{line}{line.rsplit(maxsplit=1)[0]} {said}\n")
 
 
-def of_another_tick(data: bytearray) -> bytearray:
-    data[2] ^= 1
-    return with_crc("DRIVE", data)
+def with_bit(name: str, byte: int):
+    """Another lowest bit in that byte of a message, under a right checksum."""
+
+    def edit(data: bytearray) -> bytearray:
+        data[byte] ^= 1
+        data[0] = crc8(PROTOCOL.id_of(name), bytes(data))
+        return data
+
+    return edit
 
 
-def with_other_orders(data: bytearray) -> bytearray:
-    data[6] ^= 1
-    return with_crc("HEALTH", data)
+faster, of_another_tick, with_other_orders = with_bit("DRIVE", 3), with_bit("DRIVE", 2), with_bit("HEALTH", 6)
 
 
 def test_recorded_run_keeps_to_the_protocol(short):
@@ -86,78 +97,61 @@ def test_protocol_violation_is_reported_with_its_time(short, name, edit, problem
     assert " s " in done.stdout
 
 
-def with_repeats(log) -> None:
+def with_repeats(log: Path) -> None:
     """As candump sees it: in one tick of five the answer is lost and the senses come again, in one it comes twice."""
-    protocol = Protocol()
-    senses, drive = (f" {protocol.id_of(name):03X}#" for name in ("SENSES", "DRIVE"))
-    lines = []
+    lines: list[str] = []
+    every = {f" {PROTOCOL.id_of(name):03X}#": n for name, n in (("SENSES", 5), ("DRIVE", 7))}
     for line in log.read_text().splitlines(keepends=True):
         lines.append(line)
-        if senses in line and len(lines) % 5 == 0:
-            lines.append(line)
-        if drive in line and len(lines) % 7 == 0:
-            lines.append(line)
+        lines += [line for said, n in every.items() if said in line and len(lines) % n == 0]
     log.write_text("".join(lines))
 
 
 def test_log_with_repeated_frames_replays_as_the_same_run(short):
-    clean = read_recording(read_log(short.log), Protocol())
-    drives = replay(read_log(short.log), Protocol()).drives
+    clean = read_recording(read_log(short.log), PROTOCOL)
+    drives = replay(read_log(short.log), PROTOCOL).drives
     size = short.log.stat().st_size
 
     with_repeats(short.log)
 
     assert short.log.stat().st_size > 1.1 * size
-    assert list(read_recording(read_log(short.log), Protocol()).ticks) == list(clean.ticks)
-    outcome = replay(read_log(short.log), Protocol())
+    assert list(read_recording(read_log(short.log), PROTOCOL).ticks) == list(clean.ticks)
+    outcome = replay(read_log(short.log), PROTOCOL)
     assert (outcome.drives, outcome.difference) == (drives, None)
 
 
 def test_missing_drive_is_found_as_a_difference(short):
-    protocol = Protocol()
-    lines = short.log.read_text().splitlines(keepends=True)
-    drives = [i for i, line in enumerate(lines) if f" {protocol.id_of('DRIVE'):03X}#" in line]
-    del lines[drives[100]]
-    short.log.write_text("".join(lines))
+    edited(short.log, "DRIVE", 100, lambda _: None)
 
-    assert replay(read_log(short.log), protocol).difference is not None
+    assert replay(read_log(short.log), PROTOCOL).difference is not None
 
 
 def test_report_requested_within_a_tick_makes_no_difference(short):
-    protocol = Protocol()
-    lines = short.log.read_text().splitlines(keepends=True)
-    senses = [i for i, line in enumerate(lines) if f" {protocol.id_of('SENSES'):03X}#" in line][100]
-    ask = protocol.encode("COMMAND", {"counter": 9, "opcode": Opcode.REPORT, "owner": 1})
-    lines.insert(senses + 1, f"{lines[senses].rsplit(maxsplit=1)[0]} {ask.id:03X}#{ask.data.hex().upper()}\n")
-    short.log.write_text("".join(lines))
+    followed(short.log, "SENSES", 100, ASK)
 
-    assert replay(read_log(short.log), protocol).difference is None
+    assert replay(read_log(short.log), PROTOCOL).difference is None
 
 
 def test_report_requested_after_the_stop_belongs_to_the_end(short):
-    ask = Protocol().encode("COMMAND", {"counter": 9, "opcode": Opcode.REPORT, "owner": 1})
     with short.log.open("a") as log:
-        log.write(f"(0000009999.000000) octet {ask.id:03X}#{ask.data.hex().upper()}\n")
+        log.write(f"{line_of(9_999_000_000, ASK)}\n")
 
-    assert replay(read_log(short.log), Protocol()).stopped
-    assert read_recording(read_log(short.log), Protocol()).stopped
+    assert replay(read_log(short.log), PROTOCOL).stopped
+    assert read_recording(read_log(short.log), PROTOCOL).stopped
 
 
 def test_drive_for_silence_in_real_time_makes_no_difference(tmp_path):
     """The robot reports silence with the last tick, whose SENSES may have come by then and be unanswered yet."""
-    protocol, log = Protocol(), FrameLog(tmp_path / "run.log")
-    with make(RunConfig(environments=1, limit_s=0.4, real_time=True, late_max=100.0), log) as simulation:
+    config = RunConfig(environments=1, limit_s=0.4, real_time=True, late_max=100.0)
+    with ExitStack() as stack:
+        simulation = open_simulation(stack, tmp_path / "run.log", config)
         [*simulation.run()]
         stop(simulation.clients[0])
-    log.close()
-    lines = (tmp_path / "run.log").read_text().splitlines(keepends=True)
-    senses = next(i for i, line in enumerate(lines) if f" {protocol.id_of('SENSES'):03X}#" in line)
     nothing = dict.fromkeys((signal.name for signal in MESSAGES["DRIVE"].signals), 0)
-    silence = protocol.encode("DRIVE", {**nothing, "reason": Reason.SILENCE})
-    lines.insert(senses + 1, f"{lines[senses].rsplit(maxsplit=1)[0]} {silence.id:03X}#{silence.data.hex().upper()}\n")
-    (tmp_path / "run.log").write_text("".join(lines))
+    silence = PROTOCOL.encode("DRIVE", {**nothing, "reason": Reason.SILENCE})
+    followed(tmp_path / "run.log", "SENSES", 0, silence)
 
-    outcome = replay(read_log(tmp_path / "run.log"), protocol)
+    outcome = replay(read_log(tmp_path / "run.log"), PROTOCOL)
 
     assert (outcome.drives, outcome.difference) == (20, None)
 

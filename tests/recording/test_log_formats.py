@@ -131,6 +131,14 @@ def message(time_s: float, **fields: object) -> can.Message:
     return can.Message(timestamp=time_s, **{"is_extended_id": False, "channel": 0, **fields})
 
 
+def logged(path: Path, *messages: can.Message) -> Path:
+    """As python-can writes them."""
+    with can.Logger(path) as logger:
+        for it in messages:
+            logger.on_message_received(it)
+    return path
+
+
 MESSAGES = [
     message(1000.0, arbitration_id=ID, data=DATA),
     message(1000.02, arbitration_id=0x12345, is_extended_id=True, data=DATA),
@@ -145,12 +153,7 @@ SKIPPED = {"extended": 1, "remote": 1, "FD": 1, "error": 1, "foreign": 1}
 
 @pytest.mark.parametrize("suffix", [".log", ".asc", ".blf", ".csv", ".db", ".log.gz", ".asc.gz", ".csv.gz"])
 def test_logs_of_python_can_are_read(tmp_path, suffix):
-    path = tmp_path / f"a{suffix}"
-    with can.Logger(path) as logger:
-        for it in MESSAGES:
-            logger.on_message_received(it)
-
-    log = read_log(path)
+    log = read_log(logged(tmp_path / f"a{suffix}", *MESSAGES))
     read = list(log)
 
     assert [it.frame for it in read] == [Frame(ID, DATA)] * 2
@@ -172,9 +175,7 @@ def test_log_converted_by_can_logconvert_is_read(tmp_path, suffix):
 
 
 def test_log_written_by_asc2log_is_read(tmp_path):
-    with can.Logger(tmp_path / "a.asc") as logger:
-        for it in MESSAGES:
-            logger.on_message_received(it)
+    logged(tmp_path / "a.asc", *MESSAGES)
     subprocess.run(["asc2log", "-I", tmp_path / "a.asc", "-O", tmp_path / "a.log"], check=True, capture_output=True)
 
     log = read_log(tmp_path / "a.log")
@@ -249,13 +250,9 @@ def test_decimal_asc_file_is_read(tmp_path):
 
 
 def test_trc_file_of_python_can_is_read(tmp_path):
-    path = tmp_path / "a.trc"
-    with can.Logger(path) as logger:
-        for it in MESSAGES:
-            if not it.is_fd and not it.is_error_frame and not it.is_remote_frame:  # which its writer does not write
-                logger.on_message_received(it)
+    written = [it for it in MESSAGES if not (it.is_fd or it.is_error_frame or it.is_remote_frame)]
 
-    log = read_log(path)
+    log = read_log(logged(tmp_path / "a.trc", *written))
 
     assert [it.frame for it in log] == [Frame(ID, DATA)] * 2
     assert log.skipped == {"extended": 1, "foreign": 1}
@@ -296,9 +293,7 @@ def test_unreadable_format_is_refused_with_the_readable_ones(tmp_path, content, 
 
 
 def test_blf_file_with_trailing_zeros_is_refused_as_cut_short(tmp_path):
-    path = tmp_path / "a.blf"
-    with can.BLFWriter(path) as writer:
-        writer.on_message_received(MESSAGES[0])
+    path = logged(tmp_path / "a.blf", MESSAGES[0])
     path.write_bytes(path.read_bytes() + bytes(64))
 
     with pytest.raises(UsageError, match="cut short: no object begins where the last one ends"):
@@ -326,10 +321,8 @@ def test_channel_option_reads_one_channel_of_several(tmp_path):
 
 def test_channels_of_asc_and_blf_files_count_from_one(tmp_path):
     for suffix in (".asc", ".blf"):
-        path = tmp_path / f"a{suffix}"
-        with can.Logger(path) as logger:
-            for channel in (0, 1):
-                logger.on_message_received(message(1.0, arbitration_id=ID, data=DATA, channel=channel))
+        on_two = (message(1.0, arbitration_id=ID, data=DATA, channel=channel) for channel in (0, 1))
+        path = logged(tmp_path / f"a{suffix}", *on_two)
 
         assert [len(list(read_log(path, name))) for name in ("1", "2")] == [1, 1]
 

@@ -71,11 +71,17 @@ def test_missing_file_loads_no_memory(path):
     assert load_memory(path) is None
 
 
-@pytest.mark.parametrize("size", [0, 7, 9, 8652, 1 << 20])
-def test_memory_file_of_another_size_is_refused(path, size):
-    path.write_bytes(bytes(size))
-
-    with pytest.raises(UsageError, match=f"is not a memory file: {size} bytes, expected 8"):
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [(bytes(n), f"is not a memory file: {n} bytes, expected 8") for n in (0, 7, 9, 8652, 1 << 20)]
+    + [
+        (content, f"no behaviour writes {content.hex(' ')}")
+        for content in (b"\0\3\0\0\0\0\0\0", b"\0\1\5\0\0\0\0\0", b"\x1e" + b"\0" * 7)
+    ],
+)
+def test_memory_of_another_size_or_that_no_behaviour_writes_is_refused(path, content, said):
+    path.write_bytes(content)
+    with pytest.raises(UsageError, match=said):
         load_memory(path)
 
 
@@ -111,24 +117,13 @@ def test_run_keeps_the_first_memory_that_knew_more(path, reported):
     assert len(reported) == 1
 
 
-def test_forgetting_what_this_run_learned_is_not_reported(path, reported):
-    saver = MemorySaver(path, SOME, reported.append)
-    saver.save(MORE)
-    saver.save(SOME)
-    assert reported == []
-
-
-def test_memory_of_another_kind_that_knows_as_much_reports_nothing(path, reported):
+@pytest.mark.parametrize("saved", [(MORE, SOME), (translated(SOME, MemoryKind.ALL_SENSORS),)])
+def test_forgetting_what_this_run_learned_or_another_kind_is_not_reported(path, reported, saved):
     path.write_bytes(bytes(SOME))
-    MemorySaver(path, SOME, reported.append).save(translated(SOME, MemoryKind.ALL_SENSORS))
+    saver = MemorySaver(path, SOME, reported.append)
+    for memory in saved:
+        saver.save(memory)
     assert reported == []
-
-
-@pytest.mark.parametrize("content", [b"\0\3\0\0\0\0\0\0", b"\0\1\5\0\0\0\0\0", b"\x1e" + b"\0" * 7])
-def test_memory_bytes_that_no_behaviour_writes_are_refused(path, content):
-    path.write_bytes(content)
-    with pytest.raises(UsageError, match=f"no behaviour writes {content.hex(' ')}"):
-        load_memory(path)
 
 
 def test_unchanged_memory_is_not_written(path, reported):
@@ -232,16 +227,10 @@ def open_files() -> set[str]:
     return {path.readlink().as_posix() for path in Path("/proc/self/fd").iterdir() if path.is_symlink()}
 
 
-def test_folder_in_use_is_refused_with_its_process(tmp_path):
-    with run_folder(tmp_path), pytest.raises(UsageError, match=f"in use by another run .process {os.getpid()}."):
-        run_folder(tmp_path).__enter__()
-
-
-def test_folder_is_free_again_after_a_run(tmp_path):
-    with run_folder(tmp_path):
-        pass
-    with run_folder(tmp_path):
-        pass
+def test_folder_in_use_is_refused_with_its_process_and_is_free_after_a_run(tmp_path):
+    for _ in range(2):  # free again after the first
+        with run_folder(tmp_path), pytest.raises(UsageError, match=f"by another run .process {os.getpid()}."):
+            run_folder(tmp_path).__enter__()
 
 
 def test_folder_that_cannot_be_locked_is_named_and_closed(tmp_path, monkeypatch):

@@ -30,7 +30,7 @@ from host_sim.sim.simulation import Simulation
 from host_sim.world.crates import Crates
 from host_sim.world.edits import Edit
 from host_sim.world.geometry import Bar, SimParams
-from tests.recording.support import open_simulation, record_run, run_through, without, write_log
+from tests.recording.support import open_simulation, record_run, without, write_log
 
 
 def assert_equal(one: Trajectory, other: Trajectory) -> None:
@@ -121,19 +121,13 @@ def test_edits_by_hand_are_replayed(tmp_path):
 
 
 def test_live_edits_are_replayed(tmp_path):
-    bar = Bar((500.0, 2500.0), (900.0, 2700.0))
+    add_bar = Edit("add_bar", **Bar((500.0, 2500.0), (900.0, 2700.0))._asdict())
     orders = {
-        100: [Edit("add_bar", **bar._asdict()), Edit("lift"), NextEnvironment()],
+        100: [add_bar, Edit("lift"), NextEnvironment()],
         300: [WriteCell(2, 1), Freeze(True)],
         500: [Edit("move_food", 0, at=(100.0, 100.0)), NewSeed(9)],
         700: [EraseMemory()],
-        900: [
-            Edit("add_bar", **bar._asdict()),
-            NextEnvironment(),
-            NewSeed(4),
-            NextEnvironment(),
-            Edit("add_bar", **bar._asdict()),
-        ],
+        900: [add_bar, NextEnvironment(), NewSeed(4), NextEnvironment(), add_bar],
     }
     complaints = []
     with ExitStack() as stack:
@@ -277,13 +271,9 @@ def test_trajectory_of_a_long_run_keeps_the_last_environments(kept, monkeypatch)
 
 
 def test_several_robots_are_resimulated(tmp_path):
-    config = RunConfig(seed=5, environments=2, limit_s=8.0, robots=3)
-    with ExitStack() as stack:
-        simulation = open_simulation(stack, tmp_path / "run.log", config)
-        recorder = run_through(simulation)
-    write_world(simulation.record, tmp_path / "run.world.json")
+    run = record_run(tmp_path, seed=5, environments=2, limit_s=8.0, robots=3)
 
-    trajectory = resimulate(tmp_path / "run.log").trajectory
+    trajectory = resimulate(run.log).trajectory
 
     assert [track.node for track in trajectory.tracks] == [1, 2, 3]
-    assert_equal(trajectory, recorder.trajectory)
+    assert_equal(trajectory, run.trajectory)
