@@ -5,6 +5,7 @@ import pytest
 from host_sim.emulator.can import CanFaults, CanFrame
 from host_sim.emulator.clock import SECOND
 from host_sim.emulator.hardware import Faults
+from host_sim.protocol.codec import Protocol
 from tests.image.support import counted, is_rest, talk_to
 
 NOISE_PER_TICK = 200
@@ -32,110 +33,89 @@ def test_image_works_with_two_mailboxes(name):
 
 
 @pytest.mark.parametrize("signal", ["CAN_RX", "CAN_TX"])
-def test_image_with_can_on_another_pin_is_silent(name, signal):
-    talk = talk_to(name)
+def test_image_with_can_on_another_pin_is_silent(talk, signal):
     talk.board.hardware.wiring.rewire(signal, "PC13")
     talk.start()
 
     assert talk.live(5) == []
 
 
-def test_stuck_mailboxes_lose_frames_and_recover(name):
-    talk = talk_to(name)
-    talk.start()
-    talk.live(5)
-    model = talk.board.hardware.can.node
+def test_stuck_mailboxes_lose_frames_and_recover(driving):
+    model = driving.board.hardware.can.node
 
     model.stuck_mailboxes = 0b111
-    during = talk.live(20)
+    during = driving.live(20)
     model.stuck_mailboxes = 0
-    talk.live(5)
+    driving.live(5)
 
     assert during == []
-    assert len(talk.live(20)) == 20
-    assert counted(talk.ask())["dropped"] > 0
-    assert talk.board.resets == []
+    assert len(driving.live(20)) == 20
+    assert counted(driving.ask())["dropped"] > 0
+    assert driving.board.resets == []
 
 
-def test_frames_lost_in_the_controller_are_counted(name):
-    talk = talk_to(name)
-    talk.start()
-    talk.live(5)
+def test_frames_lost_in_the_controller_are_counted(driving):
 
     for _ in range(6):
-        talk.board.send(talk.senses())
-    talk.board.hardware.clock.skip(5 * SECOND // 1000)  # the core stands still meanwhile
-    talk.wait(0.02)
+        driving.board.send(driving.senses())
+    driving.board.hardware.clock.skip(5 * SECOND // 1000)  # the core stands still meanwhile
+    driving.wait(0.02)
 
-    assert talk.board.hardware.can.node.overruns == 3
-    assert len(talk.live(10)) == 10
-    report = counted(talk.ask())
+    assert driving.board.hardware.can.node.overruns == 3
+    assert len(driving.live(10)) == 10
+    report = counted(driving.ask())
     assert report.pop("missed") == 3
     assert report
 
 
-def test_robot_recovers_from_bus_off(name):
-    talk = talk_to(name)
-    talk.start()
-    talk.live(5)
-
-    talk.board.hardware.can.wire.shorted = True
-    during = talk.live(20)
-    talk.board.hardware.can.wire.shorted = False
-    first = talk.wait(0.5)
+def test_robot_recovers_from_bus_off(driving):
+    driving.board.hardware.can.wire.shorted = True
+    during = driving.live(20)
+    driving.board.hardware.can.wire.shorted = False
+    first = driving.wait(0.5)
 
     assert during == []
     assert all(is_rest(said) for said in first if said.name == "DRIVE")
-    assert len(talk.live(20)) == 20
-    report = talk.ask()
+    assert len(driving.live(20)) == 20
+    report = driving.ask()
     assert report["bus_offs"] > 0
     assert report["silences"] > 0
-    assert talk.board.resets == []
+    assert driving.board.resets == []
 
 
-def test_frames_that_waited_during_bus_off_are_not_sent(name):
-    talk = talk_to(name)
-    talk.start()
-    talk.live(5)
-    talk.board.hardware.can.wire.shorted = True
-    talk.live(20)
-    talk.board.hardware.can.wire.shorted = False
-    talk.wait(0.5)
+def test_frames_that_waited_during_bus_off_are_not_sent(driving):
+    driving.board.hardware.can.wire.shorted = True
+    driving.live(20)
+    driving.board.hardware.can.wire.shorted = False
+    driving.wait(0.5)
 
-    fresh = talk.live(1)
+    fresh = driving.live(1)
 
-    assert [drive.signals["tick"] for drive in fresh] == [talk.tick]
+    assert [drive.signals["tick"] for drive in fresh] == [driving.tick]
 
 
-def test_lone_robot_is_error_passive_and_recovers(name):
-    talk = talk_to(name)
-    talk.start()
-    talk.live(5)
-
-    talk.board.hardware.can.wire.alone = True
-    talk.wait(1.0)
-    errors = talk.board.hardware.can.node.tec
-    talk.board.hardware.can.wire.alone = False
-    talk.wait(0.05)
+def test_lone_robot_is_error_passive_and_recovers(driving):
+    driving.board.hardware.can.wire.alone = True
+    driving.wait(1.0)
+    errors = driving.board.hardware.can.node.tec
+    driving.board.hardware.can.wire.alone = False
+    driving.wait(0.05)
 
     assert errors == 128  # passive
-    assert len(talk.live(10)) == 10
-    assert talk.board.resets == []
+    assert len(driving.live(10)) == 10
+    assert driving.board.resets == []
 
 
-def test_invalid_frames_are_counted_and_foreign_ones_filtered(name):
-    talk = talk_to(name)
-    talk.start()
-    talk.live(5)
-    senses = talk.protocol.id_of("SENSES")
-    command = talk.protocol.id_of("COMMAND")
+def test_invalid_frames_are_counted_and_foreign_ones_filtered(driving):
+    senses = driving.protocol.id_of("SENSES")
+    command = driving.protocol.id_of("COMMAND")
 
     for frame in (
         CanFrame(senses, b"short"),
         CanFrame(senses),
         CanFrame(command, b"wrong CRC"[:8]),
     ):
-        talk.board.put(frame)
+        driving.board.put(frame)
     for frame in (
         CanFrame(senses, bytes(8), remote=True),
         CanFrame(senses << 18, bytes(8), extended=True),
@@ -144,41 +124,31 @@ def test_invalid_frames_are_counted_and_foreign_ones_filtered(name):
         CanFrame(0x7FF),
         CanFrame(0),
     ):
-        talk.board.put(frame)
-    talk.wait(0.01)
+        driving.board.put(frame)
+    driving.wait(0.01)
 
-    assert len(talk.live(10)) == 10
-    assert counted(talk.ask()) == {"damaged": 3}
+    assert len(driving.live(10)) == 10
+    assert counted(driving.ask()) == {"damaged": 3}
 
 
-def test_noise_of_10000_frames_per_second_loses_no_tick(name):
-    talk = talk_to(name)
+@pytest.mark.parametrize(
+    ("ticks", "noise", "counted_as"),
+    [
+        (25, [CanFrame(0x200 + i) for i in range(NOISE_PER_TICK)], {}),
+        (10, [CanFrame(Protocol().id_of("SENSES"))] * NOISE_PER_TICK, {"damaged": 255}),
+    ],
+    ids=["of other identifiers", "of its own"],
+)
+def test_noise_of_10000_frames_per_second_is_counted_and_loses_no_tick(talk, ticks, noise, counted_as):
     talk.start()
     before = len(talk.heard)
 
-    for _ in range(25):
+    for _ in range(ticks):
         talk.board.send(talk.senses())
-        for i in range(NOISE_PER_TICK):
-            talk.board.put(CanFrame(0x200 + i))
+        for frame in noise:
+            talk.board.put(frame)
         talk.wait(0.02)
 
     drives = [said for said in talk.heard[before:] if said.name == "DRIVE"]
-    assert [drive.signals["tick"] for drive in drives] == list(range(25))
-    assert counted(talk.ask()) == {}
-
-
-def test_noise_on_own_identifiers_is_counted_and_loses_no_tick(name):
-    talk = talk_to(name)
-    talk.start()
-    before = len(talk.heard)
-    noise = CanFrame(talk.protocol.id_of("SENSES"))
-
-    for _ in range(10):
-        talk.board.send(talk.senses())
-        for _ in range(NOISE_PER_TICK):
-            talk.board.put(noise)
-        talk.wait(0.02)
-
-    drives = [said for said in talk.heard[before:] if said.name == "DRIVE"]
-    assert [drive.signals["tick"] for drive in drives] == list(range(10))
-    assert talk.ask()["damaged"] == 255
+    assert [drive.signals["tick"] for drive in drives] == list(range(ticks))
+    assert counted(talk.ask()) == counted_as

@@ -23,8 +23,7 @@ def memory_after_power_up(talk: Talk) -> tuple[int, ...]:
     return talk.memory
 
 
-def test_memory_survives_a_power_cut(name):
-    talk = talk_to(name)
+def test_memory_survives_a_power_cut(talk):
     learn(talk, Side.LEFT)
     talk.wait(1.0)
 
@@ -70,8 +69,7 @@ def test_failed_stores_are_counted_and_the_robot_continues(name):
     assert talk.board.resets == []
 
 
-def test_flash_is_written_only_with_a_good_supply(name):
-    talk = talk_to(name)
+def test_flash_is_written_only_with_a_good_supply(talk):
     talk.board.hardware.power.supply_mv = 2800
     operations = talk.board.hardware.flash.operations
     learn(talk, Side.LEFT)
@@ -111,26 +109,25 @@ def told(talk: Talk) -> dict[str, int]:
 VTOR, FLASH = 0xE000ED08, 0x08000000
 
 
-def test_image_installs_its_own_vector_table(name):
-    assert talk_to(name).board.hardware.space.read(VTOR, 4) == FLASH
+def test_image_installs_its_own_vector_table(talk):
+    assert talk.board.hardware.space.read(VTOR, 4) == FLASH
 
 
-def test_crash_is_reported_after_the_reset(name):
-    talk = talk_to(name)
-    talk.start()
-    talk.live(5)
-
-    talk.board.hardware.core.derail(0x60000000)
-    talk.wait(0.1)
-
-    assert told(talk)["pc"] == 0x60000000
+def assert_crashed(talk: Talk) -> None:
     assert talk.board.resets == ["software"]
     assert talk.last("BOOT")["reset_cause"] == talk.protocol.choices("BOOT", "reset_cause")["crash"]
 
 
+def test_crash_is_reported_after_the_reset(driving):
+    driving.board.hardware.core.derail(0x60000000)
+    driving.wait(0.1)
+
+    assert told(driving)["pc"] == 0x60000000
+    assert_crashed(driving)
+
+
 @pytest.mark.parametrize("depth", [0, 8, 300, 600, 900])
-def test_crash_is_reported_at_any_stack_depth(name, depth):
-    talk = talk_to(name)
+def test_crash_is_reported_at_any_stack_depth(talk, depth):
     stack_top = int.from_bytes(talk.board.hardware.flash.memory[:4], "little")
 
     talk.board.hardware.core.derail(0x60000000, stack=stack_top - depth)
@@ -149,16 +146,13 @@ def test_uncorrectable_ecc_error_outside_of_a_read_is_a_crash():
     hardware.core.derail(ram)
     talk.wait(0.1)
 
-    assert talk.board.resets == ["software"]
     assert ram <= told(talk)["pc"] <= ram + 8
-    assert talk.last("BOOT")["reset_cause"] == talk.protocol.choices("BOOT", "reset_cause")["crash"]
+    assert_crashed(talk)
 
 
-def test_stack_outside_the_ram_is_reported_as_a_crash(name):
-    talk = talk_to(name)
-
+def test_stack_outside_the_ram_is_reported_as_a_crash(talk):
     talk.board.hardware.core.derail(0x60000000, stack=0x20000008)
     talk.wait(0.1)
+    talk.ask()
 
-    assert talk.board.resets == ["software"]
-    assert talk.ask()["reset_cause"] == talk.protocol.choices("BOOT", "reset_cause")["crash"]
+    assert_crashed(talk)

@@ -9,21 +9,9 @@ from host_sim.protocol.codec import COUNTERS, Frame, Protocol
 from host_sim.protocol.generated import ANSWER_WANTS_RANGES, MESSAGES, PROFILES, TICK_SPAN, Opcode, Reason, Result
 from host_sim.recording.log_reader import read_log
 from host_sim.sim.run_config import RunConfig
-from host_sim.world.arena import Arena
-from host_sim.world.body_kinds import body_kind
-from host_sim.world.geometry import SimParams
-from host_sim.world.layouts import generate
-from tests.image.two_boards import TwoBoards
+from tests.image.two_boards import TwoBoards, kit_arena
 
 PROTOCOL = Protocol()
-
-
-def arena():
-    kind = body_kind("kit")
-    params = kind.reach(SimParams())
-    made = Arena(generate(2, 1, params), params, kind=kind)
-    made.begin(2)
-    return made
 
 
 @pytest.fixture
@@ -44,7 +32,7 @@ def started(boards, presses=1):
 
 def of_the_boards(profile, tmp_path):  # noqa: ARG001 - the other one writes a log
     boards = started(TwoBoards(), 1 + PROFILES[profile])
-    boards.live(arena(), 150)
+    boards.live(kit_arena(), 150)
     return [frame for _, frame in boards.heard]
 
 
@@ -78,7 +66,7 @@ def test_bodies_keep_the_contract_of_the_wire(source, profile, tmp_path):
 
 @pytest.mark.parametrize("body", ["blue_pill", "nucleo_g431rb"])
 def test_body_node_drives_without_collisions(body):
-    boards, place = TwoBoards(body=body), arena()
+    boards, place = TwoBoards(body=body), kit_arena()
     start = place.body.pose
     started(boards).live(place, 300)
     assert abs(place.body.pose.x_mm - start.x_mm) + abs(place.body.pose.y_mm - start.y_mm) > 100
@@ -97,7 +85,7 @@ def rolls(boards):
 
 
 def test_wheels_stop_without_drives(boards):
-    started(boards).live(arena(), 20)
+    started(boards).live(kit_arena(), 20)
     boards.cut = True
     boards.pass_time(0.05)
     assert rolls(boards)
@@ -115,20 +103,24 @@ def test_button_starts_and_stops_the_brain(boards):
     assert [it.signals["reason"] for it in said if it.name == "DRIVE"][-1] == Reason.STOP
 
 
+def next_senses(boards):
+    """The signals of those of the next tick."""
+    boards.pass_time(0.02)
+    return [it.signals for it in decoded(frame for _, frame in boards.heard) if it.name == "SENSES"][-1]
+
+
 def test_damaged_or_old_drive_moves_no_wheel(boards):
     boards.cut = True
-    boards.robot.join(arena().body.kit)
+    boards.robot.join(kit_arena().body.kit)
     drive = {"left": 200, "right": 200, "reason": 1, "repeat_count": 0, "eat": 0, "action": 1}
     for _ in range(10):
-        boards.pass_time(0.02)
-        senses = [it.signals for it in decoded(frame for _, frame in boards.heard) if it.name == "SENSES"][-1]
+        senses = next_senses(boards)
         of_now = {**drive, "tick": senses["tick"], "counter": senses["counter"]}
         good = PROTOCOL.encode("DRIVE", of_now)
         boards.body.send(PROTOCOL.encode("DRIVE", {**of_now, "tick": (senses["tick"] - 2) % TICK_SPAN}))
         boards.body.send(Frame(good.id, bytes([good.data[0] ^ 1]) + good.data[1:]))
         assert not rolls(boards)
     for _ in range(10):
-        boards.pass_time(0.02)
-        senses = [it.signals for it in decoded(frame for _, frame in boards.heard) if it.name == "SENSES"][-1]
+        senses = next_senses(boards)
         boards.body.send(PROTOCOL.encode("DRIVE", {**drive, "tick": senses["tick"], "counter": senses["counter"]}))
     assert rolls(boards)

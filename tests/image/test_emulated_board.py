@@ -16,8 +16,7 @@ def changes(levels: list[bool]) -> int:
     return sum(before != after for before, after in pairwise(levels))
 
 
-def test_started_robot_drives_and_counts_no_fault(name):
-    talk = talk_to(name)
+def test_started_robot_drives_and_counts_no_fault(talk):
     talk.start()
 
     drives = talk.live(100)
@@ -42,21 +41,16 @@ def test_registers_behave_alike_in_c_and_python(name):
     assert direct.board.hardware.clock.now == watched.board.hardware.clock.now
 
 
-def test_wheels_stop_after_100_ms_without_senses(name):
-    talk = talk_to(name)
-    talk.start()
-    talk.live(10)
-
-    before = talk.wait(0.07)
-    after = talk.wait(0.05)
+def test_wheels_stop_after_100_ms_without_senses(driving):
+    before = driving.wait(0.07)
+    after = driving.wait(0.05)
 
     assert before == []
     assert [is_rest(said) for said in after if said.name == "DRIVE"] == [True]
-    assert counted(talk.ask()) == {"silences": 1}
+    assert counted(driving.ask()) == {"silences": 1}
 
 
-def test_led_blinks_slowly_and_fast_without_senses(name):
-    talk = talk_to(name)
+def test_led_blinks_slowly_and_fast_without_senses(talk):
     talk.start()
     port, pin = talk.board.hardware.wiring.port("LED")
 
@@ -69,13 +63,10 @@ def test_led_blinks_slowly_and_fast_without_senses(name):
     assert 18 <= changes(failing) <= 28
 
 
-def test_robot_drives_on_when_senses_return(name):
-    talk = talk_to(name)
-    talk.start()
-    talk.live(10)
-    talk.wait(1.0)
+def test_robot_drives_on_when_senses_return(driving):
+    driving.wait(1.0)
 
-    assert len(talk.live(10)) == 10
+    assert len(driving.live(10)) == 10
 
 
 def test_lockstep_robot_waits_longer_than_the_watchdog_period(name):
@@ -121,22 +112,18 @@ def test_robot_works_without_crystal_and_reports_it(name, dead):
     assert report["clock"] == 0
 
 
-def test_watchdog_period_is_1500_to_2100_ms(name):
-    assert 1.5 <= talk_to(name).board.hardware.watchdog.period_s() <= 2.1
+def test_watchdog_period_is_1500_to_2100_ms(talk):
+    assert 1.5 <= talk.board.hardware.watchdog.period_s() <= 2.1
 
 
-def test_watchdog_resets_a_halted_core_and_the_robot_rests(name):
-    talk = talk_to(name)
-    talk.start()
-    talk.live(5)
+def test_watchdog_resets_a_halted_core_and_the_robot_rests(driving):
+    driving.board.hardware.clock.skip(4 * SECOND)
+    driving.wait(0.1)
 
-    talk.board.hardware.clock.skip(4 * SECOND)
-    talk.wait(0.1)
-
-    assert talk.board.resets == ["watchdog"]
-    assert all(map(is_rest, talk.live(10)))
-    talk.start()
-    assert not all(map(is_rest, talk.live(10)))
+    assert driving.board.resets == ["watchdog"]
+    assert all(map(is_rest, driving.live(10)))
+    driving.start()
+    assert not all(map(is_rest, driving.live(10)))
 
 
 def test_same_run_takes_the_same_instructions():
@@ -145,8 +132,7 @@ def test_same_run_takes_the_same_instructions():
     assert first == second
 
 
-def test_receive_from_a_silent_board_waits_for_its_timeout(name):
-    talk = talk_to(name)
+def test_receive_from_a_silent_board_waits_for_its_timeout(talk):
     while not talk.wait(0.001):
         pass  # until it has told that all is silent, which is news every 0.1 s
     began = time.monotonic()

@@ -17,11 +17,19 @@ OPTIONS = ("--environments", "1", "--quiet", "--limit-s")
 ROBOTS = ("qemu", "emulated")
 
 
-@pytest.mark.parametrize("robot", ROBOTS)
-def test_run_waits_while_the_image_is_at_a_breakpoint(robot, tmp_path):
-    words = "delete\nbreak brain_next\ncontinue\nshell sleep 6\nbacktrace\ndelete\ncontinue\n"
+@pytest.fixture
+def debugged(tmp_path):
+    """Does a run in gdb with these words; its files are in tmp_path."""
 
-    done = octet_process("run", "--robot", robot, *OPTIONS, "4", "--gdb", "--out", tmp_path, input=words)
+    def debugged(robot, limit_s, words):
+        return octet_process("run", "--robot", robot, *OPTIONS, limit_s, "--gdb", "--out", tmp_path, input=words)
+
+    return debugged
+
+
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_run_waits_while_the_image_is_at_a_breakpoint(robot, debugged, tmp_path):
+    done = debugged(robot, "4", "delete\nbreak brain_next\ncontinue\nshell sleep 6\nbacktrace\ndelete\ncontinue\n")
 
     assert done.returncode == 0, done.stdout + done.stderr
     assert "caution_next" in done.stdout
@@ -30,24 +38,21 @@ def test_run_waits_while_the_image_is_at_a_breakpoint(robot, tmp_path):
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
-def test_run_begins_when_the_debugger_is_there(robot, tmp_path, monkeypatch):
+def test_run_begins_when_the_debugger_is_there(robot, debugged, tmp_path, monkeypatch):
     slow = tmp_path / "gdb-multiarch"
     slow.write_text(f'#!/bin/sh\nsleep 4\nexec {shutil.which(slow.name)} "$@"\n')
     slow.chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
-    words = "delete\ntbreak brain_next\ncontinue\ncontinue\n"
 
-    done = octet_process("run", "--robot", robot, *OPTIONS, "1", "--gdb", "--out", tmp_path, input=words)
+    done = debugged(robot, "1", "delete\ntbreak brain_next\ncontinue\ncontinue\n")
 
     assert done.returncode == 0, done.stdout + done.stderr
     assert "Temporary breakpoint 2, " in done.stdout
 
 
 @pytest.mark.parametrize(("robot", "end"), [("qemu", "kill\n"), ("emulated", "kill\n"), ("emulated", "")])
-def test_leaving_the_debugger_ends_an_image_run(robot, end, tmp_path):
-    words = f"continue\n{end}quit\n"
-
-    done = octet_process("run", "--robot", robot, *OPTIONS, "600", "--gdb", "--out", tmp_path, input=words)
+def test_leaving_the_debugger_ends_an_image_run(robot, end, debugged):
+    done = debugged(robot, "600", f"continue\n{end}quit\n")
 
     assert done.returncode == 1
     assert "the debugger was left before the run had ended" in done.stderr
@@ -66,11 +71,10 @@ def test_debugger_leaves_the_log_of_an_emulated_board_unchanged(board, tmp_path)
     assert (tmp_path / "with/run.log").read_bytes() == (tmp_path / "without/run.log").read_bytes()
 
 
-def test_gdb_prints_and_changes_the_memory_of_an_emulated_robot(tmp_path):
+def test_gdb_prints_and_changes_the_memory_of_an_emulated_robot(debugged):
     words = "continue\nprint robot->node\nset var robot->uptime_s = 77\nprint robot->uptime_s\nprint/x $pc\ndetach\n"
-    run = ("run", "--robot", "emulated", *OPTIONS, "1", "--gdb", "--out", tmp_path)
 
-    done = octet_process(*run, input=words)
+    done = debugged("emulated", "1", words)
 
     assert done.returncode == 0, done.stdout + done.stderr
     assert "= 77" in done.stdout
@@ -124,16 +128,7 @@ def test_malformed_requests_are_answered_with_an_error(board, client):
 
 def test_unknown_requests_get_an_empty_answer(board, client):
     unknown = [
-        "",
-        "Z0",
-        "G00",
-        "p1",
-        "vCont?",
-        "vMustReplyEmpty",
-        "qSymbol::",
-        "Z2,20000000,4",
-        "X20000000,0:",
-        "!",
+        *("", "Z0", "G00", "p1", "vCont?", "vMustReplyEmpty", "qSymbol::", "Z2,20000000,4", "X20000000,0:", "!"),
         "\u00e4",
     ]
     client.send(*unknown, "qSupported:a;b", "?", "Hg0", "qAttached", "D")

@@ -212,20 +212,13 @@ def test_different_seeds_give_different_logs(tmp_path):
     assert first_difference(*logs) is not None
 
 
-def test_first_different_line_is_named(tmp_path):
+@pytest.mark.parametrize(("other", "there"), [("a\nB\nC\n", "B"), ("a\n", "(end)")])
+def test_first_different_line_is_named(tmp_path, other, there):
     ours, theirs = tmp_path / "ours.log", tmp_path / "theirs.log"
     ours.write_text("a\nb\nc\n")
-    theirs.write_text("a\nB\nC\n")
+    theirs.write_text(other)
 
-    assert first_difference(ours, theirs) == "line 2: b on the host, B in theirs.log"
-
-
-def test_shorter_log_differs(tmp_path):
-    ours, theirs = tmp_path / "ours.log", tmp_path / "theirs.log"
-    ours.write_text("a\nb\n")
-    theirs.write_text("a\n")
-
-    assert first_difference(ours, theirs) == "line 2: b on the host, (end) in theirs.log"
+    assert first_difference(ours, theirs) == f"line 2: b on the host, {there} in theirs.log"
 
 
 def test_log_of_a_different_image_is_kept(tmp_path, monkeypatch):

@@ -20,12 +20,17 @@ def start(rcc, clock, bit):
     return bool(read(rcc, 0x00) >> bit & 2)
 
 
+def start_pll(rcc, clock, setup):
+    """From the crystal."""
+    assert start(rcc, clock, 16)
+    write(rcc, 0x04, setup)
+    assert start(rcc, clock, 24)
+
+
 def test_f4_runs_at_168_mhz(clock):
     rcc = rcc_of(STM32F405, clock)
 
-    assert start(rcc, clock, 16)
-    write(rcc, 0x04, 7 << 24 | 1 << 22 | 336 << 6 | 12)
-    assert start(rcc, clock, 24)
+    start_pll(rcc, clock, 7 << 24 | 1 << 22 | 336 << 6 | 12)
     write(rcc, 0x08, 5 << 10 | 4 << 13)
     write(rcc, 0x08, 5 << 10 | 4 << 13 | 2)
 
@@ -65,9 +70,7 @@ def test_g4_runs_at_80_mhz_with_a_selectable_can_clock(clock):
 )
 def test_momentarily_too_fast_bus_clock_is_refused(clock, before, switch, name):
     rcc = rcc_of(STM32F405, clock)
-    start(rcc, clock, 16)
-    write(rcc, 0x04, 7 << 24 | 1 << 22 | 336 << 6 | 12)
-    start(rcc, clock, 24)
+    start_pll(rcc, clock, 7 << 24 | 1 << 22 | 336 << 6 | 12)
     write(rcc, 0x08, before)
 
     with pytest.raises(BoardError, match=name):
@@ -105,9 +108,7 @@ def test_lowering_flash_wait_states_below_the_clock_is_refused():
 def test_f1_runs_at_72_mhz(clock):
     rcc = rcc_of(STM32F103, clock)
 
-    assert start(rcc, clock, 16)
-    write(rcc, 0x04, 4 << 8 | 1 << 16 | 7 << 18)
-    assert start(rcc, clock, 24)
+    start_pll(rcc, clock, 4 << 8 | 1 << 16 | 7 << 18)
     write(rcc, 0x04, 4 << 8 | 1 << 16 | 7 << 18 | 2)
 
     assert (clock.model.period_fs, rcc.apb1_hz()) == (SECOND // 72_000_000, 36_000_000)
@@ -124,9 +125,7 @@ def test_switch_to_a_stopped_oscillator_is_ignored(clock):
 
 def test_clock_too_fast_for_flash_wait_states_is_refused(clock):
     rcc = rcc_of(STM32F405, clock, flash_hz=30_000_000)
-    start(rcc, clock, 16)
-    write(rcc, 0x04, 1 << 22 | 336 << 6 | 12)
-    start(rcc, clock, 24)
+    start_pll(rcc, clock, 1 << 22 | 336 << 6 | 12)
     write(rcc, 0x08, 5 << 10 | 4 << 13)
 
     with pytest.raises(BoardError, match="flash's wait states, runs at 168000000 Hz, where 30000000"):
@@ -157,9 +156,7 @@ def test_running_pll_cannot_be_set_up(clock):
 @pytest.mark.parametrize("stopped", [16, 24])
 def test_clock_source_of_the_core_cannot_be_stopped(clock, stopped):
     rcc = rcc_of(STM32F103, clock)
-    start(rcc, clock, 16)
-    write(rcc, 0x04, 4 << 8 | 1 << 16 | 7 << 18)
-    start(rcc, clock, 24)
+    start_pll(rcc, clock, 4 << 8 | 1 << 16 | 7 << 18)
     write(rcc, 0x04, 4 << 8 | 1 << 16 | 7 << 18 | 2)
 
     with pytest.raises(BoardError, match="stop the clock that the core runs from"):

@@ -20,11 +20,7 @@ from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from host_sim.world.arena import Arena
-from host_sim.world.body_kinds import body_kind
-from host_sim.world.geometry import SimParams
-from host_sim.world.layouts import generate
-from tests.image.two_boards import TwoBoards
+from tests.image.two_boards import TwoBoards, kit_arena
 from tests.runs.support import octet_process
 
 PINS = RunConfig(seed=2, environments=1, robot="emulated", board="blue_pill", body="pins", limit_s=20)
@@ -36,6 +32,24 @@ def board_of(simulation: Simulation) -> PinsBoard:
     link = simulation.clients[0].connection.link
     assert isinstance(link, PinsBoard)
     return link
+
+
+def go(simulation: Simulation, ticks: int) -> None:
+    for _ in range(ticks):
+        simulation.step()
+
+
+def bridge_is_awake(simulation: Simulation) -> bool:
+    robot = board_of(simulation).robot
+    port, pin = robot.wiring.port("BRIDGE_AWAKE")
+    return port.drives(pin)
+
+
+def press(board: PinsBoard, then_s: float) -> None:
+    board.robot.set_button(True)
+    board.pass_time(0.3)
+    board.robot.set_button(False)
+    board.pass_time(then_s)
 
 
 def counts(simulation: Simulation) -> list[int]:
@@ -62,8 +76,7 @@ def test_robot_on_pins_drives_without_collisions(board):
     with make(replace(PINS, board=board)) as simulation:
         simulation.enter(1)
         start = simulation.arena.bodies[0].pose
-        for _ in range(TICKS):
-            simulation.step()
+        go(simulation, TICKS)
         body = simulation.arena.bodies[0]
         assert abs(body.pose.x_mm - start.x_mm) + abs(body.pose.y_mm - start.y_mm) > 100
         assert body.collisions == 0
@@ -76,20 +89,20 @@ def test_encoder_on_a_wrong_pin_does_not_count(channel):
         board_of(simulation).robot.wiring.rewire(f"LEFT_ENCODER_{channel}", "PB4")
         simulation.enter(1)
         before = counts(simulation)
-        for _ in range(50):
-            simulation.step()
+        go(simulation, 50)
         after = counts(simulation)
         assert (after[0] == before[0], after[1] == before[1]) == (True, False)
 
 
 def test_can_on_a_wrong_pin_gets_no_answer():
     board = start_robot("blue_pill")
+    command = Protocol(1).encode("COMMAND", {"counter": 1, "opcode": 9, "owner": 1})
     board.pass_time(0.1)
     board.robot.wiring.rewire("CAN_RX", "PA11")
-    board.send(Protocol(1).encode("COMMAND", {"counter": 1, "opcode": 9, "owner": 1}))
+    board.send(command)
     assert board.pass_time(0.1) == []
     board.robot.wiring.rewire("CAN_RX", "PB8")
-    board.send(Protocol(1).encode("COMMAND", {"counter": 1, "opcode": 9, "owner": 1}))
+    board.send(command)
     assert Frame in {type(frame) for frame in board.pass_time(0.1)}
 
 
@@ -121,28 +134,23 @@ def test_ambient_light_is_not_detected_as_a_wall():
 
 def test_reversed_encoder_stops_the_robot_within_a_second():
     with make(PINS) as simulation:
-        board = board_of(simulation)
-        board.robot.counts_by[0] = -1
+        board_of(simulation).robot.counts_by[0] = -1
         simulation.enter(1)
-        for _ in range(50):
-            simulation.step()
-        port, pin = board.robot.wiring.port("BRIDGE_AWAKE")
-        assert not port.drives(pin)
+        go(simulation, 50)
+        assert not bridge_is_awake(simulation)
 
 
 @pytest.mark.parametrize("name", BOARDS)
 def test_bridge_fault_stops_the_pwm_in_hardware(name):
     with make(replace(PINS, board=name)) as simulation:
         simulation.enter(1)
-        for _ in range(20):
-            simulation.step()
+        go(simulation, 20)
         board = board_of(simulation)
         assert board.robot.motors.duty("ch2n") > 0
         board.robot.set_bridge_fault(True)
         assert board.robot.motors.duty("ch2n") == board.robot.motors.duty("ch1") == 0
         simulation.step()
-        port, pin = board.robot.wiring.port("BRIDGE_AWAKE")
-        assert not port.drives(pin)
+        assert not bridge_is_awake(simulation)
 
 
 @pytest.mark.parametrize(
@@ -156,26 +164,18 @@ def test_bridge_fault_stops_the_pwm_in_hardware(name):
 def test_short_fault_spike_is_filtered_if_the_chip_can(name, lasts_s, drives):
     with make(replace(PINS, board=name)) as simulation:
         simulation.enter(1)
-        board = board_of(simulation)
-        board.robot.set_bridge_fault(True, lasts_s)
+        board_of(simulation).robot.set_bridge_fault(True, lasts_s)
         simulation.step()
-        port, pin = board.robot.wiring.port("BRIDGE_AWAKE")
-        assert port.drives(pin) == drives
+        assert bridge_is_awake(simulation) == drives
 
 
 @pytest.mark.parametrize("name", BOARDS)
 def test_button_starts_and_stops_the_robot_without_a_pc(name):
     board = start_robot(name)
-    board.robot.set_button(True)
-    board.pass_time(0.3)
-    board.robot.set_button(False)
-    board.pass_time(1.5)
+    press(board, then_s=1.5)
     assert board.robot.wiring.meets("LEFT_PWM")
     assert board.robot.figures()["duty"][0] != 0
-    board.robot.set_button(True)
-    board.pass_time(0.3)
-    board.robot.set_button(False)
-    board.pass_time(0.5)
+    press(board, then_s=0.5)
     assert board.robot.figures()["duty"][0] == 0
 
 
@@ -193,8 +193,7 @@ def test_pwm_is_updated_without_jitter(name):
 
         pwm.on_write = note
         simulation.enter(1)
-        for _ in range(50):
-            simulation.step()
+        go(simulation, 50)
     spans = [b - a for a, b in pairwise(moments)]
     assert len(spans) > 190
     assert max(abs(span - 0.005) for span in spans) < 1e-6
@@ -205,8 +204,7 @@ def test_page_feed_contains_the_pins():
         live = PacedRun(simulation, RunRecorder.of(simulation, boredom_limit=10), lambda _: None)
         live.begin()
         feed, robot = PageFeed(live), board_of(simulation).robot
-        for _ in range(25):
-            simulation.step()
+        go(simulation, 25)
         (pins,) = json.loads(feed.next() or "")["pins"]
         assert pins["counts"] == [robot.library.kit_count(robot.kit, side) for side in range(2)] != [0, 0]
         assert all(0 < abs(duty) <= 100 for duty in pins["duty"])
@@ -242,10 +240,7 @@ def driven_mm_s(board: str, told_mm_s: int, inductance_mh: float) -> float:
     boards = TwoBoards(body=board)
     boards.cut = True
     boards.robot.winding = Winding(henry=inductance_mh / 1000)
-    kind = body_kind("kit")
-    params = kind.reach(SimParams())
-    arena = Arena(generate(2, 1, params), params, kind=kind)
-    arena.begin(2)
+    arena = kit_arena()
     boards.robot.join(arena.body.kit)
     kit, begin = arena.body.kit, 0
     for tick in range(SETTLING_TICKS + DRIVE_TICKS):

@@ -47,13 +47,18 @@ def test_systick_interrupt_is_not_modelled(clock):
         write(SysTick(clock), 0x0, 3)
 
 
+def two_seconds(clock, bite):
+    """A watchdog that is set up and waits for its start."""
+    watchdog = Watchdog(clock, 32_000, bite)
+    clock.skip(100 * SECOND)
+    for offset, value in ((0x0, 0x5555), (0x4, 3), (0x8, 1999)):
+        write(watchdog, offset, value)
+    return watchdog
+
+
 def test_watchdog_resets_when_it_is_not_fed_in_time(clock):
     bites = []
-    watchdog = Watchdog(clock, 32_000, lambda: bites.append(clock.now))
-    clock.skip(100 * SECOND)
-    write(watchdog, 0x0, 0x5555)
-    write(watchdog, 0x4, 3)
-    write(watchdog, 0x8, 1999)
+    watchdog = two_seconds(clock, lambda: bites.append(clock.now))
     write(watchdog, 0x0, 0xCCCC)
 
     for _ in range(3):
@@ -77,10 +82,7 @@ def test_locked_watchdog_cannot_be_set_up(clock, register):
 
 
 def test_watchdog_reports_its_period(clock):
-    watchdog = Watchdog(clock, 32_000, lambda: None)
-    write(watchdog, 0x0, 0x5555)
-    write(watchdog, 0x4, 3)
-    write(watchdog, 0x8, 1999)
+    watchdog = two_seconds(clock, lambda: None)
     stopped = watchdog.period_s()
     write(watchdog, 0x0, 0xCCCC)
 
@@ -145,14 +147,15 @@ def test_fault_status_is_cleared_by_writing_ones():
 
 def test_invalid_arm_image_is_reported(tmp_path):
     other = tmp_path / "robot.elf"
-
-    with pytest.raises(OctetError, match="cannot read the image"):
-        load_segments(other)
     other.write_bytes(b"not even that")
-    with pytest.raises(OctetError, match="cannot read the image"):
-        load_segments(other)
-    with pytest.raises(OctetError, match="not a 32-bit ELF file for ARM"):
-        load_segments(PROGRAM)
+
+    for image, said in (
+        (tmp_path / "none.elf", "cannot read the image"),
+        (other, "cannot read the image"),
+        (PROGRAM, "not a 32-bit ELF file for ARM"),
+    ):
+        with pytest.raises(OctetError, match=said):
+            load_segments(image)
 
 
 def test_missing_models_are_reported_with_the_setup_command(monkeypatch, tmp_path):

@@ -9,9 +9,21 @@ from host_sim.protocol.codec import Protocol
 from host_sim.protocol.generated import Reason
 from host_sim.transport.link import Frame
 from host_sim.world.arena import Arena
+from host_sim.world.body_kinds import body_kind
+from host_sim.world.geometry import SimParams
+from host_sim.world.layouts import generate
 
 _SLICE_S = 0.0005
 """Maximum delay of a frame to the other board: twice its time on the wire."""
+
+
+def kit_arena() -> Arena:
+    """A world to be driven in by a body of the kit."""
+    kind = body_kind("kit")
+    params = kind.reach(SimParams())
+    made = Arena(generate(2, 1, params), params, kind=kind)
+    made.begin(2)
+    return made
 
 
 class TwoBoards:
