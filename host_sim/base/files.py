@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import BinaryIO, TypeVar
 
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.base.system import NO_WAIT, give_mode, lock_at_once, sync_folder
+from host_sim.base.system import NO_WAIT, give_mode, lock_at_once, open_to_lock, sync_folder
 
 Word = TypeVar("Word")
 
@@ -196,6 +196,25 @@ COMPRESSED = ".gz"
 _CHUNK_BYTES = 1 << 16
 _LEVEL = 1  # compresses a log to a quarter; the default level takes three times as long for a fifth
 _GZIP = 16 + zlib.MAX_WBITS
+
+
+@contextmanager
+def run_folder(path: Path) -> Iterator[None]:
+    """Creates the folder of a run's files if it does not exist, and keeps other runs out of it.
+
+    Raises:
+        UsageError: The folder cannot be created or locked, or another run is using it.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        descriptor = open_to_lock(path)
+    except OSError as error:
+        raise UsageError(f"cannot make the folder {path}: {error.strerror}; choose another with --out") from None
+    try:
+        lock(descriptor, f"the folder {path}", "choose another with --out")
+        yield
+    finally:
+        os.close(descriptor)
 
 
 class CompressedFile:

@@ -5,12 +5,11 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from host_sim.base.errors import counted
-from host_sim.base.files import write_bytes
+from host_sim.base.files import run_folder, write_bytes
 from host_sim.base.terminal import ProgressLine
 from host_sim.cli.outputs import FLEET_PICTURE, SUMMARY, keep_earlier, print_result
 from host_sim.cli.run_options import FLEET_TABLE, RunOptions
 from host_sim.recording.fleet_summary import summarize_fleet, table
-from host_sim.recording.run_folder import run_folder
 from host_sim.recording.summary import Summary
 from host_sim.report.fleet_picture import write_fleet_picture
 from host_sim.sim.fleet import FleetResult, run_fleet, shared_world

@@ -96,12 +96,12 @@ def _run(options: RunOptions) -> int:
 
 def _observe(options: RunOptions) -> None:
     """Follows a robot that runs by itself until Ctrl-C or the limit, then draws its log."""
+    from host_sim.base.files import run_folder
     from host_sim.cli.interruption import until_ctrl_c
     from host_sim.cli.own_source import log_words
     from host_sim.client.frame_log import FrameLog
     from host_sim.live.observer import Line, observe
     from host_sim.recording.resimulation import resimulate
-    from host_sim.recording.run_folder import run_folder
     from host_sim.report.picture import write_picture
     from host_sim.report.replay_page import write_page
 

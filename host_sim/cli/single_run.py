@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from host_sim.base.errors import BrainError, DoubtfulError, OctetError, UsageError
+from host_sim.base.files import run_folder
 from host_sim.base.paths import as_called
 from host_sim.base.terminal import ProgressLine
 from host_sim.cli.interruption import interrupted_between_ticks, stop_soon
@@ -21,7 +22,6 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.recording.memory_file import MemorySaver, check_writable, load_memory, memory_lock, memory_path
-from host_sim.recording.run_folder import run_folder
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, environment_line
 from host_sim.recording.world_file import world_path

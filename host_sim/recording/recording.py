@@ -113,7 +113,10 @@ class TickReader:
 
     def _accept(self, decoded: DecodedFrame) -> Iterator[Tick]:
         if decoded.name == "SENSES":
-            yield from self._begin_tick(_senses_from(decoded))
+            senses = Senses._make(number for name, number in decoded.signals.items() if name not in UNSAID)
+            if senses != self._begun:  # it is no repetition
+                yield from self._end_tick()
+                self._begun = self._senses = senses
         elif decoded.name == "MEMORY":
             memory = self._report.join(decoded)
             if memory is not None:
@@ -126,12 +129,6 @@ class TickReader:
     def _is_question(self, decoded: DecodedFrame) -> bool:
         """Whether a report is requested from a robot that has stopped by itself, before its drive in this tick."""
         return self._lockstep and self._fresh is None and decoded.signals["opcode"] == Opcode.REPORT
-
-    def _begin_tick(self, senses: Senses) -> Iterator[Tick]:
-        """Begins a tick, unless the senses are a repetition."""
-        if senses != self._begun:
-            yield from self._end_tick()
-            self._begun = self._senses = senses
 
     def _end_tick(self) -> Iterator[Tick]:
         """Yields the tick that has ended, if there is one and it was answered."""
@@ -175,11 +172,6 @@ class TickReader:
             self.recording.boredom_limit = signals["value"]
         elif opcode == Opcode.FREEZE:
             self._frozen = bool(signals["freeze"])
-
-
-def _senses_from(decoded: DecodedFrame) -> Senses:
-    """The senses in a decoded SENSES frame."""
-    return Senses._make(number for name, number in decoded.signals.items() if name not in UNSAID)
 
 
 _MARGIN_MM = 500.0

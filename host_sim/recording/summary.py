@@ -161,7 +161,7 @@ def _robot(client: RobotClient) -> dict[str, Any]:
 
 def _link(robot: dict[str, Any]) -> str:
     """The faults between simulator and robot, in words; empty if there were none."""
-    frames, faults, saturated = robot["frames"], robot["faults"], robot["saturated"]
+    frames, faults = robot["frames"], robot["faults"]
     counts = {
         "repeated": frames["repeated"],
         "lost": frames["lost"],
@@ -170,13 +170,10 @@ def _link(robot: dict[str, Any]) -> str:
     }
     parts = [f"{counted(count, 'frame')} {name}" for name, count in counts.items() if count]
     parts += [f"gone {counted(robot['line']['outages'], 'time')}"] if robot["line"]["outages"] else []
-    parts += [f"robot counted {name}: {_count(faults[name], name in saturated)}" for name in faults if faults[name]]
+    more = dict.fromkeys(robot["saturated"], " or more")
+    parts += [f"robot counted {name}: {count}{more.get(name, '')}" for name, count in faults.items() if count]
     slow = f"; an answer takes {robot['round_trip_ms']:.0f} ms" if parts and robot["round_trip_ms"] else ""
     return ", ".join(parts) + slow
-
-
-def _count(count: int, saturated: bool) -> str:
-    return f"{count} or more" if saturated else str(count)
 
 
 def _environment(episode: EpisodeResult) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from contextlib import suppress
 
 from host_sim.base.errors import OctetError, RobotError
 from host_sim.base.paths import BUILD, ROOT
+from host_sim.transport.bus_process import LinkedProcess
 
 OCTET_DEBUG, OCTET_ROBOT = "tools/debug/octet-debug", "hal/port/posix/octet-robot"
 """Programs of the host build for debuggers: the robot of a log, and a robot on a bus."""
@@ -18,7 +19,6 @@ OCTET_DEBUG, OCTET_ROBOT = "tools/debug/octet-debug", "hal/port/posix/octet-robo
 LOG_SCRIPT = os.fspath(ROOT / "tools" / "debug" / "log.gdb")
 
 _SCRIPT = os.fspath(ROOT / "tools" / "debug" / "octet.gdb")
-_END_S = 2.0
 
 
 def debug_program(name: str) -> str:
@@ -38,7 +38,7 @@ def gdb_command(arguments: Sequence[str], program: str = "gdb") -> list[str]:
     return [program, "-q", "-nx", "-x", _SCRIPT, *arguments]
 
 
-class Gdb:
+class Gdb(LinkedProcess):
     """A gdb that owns this terminal, with its Ctrl-C, until it ends. It ends with `close`."""
 
     def __init__(self, arguments: Sequence[str], program: str = "gdb", pass_fds: Sequence[int] = ()) -> None:
@@ -71,12 +71,6 @@ class Gdb:
         if self._process.poll() is not None:
             raise RobotError("the debugger was left before the run had ended")
         return "is in the debugger"
-
-    def account_for_silence(self) -> None:
-        """Waits a moment for the end of gdb when its robot has gone; raises as `status` does."""
-        with suppress(subprocess.TimeoutExpired):
-            self._process.wait(_END_S)
-        self.status()
 
     def wait(self) -> int:
         """Waits for its end, and returns its exit code."""

@@ -1,6 +1,6 @@
 """A fleet: up to thousands of robots without a bus, each in a world of its own or all in one."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import chain
@@ -135,7 +135,7 @@ class _Run:
         active = list(range(fleet.worlds))
         self._enter(active)
         while active:
-            self._run_block(active)
+            fleet.run(fleet.ticks_max or _BLOCK_TICKS, active)
             progress(fleet.ticks_in_all())
             over = [world for world in active if fleet.is_over(world)]
             for world in over:
@@ -144,14 +144,8 @@ class _Run:
             self._enter([world for world in over if world not in last])
             active = [world for world in active if world not in last]
 
-    def _run_block(self, worlds: list[int]) -> None:
-        self._fleet.run(self._fleet.ticks_max or _BLOCK_TICKS, worlds)
-
     def _seed(self, index: int) -> int:
         return self._frozen[index].seed if self._frozen else (self._config.seed + index) % _SEED_SPAN
-
-    def _robots_of(self, world: int) -> Iterable[int]:
-        return (world,) if self._own else range(self._fleet.robots)
 
     def _enter(self, worlds: list[int]) -> None:
         """Begins the next environments of some worlds; world 0 is the shared one, or the first robot's."""
@@ -169,7 +163,7 @@ class _Run:
         """Ends an environment."""
         fleet = self._fleet
         eaten = tuple(fleet.eaten(world))
-        for index in self._robots_of(world):
+        for index in (world,) if self._own else range(fleet.robots):
             yield FleetResult(
                 robot=index + 1,
                 seed=self._seed(index),

@@ -6,11 +6,11 @@ import socket
 import subprocess
 import time
 from collections.abc import Sequence
-from contextlib import suppress
 from pathlib import Path
 
 from host_sim.base.errors import OctetError, RobotError
 from host_sim.base.paths import image_path
+from host_sim.transport.bus_process import LinkedProcess
 from host_sim.transport.slcan_link import SlcanLink
 
 PROGRAM = "qemu-system-arm"
@@ -20,12 +20,11 @@ IMAGE = "feather_stm32f405", "slcan"
 """Board and link of the image for it."""
 
 _READY_S = 60.0  # a busy machine takes long to start an emulator
-_END_S = 2.0
 _PAUSE_S = 0.05
 """Gap that marks the end of the robot's first reports, s."""
 
 
-class SerialEmulator:
+class SerialEmulator(LinkedProcess):
     """A running emulator. It ends with `close`, or when this process ends.
 
     Attributes:
@@ -85,16 +84,6 @@ class SerialEmulator:
         printed = self._process.stderr.read().decode(errors="replace").strip().replace("\n", " / ")
         raise RobotError(f"{self._name} ended with exit code {code} and printed: {printed or 'nothing'}")
 
-    def account_for_silence(self) -> None:
-        """Waits a moment for the end of a process whose line is closed.
-
-        Raises:
-            RobotError: The process has ended; the message says how.
-        """
-        with suppress(subprocess.TimeoutExpired):
-            self._process.wait(_END_S)
-        self.status()
-
     def close(self) -> None:
         """Kills the process, which has nothing to save."""
         self._process.kill()
@@ -136,9 +125,6 @@ class Qemu(SerialEmulator):
             raise OctetError(f"{PROGRAM} is not installed: run tools/setup images")
         options = ["-M", machine, "-display", "none", "-monitor", "none", "-kernel", os.fspath(image)]
         command = [PROGRAM, *options, "-chardev", "socket,id=uart,fd=FD", "-serial", "chardev:uart"]
-        super().__init__("QEMU", command + _for_gdb(gdb), by_number=True, held=gdb is not None)
-
-
-def _for_gdb(socket_path: Path | None) -> list[str]:
-    words = ["-S", "-chardev", f"socket,id=gdb,path={socket_path},server=on,wait=off", "-gdb", "chardev:gdb"]
-    return words if socket_path else []
+        if gdb:
+            command += ["-S", "-chardev", f"socket,id=gdb,path={gdb},server=on,wait=off", "-gdb", "chardev:gdb"]
+        super().__init__("QEMU", command, by_number=True, held=gdb is not None)

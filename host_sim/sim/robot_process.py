@@ -1,6 +1,5 @@
 """Robots as processes: the host build of the firmware, or a user's program, which is restarted when it ends."""
 
-import contextlib
 import os
 import re
 import select
@@ -14,19 +13,18 @@ from pathlib import Path
 
 from host_sim.base.errors import BrainError, LinkDownError, OctetError, RobotError, UsageError
 from host_sim.base.paths import BUILD
-from host_sim.transport.bus_process import BusProcess, start_on_socket_pair
+from host_sim.transport.bus_process import BusProcess, LinkedProcess, start_on_socket_pair
 from host_sim.transport.link import Frame, LineStats, Link
 from host_sim.transport.socket_pair import SocketPairLink
 
 PROGRAM = BUILD / "host" / "hal" / "port" / "posix" / "octet-robot"
 _READY_S = 10.0
-_END_S = 2.0
 _PRINTED_CHARS = 400
 _REPORT_FOLLOWS = re.compile(r"^own: -?\d+ ,", re.MULTILINE)  # and is whole only when the robot has ended
 _OF_PROGRAM = "> "  # before a line that the robot's program prints
 
 
-class RobotProcess:
+class RobotProcess(LinkedProcess):
     """A running robot. It ends with `close`, or when this process ends.
 
     Attributes:
@@ -96,16 +94,6 @@ class RobotProcess:
         lines = self._printed.decode(errors="replace").splitlines(keepends=True)
         return "".join(line[len(_OF_PROGRAM) :] for line in lines if line.startswith(_OF_PROGRAM))
 
-    def account_for_silence(self) -> None:
-        """Waits a moment for the end of a robot whose link is closed: the link closes before the process has ended.
-
-        Raises:
-            RobotError: The process has ended; the message says how.
-        """
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            self._process.wait(_END_S)
-        self.status()
-
     def close(self) -> None:
         """Kills the process, which has nothing to save."""
         self._process.kill()
@@ -141,7 +129,7 @@ class RobotProcess:
 
 def _signal_name(number: int) -> str:
     """A signal by number and name, such as 9 (SIGKILL)."""
-    with contextlib.suppress(ValueError):  # a real-time signal has no name
+    with suppress(ValueError):  # a real-time signal has no name
         return f"{number} ({signal.Signals(number).name})"
     return f"{number}"
 
@@ -168,10 +156,8 @@ class OwnRobot:
     process: BusProcess | None = None
     was_there: bool = False
 
-    @property
-    def environment(self) -> dict[str, str]:
-        """Its environment variables, apart from those for the bus."""
-        return {"OCTET_NODE": str(self.node)}
+    def __post_init__(self) -> None:
+        self._variables = {"OCTET_NODE": str(self.node)}
 
     def on_socket_pair(self, stats: LineStats) -> SocketPairLink:
         """Starts or restarts it, and waits for its first frame.
@@ -181,7 +167,7 @@ class OwnRobot:
             LinkDownError: It has ended again, or stays silent.
         """
         self.close()
-        link, self.process = start_on_socket_pair(self.command, self.environment, stats)
+        link, self.process = start_on_socket_pair(self.command, self._variables, stats)
         try:
             link.put_back(self._first_word(link.receive))
         except BaseException:
@@ -196,7 +182,7 @@ class OwnRobot:
             UsageError: It has never sent a frame.
             LinkDownError: As for `on_socket_pair`.
         """
-        self.process = BusProcess(self.command, bus, self.environment)
+        self.process = BusProcess(self.command, bus, self._variables)
         self._first_word(link.receive)
 
     def status(self) -> str:

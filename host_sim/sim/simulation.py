@@ -218,7 +218,8 @@ class Simulation:
             RobotError: A robot has ended or does not answer.
         """
         if self.tick >= self._schedule.next_tick:
-            self._make_due_changes()
+            for change in self._schedule.due(self.tick):
+                self._make_change(change)
         if self.loop is not None:
             self._step_in_c(self.loop, ticks_max)
             return
@@ -314,10 +315,6 @@ class Simulation:
         for edit in crates.push(self.drives):
             with suppress(EditError):  # a thing that a person has put into a wall, or made very short, stays there
                 self.edit(edit)
-
-    def _make_due_changes(self) -> None:
-        for change in self._schedule.due(self.tick):
-            self._make_change(change)
 
     def _make_change(self, change: Change) -> None:
         """Applies a change; if it is impossible, records the reason and continues."""

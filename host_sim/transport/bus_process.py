@@ -10,6 +10,7 @@ import signal
 import socket
 import subprocess
 import tempfile
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -22,7 +23,23 @@ _END_S = 2.0
 _PRINTED_MAX = 300
 
 
-class BusProcess:
+class LinkedProcess(ABC):
+    """A process at the other end of a link, which closes before the process has ended."""
+
+    _process: subprocess.Popen[bytes]
+
+    @abstractmethod
+    def status(self) -> str:
+        """The state of the process in a few words; raises if it has ended."""
+
+    def account_for_silence(self) -> None:
+        """Waits a moment for the end of a process whose link is closed; raises as `status` does if it has ended."""
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(_END_S)
+        self.status()
+
+
+class BusProcess(LinkedProcess):
     """A running program, with all processes that it starts.
 
     Attributes:
@@ -81,16 +98,6 @@ class BusProcess:
             self._output.seek(max(self._output.seek(0, os.SEEK_END) - _PRINTED_MAX, 0))
             self._printed = self._output.read()
         return " / ".join(line for line in self._printed.decode(errors="replace").splitlines() if line)
-
-    def account_for_silence(self) -> None:
-        """Waits a moment for the end of a process whose socket is closed: that closes first.
-
-        Raises:
-            LinkDownError: It has ended; the message has what it printed last.
-        """
-        with suppress(subprocess.TimeoutExpired):
-            self._process.wait(_END_S)
-        self.status()
 
     def close(self) -> None:
         """Kills it, and all that it has started."""

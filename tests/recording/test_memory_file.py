@@ -10,11 +10,10 @@ from pathlib import Path
 import pytest
 
 from host_sim.base.errors import UsageError
-from host_sim.base.files import write_bytes
+from host_sim.base.files import run_folder, write_bytes
 from host_sim.protocol.generated import MemoryKind
 from host_sim.recording import memory_file as module
 from host_sim.recording.memory_file import MemorySaver, load_memory, memory_lock
-from host_sim.recording.run_folder import run_folder
 from host_sim.world.memory_kinds import translated
 
 NOTHING, SOME, MORE = (0,) * 8, (0, 1, 0, 0, 2, 0, 0, 0), (0, 1, 0, 1, 2, 0, 0, 0)

@@ -127,7 +127,8 @@ class File:
     def judged(self) -> Iterator[tuple[Condition, bool]]:
         """Each condition of a decision with several, and whether it was shown to decide."""
         for place, decide in self.decisions:
-            inside = [each for each in self.conditions if each.joint and _contains(place, each.place)]
+            joint = [each for each in self.conditions if each.joint]
+            inside = [it for it in joint if place[:2] <= it.place[:2] and it.place[2:] <= place[2:]]
             yield from zip(inside, decide, strict=True)
 
     def _gap(self, what: str, condition: Condition) -> Gap:
@@ -187,10 +188,6 @@ def _file(source: Source, number: int, function: dict[str, Any]) -> File:
         conditions=sorted(Condition(Place(*row[:4]), row[4], row[5], row[8] == _JOINT) for row in branches),
         decisions=[(Place(*row[:4]), row[-1]) for row in decisions],
     )
-
-
-def _contains(outer: Place, inner: Place) -> bool:
-    return outer[:2] <= inner[:2] and inner[2:] <= outer[2:]
 
 
 # These patterns replace coverage.py's: no comment excludes a line, and only lines that do nothing are excluded.

@@ -12,13 +12,12 @@ from typing import Any, NamedTuple
 
 from host_sim.base.errors import UsageError
 from host_sim.base.extra_library import library
-from host_sim.base.files import read_bytes, replacing, write_bytes
+from host_sim.base.files import read_bytes, replacing, run_folder, write_bytes
 from host_sim.base.paths import ROOT
 from host_sim.base.toml_file import read_toml
 from host_sim.lab.study.plan import Plan
 from host_sim.lab.study.tables import COLUMNS, Row, Rows, Tables
 from host_sim.lab.study.version import FORMAT, code_version
-from host_sim.recording.run_folder import run_folder
 
 STUDY_FILE = "study.json"
 PLAN_FILE = "study.toml"

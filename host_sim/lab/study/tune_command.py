@@ -56,11 +56,10 @@ def add(commands: Subparsers) -> None:
 
 
 def _tune(arguments: argparse.Namespace) -> int:
-    from host_sim.base.files import write_bytes
+    from host_sim.base.files import run_folder, write_bytes
     from host_sim.base.terminal import ProgressLine
     from host_sim.lab.study.tuning import OF_THE_BODY, Search, SearchTask, samples_of
     from host_sim.lab.workers import run_all
-    from host_sim.recording.run_folder import run_folder
     from host_sim.sim.run_config import RunConfig
 
     a, fixed = arguments, {name: value for each in arguments.set for name, value in each.items()}
