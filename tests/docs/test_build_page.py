@@ -18,27 +18,21 @@ from tools.flashing.images import ROOT
 from tools.schematic import MECHANICAL, read_robot
 
 
-def test_pin_table_and_drawings_match_the_blue_pill(tmp_path: Path) -> None:
-    pins = read_pins("blue_pill")
+@pytest.mark.parametrize("board", ["blue_pill", "pico"])
+def test_drawings_match_the_board(board: str, tmp_path: Path) -> None:
+    drawn = write_drawings(read_pins(board), tmp_path)
 
-    drawn = write_drawings(pins, tmp_path)
-
-    assert pins.table() in (ROOT / "docs/hardware.md").read_text()
     for path in drawn:
         if path.suffix == ".svg":
             assert path.read_text() == (ROOT / "docs/images" / path.name).read_text()
 
 
-def test_build_page_and_drawings_match_the_wiring_of_the_pico(tmp_path: Path) -> None:
+def test_tables_of_the_pages_match_the_pins_and_the_wiring() -> None:
     robot, text = read_robot(read_pins("pico")), (ROOT / "docs/build.md").read_text()
 
-    drawn = write_drawings(robot.pins, tmp_path)
-
+    assert read_pins("blue_pill").table() in (ROOT / "docs/hardware.md").read_text()
     assert robot.shopping() in text
     assert robot.wiring() in text
-    for path in drawn:
-        if path.suffix == ".svg":
-            assert path.read_text() == (ROOT / "docs/images" / path.name).read_text()
 
 
 def test_parts_list_counts_each_part_of_the_wiring() -> None:

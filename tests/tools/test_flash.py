@@ -180,19 +180,21 @@ def test_matching_chip_is_accepted(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     check_chip(plan_with(tmp_path, monkeypatch, "echo Info : clock; echo chip=0x10076413"), "stm32f405")
 
 
-def test_wrong_chip_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    plan = plan_with(tmp_path, monkeypatch, "echo chip=0x20036410")
-    with pytest.raises(OctetError, match=r"the chip behind the probe is 0x410, not stm32f405 \(0x413\)"):
-        check_chip(plan, "stm32f405")
-
-
-def test_chip_that_does_not_answer_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    plan = plan_with(tmp_path, monkeypatch, "echo Error: init mode failed >&2; exit 1")
-    with pytest.raises(
-        OctetError,
-        match=r"openocd finds no chip \(exit code 1\): the probe does not reach .* \(Error: init mode failed\)",
-    ):
-        check_chip(plan, "stm32f405")
+@pytest.mark.parametrize(
+    ("script", "said"),
+    [
+        ("echo chip=0x20036410", r"the chip behind the probe is 0x410, not stm32f405 \(0x413\)"),
+        (
+            "echo Error: init mode failed >&2; exit 1",
+            r"openocd finds no chip \(exit code 1\): the probe does not reach .* \(Error: init mode failed\)",
+        ),
+    ],
+)
+def test_wrong_or_silent_chip_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, script: str, said: str
+) -> None:
+    with pytest.raises(OctetError, match=said):
+        check_chip(plan_with(tmp_path, monkeypatch, script), "stm32f405")
 
 
 REPORTED = {
@@ -270,17 +272,26 @@ def test_incomplete_board_or_missing_link_is_answered_with_the_choices(words: li
     assert names in result.stderr
 
 
-def test_image_built_earlier_refuses_another_node(tmp_path: Path) -> None:
-    result = flash("blue_pill", "bxcan", f"--image={tmp_path}", "--node=2")
-
-    assert result.returncode == 2
-    assert "leave out --node and --bitrate" in result.stderr
-
-
-@pytest.mark.parametrize("words", ["nucleo bxcan", "blue_pill fdcan", "blue_pill bxcan --image tools/flash"])
-def test_wrong_choice_prints_one_line_and_ends_with_2(words: str) -> None:
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("nucleo bxcan", "nucleo_g431rb"),
+        ("blue_pill fdcan", "there are bxcan"),
+        ("blue_pill bxcan --image tools/flash", "is not an Octet image"),
+    ],
+)
+def test_wrong_choice_prints_one_line_and_ends_with_2(words: str, said: str) -> None:
     result = flash(*words.split())
     assert (result.returncode, result.stdout, result.stderr.count("\n")) == (2, "", 1)
+    assert said in result.stderr
+
+
+@pytest.mark.parametrize("option", ["--node=2", "--bitrate=125000", "--profile=mine.c"])
+def test_image_built_earlier_refuses_options_of_a_build(option: str) -> None:
+    result = flash("blue_pill", "bxcan", "--image=octet.elf", option)
+
+    assert result.returncode == 2
+    assert "leave out --node and --bitrate, and --profile" in result.stderr
 
 
 def drive(
@@ -352,10 +363,3 @@ def test_faulty_behaviour_is_not_flashed(tmp_path: Path) -> None:
     assert done.returncode == 2
     assert "index 8 is outside of 'uint8_t [8]', at tick 0" in done.stderr
     assert done.stderr.endswith("it has to drive a simulated robot for a minute first\n")
-
-
-def test_image_built_earlier_refuses_a_behaviour(tmp_path: Path) -> None:
-    done = flash("blue_pill", "--image", str(tmp_path / "a.elf"), "--profile", "mine.c")
-
-    assert done.returncode == 2
-    assert "and --profile" in done.stderr

@@ -20,21 +20,24 @@ def project(tmp_path: Path) -> Project:
     return Project(tmp_path)
 
 
-def test_passed_tests_are_counted(project):
-    project.python_tests(PASSES, PASSES, PASSES)
-    project.c_tests(one="true", two="true")
+@pytest.mark.parametrize(
+    ("python", "c", "stages", "counted"),
+    [
+        ([PASSES, PASSES, PASSES], {"one": "true", "two": "true"}, ["c", "python"], (0, "5 passed, 0 failed")),
+        ([PASSES, FAILS, SKIPS, TEARDOWN_FAILS], {}, ["python"], (1, "1 passed, 3 failed")),
+        ([], {"one": "true", "two": "false", "three": "true"}, ["c"], (1, "2 passed, 1 failed")),
+        ([], {}, ["c"], (1, "0 passed, 1 failed")),
+        ([], {}, ["python"], (1, "0 passed, 1 failed")),
+    ],
+    ids=["all passed", "failed and skipped", "in C", "no test in C", "no test in Python"],
+)
+def test_tests_are_counted_and_those_skipped_or_missing_have_failed(project, python, c, stages, counted):
+    project.python_tests(*python)
+    project.c_tests(**c)
 
-    code, said = project.run("c", "python")
+    code, said = project.run(*stages)
 
-    assert (code, last(said)) == (0, "5 passed, 0 failed")
-
-
-def test_failed_and_skipped_tests_are_counted_as_failed(project):
-    project.python_tests(PASSES, FAILS, SKIPS, TEARDOWN_FAILS)
-
-    code, said = project.run("python")
-
-    assert (code, last(said)) == (1, "1 passed, 3 failed")
+    assert (code, last(said)) == counted
 
 
 def test_broken_test_file_is_counted_as_failed(project):
@@ -55,14 +58,6 @@ def test_allowed_skip_is_named(project):
     assert "skipped, as allowed: tests/test_1.py::test_that_skips: bus: there is none" in said
 
 
-def test_failed_c_test_is_counted(project):
-    project.c_tests(one="true", two="false", three="true")
-
-    code, said = project.run("c")
-
-    assert (code, last(said)) == (1, "2 passed, 1 failed")
-
-
 def test_exit_during_a_test_as_if_all_were_well_fails_the_stage(project):
     project.python_tests(PASSES, ENDS, PASSES)
     script = project.stages()
@@ -77,15 +72,6 @@ def test_exit_during_a_test_as_if_all_were_well_fails_the_stage(project):
     script.side_by_side(lane())
 
     assert (results["bus"].verdict, results["bus"].passed, results["bus"].failed) == ("FAILED", 1, 1)
-
-
-@pytest.mark.parametrize("stage", ["c", "python"])
-def test_stage_without_a_test_fails(stage, project):
-    project.c_tests()
-
-    code, said = project.run(stage)
-
-    assert (code, last(said)) == (1, "0 passed, 1 failed")
 
 
 def test_stage_whose_tests_are_only_collected_fails(project, monkeypatch):
