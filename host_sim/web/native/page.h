@@ -81,6 +81,13 @@ bool page_open(uint32_t robots);
 void page_bind(struct loop_robot *robot, struct octet *octet);
         /* Makes this the robot at a place of the run. */
 
+struct octet *page_octet(uint32_t robot);
+        /* The robot itself. */
+
+void page_hear(uint32_t robot, const struct frame *frame);
+        /* Sends a robot a frame. Its answers wait to be taken; there is room for PAGE_WAITING_MAX frames, and further
+           ones are lost. */
+
 size_t page_exchange(uint32_t robot, uint32_t id, uint32_t len);
         /* Sends a robot the frame with the bytes in page_bytes(). Returns the number of its page_answers(). */
 
@@ -105,9 +112,6 @@ uint32_t page_command_which(void);
 
 uint32_t page_command_value(void);
         /* and its value. */
-
-void page_send_ranges(uint32_t robot, uint32_t tick);
-        /* Sends and logs the RANGES of its body, which precede the senses of a tick. */
 
 void page_take_reports(uint32_t robot);
         /* Logs all waiting frames of the robot. */
@@ -168,8 +172,8 @@ const double *page_scene(void);
         /* The numbers of bars, of plants and of pieces of food, then id and ends of each bar, id, middle and radius
            of each plant, and of each piece of food its place and whether it is eaten. */
 
-void page_measure(uint32_t robot, uint32_t tick, uint8_t *range_mm);
-        /* The FEEL_COUNT distances that a robot is told in that tick. */
+void page_send_ranges(uint32_t robot, uint32_t tick);
+        /* Sends and logs the RANGES of its body, which precede the senses of a tick. */
 
 uint32_t page_run(uint32_t tick, uint32_t ticks_max);
         /* Runs a block, as loop_run does, from this tick of the run. ticks_max is 1..PAGE_TICKS_MAX. Returns the
@@ -181,7 +185,7 @@ const int16_t *page_rows(uint32_t robot);
 const double *page_poses(uint32_t robot);
         /* and LOOP_POSE numbers. */
 
-/* page_history.c: what a robot has learned. */
+/* page_memory.c: what a robot has learned. */
 
 void page_history_begin(uint32_t robot);
         /* As history_begin. */

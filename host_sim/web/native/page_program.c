@@ -1,4 +1,4 @@
-#include "host_sim/web/native/page_frames.h"
+#include "host_sim/web/native/page.h"
 
 enum { STEP = 3, VARIABLE = 4 };   /* numbers per step, and per variable or array */
 

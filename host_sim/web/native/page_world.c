@@ -2,6 +2,9 @@
 
 #include <string.h>
 
+#include "hal/protocol/e2e.h"
+#include "octet.h"
+
 static struct page_world *page_world(void)
 {
     return &page_state()->world;
@@ -191,11 +194,27 @@ const double *page_scene(void)
     return scene;
 }
 
-void page_measure(uint32_t robot, uint32_t tick, uint8_t *range_mm)
+void page_send_ranges(uint32_t robot, uint32_t tick)
 {
     struct page_world *of = page_world();
+    const struct loop_robot *to = &page_state()->robots[robot];
+    uint8_t range[FEEL_COUNT];
+    struct frame frame = {.id = wire_id(&page_octet(robot)->wire, OCTET_RANGES_FRAME_ID), .len = OCTET_RANGES_LENGTH};
+    struct octet_ranges_t message = {
+        .counter = e2e_next(to->senses_counter),
+        .tick = (uint8_t)(tick & (TICK_SPAN - 1)),
+    };
 
-    world_measure(&of->world, &of->bodies[robot], tick, &of->ranges, range_mm);
+    world_measure(&of->world, &of->bodies[robot], tick, &of->ranges, range);
+    message.range_right = range[0];
+    message.range_front_right = range[1];
+    message.range_front = range[2];
+    message.range_front_left = range[3];
+    message.range_left = range[4];
+    (void)octet_ranges_pack(frame.data, &message, sizeof frame.data);
+    e2e_protect(&frame);
+    log_lines_add(&page_state()->loop.log, &frame);
+    page_hear(robot, &frame);
 }
 
 uint32_t page_run(uint32_t tick, uint32_t ticks_max)
