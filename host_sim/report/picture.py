@@ -154,11 +154,10 @@ def _write_node(image: Image.Image, params: SimParams, node: int, poses: Sequenc
 
 def _end(start: Pose, trail: Sequence[tuple[float, float, int]]) -> Pose:
     """The end of a trail, with the heading of its last move."""
-    points = [(x, y) for x, y, _ in trail]
-    if not points:
+    if not trail:
         return start
-    end = points[-1]
-    before = next((point for point in reversed(points) if point != end), None)
+    end = trail[-1][:2]
+    before = next((tick[:2] for tick in reversed(trail) if tick[:2] != end), None)
     return Pose(*end, math.atan2(end[1] - before[1], end[0] - before[0]) if before else start.heading_rad)
 
 
