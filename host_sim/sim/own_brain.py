@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import time
+from codecs import BOM_UTF8
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -40,15 +41,16 @@ _LINKS = {
     "octet-robot": (_MADE / "process.o", ["-fsanitize=address"]),
     "octet-debug": (_MADE_DEBUG / "debug.o", ["-fsanitize=address"]),
 }
+_UNKNOWN = "implicit-function-declaration"
 _ERRORS = (
-    "implicit-function-declaration",
+    _UNKNOWN,
     "return-type",
     "uninitialized",
     "incompatible-pointer-types",
     "int-conversion",
 )
 _OPTIONS = [
-    *("-std=c99", "-g", "-fPIC", "-fno-omit-frame-pointer", "-fno-common", "-x", "c", "-"),
+    *("-std=c99", "-g", "-fPIC", "-fno-omit-frame-pointer", "-fno-common", "-fno-builtin-printf", "-x", "c", "-"),
     *("-fsanitize=undefined,bounds-strict", "-fno-sanitize-recover=all", "-fsanitize-coverage=trace-pc"),
     *("-ftrivial-auto-var-init=pattern", "-Wno-error", *(f"-Werror={name}" for name in _ERRORS)),
     *(f"-I{ROOT}", f"-I{BUILD}/host/generated", f"-I{OWN_HEADERS}", "-include", "octet_brain.h"),
@@ -247,9 +249,9 @@ def _compile(brain: OwnBrain, folder: Path) -> str:
 
 
 def _with_lines(path: str, text: bytes) -> bytes:
-    """A source with a `#line` that names its file."""
+    """A source with a `#line` that names its file; without a byte order mark, which gcc takes only first."""
     quoted = path.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "?")
-    return f'#line 1 "{quoted}"\n'.encode(errors="surrogateescape") + text
+    return f'#line 1 "{quoted}"\n'.encode(errors="surrogateescape") + text.removeprefix(BOM_UTF8)
 
 
 def _compiler(arguments: Sequence[str], name: str, source: bytes = b"", path: str = "") -> str:
@@ -276,7 +278,8 @@ def _compiler(arguments: Sequence[str], name: str, source: bytes = b"", path: st
         raise UsageError(f"{name} takes the compiler longer than {_COMPILE_S:g} s") from None
     told = (done.stderr + done.stdout).decode(errors="replace").replace(path or "\0", name).rstrip()
     if done.returncode:
-        raise UsageError(f"{name} cannot be compiled:\n{told}")
+        hint = "\na robot has only the functions that octet_brain.h names" if _UNKNOWN in told else ""
+        raise UsageError(f"{name} cannot be compiled:\n{told}{hint}")
     return told
 
 

@@ -170,6 +170,12 @@ def test_missing_file_is_refused(tmp_path, capsys):
     assert "no.c: tools/octet new" in capsys.readouterr().err
 
 
+def test_behaviour_file_may_begin_with_a_byte_order_mark(tmp_path):
+    file = written(tmp_path, f"\ufeff{source()}")
+
+    assert run(RunConfig(profile=file, limit_s=1.0, environments=1)).log_sha256
+
+
 @pytest.mark.parametrize("name", ["a name with spaces.c", '"quoted".c', "-o.c", "ein Gehirn \u00e4.c"])
 def test_behaviour_file_may_have_any_name(name, tmp_path, capfd, monkeypatch):
     monkeypatch.chdir(tmp_path)
