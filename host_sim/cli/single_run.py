@@ -206,7 +206,7 @@ def _print_programs(options: RunOptions, simulation: Simulation) -> None:
         with suppress(OctetError):  # the robot has ended, which was reported
             _, stopped, told = client.connection.status().partition("the program: ")
             if options.program:
-                print(f"program   {options.profile}: {told if stopped else 'still running at the time limit'}")
+                print(f"program   {options.profile}: {told if stopped else 'still running at the end of the run'}")
             for line in client.connection.printed().splitlines():
                 print(f"printed   {line}")
 

@@ -101,6 +101,17 @@ def test_endless_loop_in_a_program_is_stopped_and_reported(bus, run_text):
     assert 'line 2: "while": expected rForward, rTurn or delay in the loop' in said
 
 
+def test_program_that_goes_on_is_said_to_be_still_running(tmp_path, capsys):
+    assert (
+        main(["run", "--profile", str(ARTICLE), "--out", str(tmp_path), "--environments", "1", "--limit-s", "300"])
+        == 0
+    )
+
+    told = capsys.readouterr().out
+    assert "all food eaten in 88 s" in told
+    assert "still running at the end of the run" in told
+
+
 def test_missing_large_or_binary_program_is_refused(tmp_path):
     with pytest.raises(UsageError, match=r"no\.bas"):
         run(RunConfig(profile=str(tmp_path / "no.bas")))
