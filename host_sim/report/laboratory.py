@@ -10,15 +10,17 @@ or, if the run cannot be repeated, with `why`, a sentence for people.
 
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from host_sim.base.files import read_bytes
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import PAGE_ROBOTS_MAX
-from host_sim.recording.log_reader import LogReader
 from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import world_path
 from host_sim.sim.world_record import WorldRecord
+
+if TYPE_CHECKING:
+    from host_sim.recording.log_reader import LogReader
 
 _WORLD_MAX = 16_000_000
 
@@ -55,7 +57,7 @@ def laboratory(
     return {"recorded": {"commands": told, "ticks": trajectory.ticks, "world": world}}
 
 
-def commands_in(log: LogReader) -> Iterator[tuple[int, Frame]]:
+def commands_in(log: "LogReader") -> Iterator[tuple[int, Frame]]:
     """Yields every frame of a log, commands among them, each with the number of ticks before it."""
     senses, tick = Protocol(1).id_of("SENSES"), 0
     for line in log:

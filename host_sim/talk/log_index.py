@@ -7,8 +7,6 @@ from pathlib import Path
 
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import PROFILES
-from host_sim.recording.log_files import frames_in
-from host_sim.recording.log_text import Recorded
 
 _PROFILES = {number: name for name, number in PROFILES.items()}
 
@@ -38,6 +36,9 @@ def index_log(path: Path, node: int) -> LogIndex:
     Raises:
         UsageError: The log cannot be read, or is damaged.
     """
+    from host_sim.recording.log_files import frames_in  # noqa: PLC0415 - pages are written without reading a log
+    from host_sim.recording.log_text import Recorded  # noqa: PLC0415
+
     protocol, index = Protocol(node), LogIndex()
     wanted = {protocol.id_of(name): name for name in ("SENSES", "COMMAND", "HEALTH")}
     senses: Frame | None = None
