@@ -43,6 +43,13 @@ def xterm(monkeypatch):
     monkeypatch.setenv("TERM", "xterm")
 
 
+def closed(listen: str | None) -> Listener:
+    """One that listens no more."""
+    listener = Listener(listen, 0)
+    listener.socket.close()
+    return listener
+
+
 def adapters(*numbers: str) -> SimpleNamespace:
     """A library that lists these addresses."""
     ips = [SimpleNamespace(ip=number if "." in number else (number, 0, 0)) for number in numbers]
@@ -69,15 +76,13 @@ def test_numbers_of_finds_ipv4_addresses_of_this_machine():
 
 
 def test_listener_on_localhost_prints_the_number_of_its_address():
-    listener = Listener("localhost", 0)
-    listener.socket.close()
+    listener = closed("localhost")
 
     assert listener.urls == [f"http://127.0.0.1:{listener.port}/?token={listener.token}"]
 
 
 def test_board_token_opens_the_board_and_the_page_token_does_not():
-    listener = Listener("127.0.0.1", 0)
-    listener.socket.close()
+    listener = closed("127.0.0.1")
 
     assert listener.holds(listener.token)
     assert not listener.holds_board(listener.token)
@@ -125,8 +130,7 @@ def test_qr_code_is_omitted_where_the_output_cannot_draw_it(terminal, monkeypatc
 
 @pytest.mark.parametrize("listen", [None, "127.0.0.1"])
 def test_announcement_names_the_address_and_how_the_run_begins_and_ends(tmp_path, listen):
-    listener = Listener(listen, 0)
-    listener.socket.close()
+    listener = closed(listen)
     with (tmp_path / "said").open("w+") as out:
         browser.announce(listener, out, waits=True)
         out.seek(0)

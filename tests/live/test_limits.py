@@ -7,30 +7,42 @@ import pytest
 
 from host_sim.live import connections, server
 from host_sim.live.listener import Listener
+from host_sim.live.paced_run import PacedRun
 from host_sim.live.server import LiveServer
 from tests.runs.support import DEADLINE_S
 
 PAGE = ""
+UPGRADE = (
+    "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+    "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+)
+
+
+def answer(run: PacedRun, headers: str = "", then: bytes = b"") -> bytes:
+    """What a server says to a request for its run until it closes the connection, and to bytes behind the answer."""
+    listener = Listener(None, 0)
+    host = f"127.0.0.1:{listener.port}"
+    request = f"GET /live?token={listener.token} HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\n{headers}\r\n"
+
+    async def ask() -> bytes:
+        async with LiveServer(run, listener, PAGE).serving():
+            reader, writer = await asyncio.open_connection("127.0.0.1", listener.port)
+            writer.write(request.encode())
+            if then:
+                await asyncio.wait_for(reader.readuntil(b"\r\n\r\n"), DEADLINE_S)
+                writer.write(then)
+            said = await asyncio.wait_for(reader.read(), DEADLINE_S)
+            writer.close()
+            return said
+
+    return asyncio.run(ask())
 
 
 def test_live_request_without_websocket_upgrade_keeps_its_time_limit(live, monkeypatch):
     monkeypatch.setattr(connections, "LIFETIME_S", 0.2)
     monkeypatch.setattr(connections, "_KEEP_ALIVE_S", 2.0 * DEADLINE_S)
-    listener = Listener(None, 0)
-    host = f"127.0.0.1:{listener.port}"
-    request = f"GET /live?token={listener.token} HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\n\r\n"
 
-    async def answer() -> bytes:
-        async with LiveServer(live(), listener, PAGE).serving():
-            reader, writer = await asyncio.open_connection("127.0.0.1", listener.port)
-            writer.write(request.encode())
-            said = b""
-            while some := await asyncio.wait_for(reader.read(4096), DEADLINE_S):
-                said += some
-            writer.close()
-            return said
-
-    assert asyncio.run(answer()).startswith(b"HTTP/1.1 400")
+    assert answer(live()).startswith(b"HTTP/1.1 400")
 
 
 def frame(payload: bytes, mask: bytes) -> bytes:
@@ -50,28 +62,9 @@ def test_mask_check_finds_an_unmasked_frame_in_chunks_of_any_size(step):
 
 
 def test_frame_without_a_mask_closes_the_websocket(live):
-    listener = Listener(None, 0)
-    host = f"127.0.0.1:{listener.port}"
-    request = (
-        f"GET /live?token={listener.token} HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\n"
-        "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
-    )
     run = live()
 
-    async def answer() -> bytes:
-        async with LiveServer(run, listener, PAGE).serving():
-            reader, writer = await asyncio.open_connection("127.0.0.1", listener.port)
-            writer.write(request.encode())
-            await asyncio.wait_for(reader.readuntil(b"\r\n\r\n"), DEADLINE_S)
-            writer.write(frame(b'{"do": "pause"}', b""))
-            said = b""
-            while some := await asyncio.wait_for(reader.read(4096), DEADLINE_S):
-                said += some
-            writer.close()
-            return said
-
-    assert asyncio.run(answer()).endswith(b"\x88\x02\x03\xea")
+    assert answer(run, UPGRADE, frame(b'{"do": "pause"}', b"")).endswith(b"\x88\x02\x03\xea")
     assert run.playing
 
 

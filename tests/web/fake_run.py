@@ -31,6 +31,7 @@ COLUMNS = [
     *("x", "y", "heading", "lifted", "feel", "bump", "beacon"),
     *("left", "right", "reason", "repeat_count", "action", "pattern", "frozen"),
 ]
+PAUSED = {"playing": False, "speed": 1, "done": False, "rate": 50, "stays": True, "ended": None}
 TICKS = 200
 PAGE = live_page()
 TYPES = {".js": "text/javascript", ".css": "text/css", "": "text/html"}
@@ -82,7 +83,7 @@ class FakeRun:
             "trails": [[state["x"], state["y"], state["reason"]] for state in self.states],
             "lessons": [],
             "events": [[] for _ in self.states],
-            "play": {"playing": False, "speed": 1, "done": False, "rate": 50, "stays": True, "ended": None},
+            "play": PAUSED,
             "health": {"sent": 0, "lost": 0, "refused": 0, "late": 0, "orders_refused": 0},
             "pins": [],
             **fields,

@@ -24,18 +24,7 @@ from tests.web.sim.node import with_modules
 from tests.web.support import next_frame, wait_for
 
 SIZES = DESKTOPS + PHONES
-LIVE = (
-    "#floors",
-    "#play",
-    "#scrub",
-    "#after",
-    "#speed",
-    "#doing",
-    "#cells",
-    "#erase",
-    "#lift",
-    "#add-bar",
-)
+LIVE = ("#floors", "#play", "#scrub", "#after", "#speed", "#doing", "#cells", "#erase", "#lift", "#add-bar")
 REPLAY = ("#floors", "#play", "#scrub", "#doing", "#cells", "#pin", "#before", "#after")
 # How far from the middle of each item, at right angles to a bar, a finger may be: px.
 REACH = """(modules) => {

@@ -167,17 +167,8 @@ def test_run_changed_by_a_person_replays(watch, open_page):
     watched = watch("--seed", "4")
     page = open_page(watched.url)
     page.select_option("#kind", "environment")
-    for control in (
-        "#lift",
-        "#add-bar",
-        "#cells li:nth-child(3) button",
-        "#freeze",
-        "#lift",
-        "#after",
-        "#erase",
-        "#add-plant",
-        "#break",
-    ):
+    cell = "#cells li:nth-child(3) button"
+    for control in ("#lift", "#add-bar", cell, "#freeze", "#lift", "#after", "#erase", "#add-plant", "#break"):
         tick = state(page)["tick"]
         page.click(control)
         wait_for(page, "tick => octet.scene.state.tick > tick", tick)
@@ -235,20 +226,8 @@ def test_keyboard_alone_controls_the_live_page(page):
     action = state(page)["action"]
     page.keyboard.press("n")
     wait_for(page, "action => octet.scene.state.action !== action && !octet.play.playing", action)
-    reached = (
-        "what-if",
-        "lift",
-        "add-bar",
-        "add-plant",
-        "zoom-in",
-        "follow",
-        "to-legend",
-        "copy-link",
-        "show-link-code",
-        "language",
-        "",
-    )
-    for element in reached:
+    tools = ("what-if", "lift", "add-bar", "add-plant", "zoom-in", "follow", "to-legend")
+    for element in (*tools, "copy-link", "show-link-code", "language", ""):
         page.keyboard.press("Tab")
         assert page.evaluate("document.activeElement.id") == element
     assert page.evaluate("document.activeElement === octet.lane.canvas")

@@ -9,12 +9,12 @@ import pytest
 from playwright.sync_api import Page
 
 from host_sim.recording import phrases
-from tests.web.fake_run import ENVIRONMENT, HOME, MEASURES, FakeRun, robot_state
+from tests.web.fake_run import ENVIRONMENT, HOME, MEASURES, PAUSED, FakeRun, robot_state
 from tests.web.looks import resize
 from tests.web.sim.node import with_modules
 from tests.web.support import DEADLINE_S, drag, place_on_page, wait_for, wait_for_text
 
-PLAY = {"playing": True, "speed": 1, "done": False, "rate": 50, "stays": True, "ended": None}
+PLAY = {**PAUSED, "playing": True}
 ENDED = {
     "number": 1,
     "finished": True,
