@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import Subparsers, add_command, file_path
+from host_sim.cli.parsing import DEFAULT, Subparsers, add_command, file_path
 from host_sim.cli.run_options import add_option
 
 if TYPE_CHECKING:
@@ -31,21 +31,10 @@ def add(commands: Subparsers) -> None:
         epilog=_EXAMPLES,
         stages=lambda arguments: ["page"] if arguments.listen is None else ["page", "classroom"],
     )
-    parser.add_argument(
-        "--file",
-        dest="file",
-        type=file_path,
-        default=Path("class.json"),
-        metavar="FILE",
-        help="keep names and goals in this file, and continue with it (default: class.json)",
-    )
-    parser.add_argument(
-        "--listen",
-        nargs="?",
-        const="0.0.0.0",
-        metavar="ADDRESS",
-        help="serve other machines: on all interfaces, or on one address (default: this machine only)",
-    )
+    kept = "keep names and goals in this file, and continue with it" + DEFAULT
+    parser.add_argument("--file", type=file_path, default=Path("class.json"), metavar="FILE", help=kept)
+    others = "serve other machines: on all interfaces, or on one address (default: this machine only)"
+    parser.add_argument("--listen", nargs="?", const="0.0.0.0", metavar="ADDRESS", help=others)
     add_option(parser, "port")
 
 

@@ -3,7 +3,7 @@
 import argparse
 
 from host_sim.base.errors import UsageError
-from host_sim.cli.parsing import Parser, Subparsers, add_command, check_outputs, number, output_of
+from host_sim.cli.parsing import DEFAULT, Parser, Subparsers, add_command, check_outputs, number, output_of
 from host_sim.cli.run_options import add_log_options, resimulated
 
 _EXAMPLES = """\
@@ -33,36 +33,17 @@ def add(commands: Subparsers) -> None:
 
 def _add_clip_options(parser: Parser) -> None:
     """Adds the options for the animation's part of the run, speed and width."""
-    add, time = parser.add_argument, number(0, 1e9, float)
-    add(
-        "--from",
-        type=time,
-        default=0.0,
-        metavar="S",
-        dest="from_s",
-        help="start of the animation, s of robot time (default: %(default)g)",
-    )
-    add(
-        "--to",
-        type=time,
-        metavar="S",
-        dest="to_s",
-        help="end of the animation, s of robot time (default: end of the run)",
-    )
-    add(
-        "--speed",
-        type=number(0.1, 1000, float),
-        default=1.0,
-        metavar="X",
-        help="speed of the animation, as a multiple of real time (default: %(default)g)",
-    )
-    add(
-        "--width",
-        type=number(320, 1280),
-        default=640,
-        metavar="PX",
-        help="width of the animation, pixels (default: %(default)s)",
-    )
+    time, speed = number(0, 1e9, float), number(0.1, 1000, float)
+    texts = {
+        "from": "start of the animation, s of robot time (default: %(default)g)",
+        "to": "end of the animation, s of robot time (default: end of the run)",
+        "speed": "speed of the animation, as a multiple of real time (default: %(default)g)",
+    }
+    add = parser.add_argument
+    add("--from", type=time, default=0.0, metavar="S", dest="from_s", help=texts["from"])
+    add("--to", type=time, metavar="S", dest="to_s", help=texts["to"])
+    add("--speed", type=speed, default=1.0, metavar="X", help=texts["speed"])
+    add("--width", type=number(320, 1280), default=640, metavar="PX", help="width of the animation, pixels" + DEFAULT)
 
 
 def _check(arguments: argparse.Namespace) -> None:

@@ -37,17 +37,12 @@ def add(commands: Subparsers) -> None:
         stages=lambda arguments: ["page" if arguments.what_if else "run"],
     )
     add_log_options(parser)
-    parser.add_argument(
-        "--html", type=file_path, metavar="FILE", help="instead, write the run to FILE as a page to play in a browser"
-    )
+    page = "instead, write the run to FILE as a page to play in a browser"
+    parser.add_argument("--html", type=file_path, metavar="FILE", help=page)
     add_source_options(parser)
     parser.add_argument("--protocol", action="store_true", help="check only that the robot keeps to the protocol")
-    parser.add_argument(
-        "--what-if",
-        action="store_true",
-        help="with --html: build the firmware for pages first, so that the page can run on from any tick with\n"
-        "your changes",
-    )
+    built = "with --html: build the firmware for pages first, so that the page can run on from any tick with"
+    parser.add_argument("--what-if", action="store_true", help=f"{built}\nyour changes")
 
 
 def _check(arguments: argparse.Namespace) -> None:

@@ -254,11 +254,8 @@ def add_log_options(parser: argparse.ArgumentParser) -> None:
     add("log", type=file_path, metavar="RUN.LOG", help="log of a run, of candump or of python-can")
     add_channel(parser)
     add_option(parser, "node")
-    add(
-        "--no-world",
-        action="store_true",
-        help="ignore seed and world file and draw the path from the odometers only, as for a real body",
-    )
+    drawn = "ignore seed and world file and draw the path from the odometers only, as for a real body"
+    add("--no-world", action="store_true", help=drawn)
 
 
 def resimulated(arguments: argparse.Namespace) -> "Resimulation":

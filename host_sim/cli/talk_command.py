@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from host_sim.base.errors import UsageError
-from host_sim.cli.parsing import Subparsers, add_command, file_path, number
+from host_sim.cli.parsing import DEFAULT, Subparsers, add_command, file_path, number
 from host_sim.cli.run_options import add_channel, resimulated
 from host_sim.protocol.words import NODE_MAX
 
@@ -41,22 +41,11 @@ def add(commands: Subparsers) -> None:
     add = parser.add_argument
     add("--log", type=file_path, metavar="RUN.LOG", help="log of the run to ask about (default: out/run.log)")
     add("--at", type=number(0, 1e9, float), metavar="S", help="robot time to ask about, s (default: end of the run)")
-    add(
-        "--node",
-        type=number(1, NODE_MAX),
-        default=1,
-        metavar="NODE",
-        help="the robot's number (default: %(default)s)",
-    )
+    add("--node", type=number(1, NODE_MAX), default=1, metavar="NODE", help="the robot's number" + DEFAULT)
     add("--no-world", action="store_true", help="ignore seed and world file, as for a real body")
     add_channel(parser)
     add("--memory", type=file_path, metavar="FILE", help="ask about a memory file alone, without a log")
-    add(
-        "--script",
-        default=_ROBOT,
-        metavar="FILE",
-        help="robot, robot-de, eliza, eliza-de or a file (default: %(default)s)",
-    )
+    add("--script", default=_ROBOT, metavar="FILE", help="robot, robot-de, eliza, eliza-de or a file" + DEFAULT)
 
 
 def _check(arguments: argparse.Namespace) -> None:

@@ -247,13 +247,8 @@ def parse(parser: argparse.ArgumentParser, names: Sequence[str]) -> argparse.Nam
     """Parses the command line, adding the arguments that tools/test and tools/prove share."""
     add = parser.add_argument
     add("stages", nargs="*", metavar="STAGE", help=f"run only these: {', '.join(names)}")
-    add(
-        "--allow-missing",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="accept that this stage cannot run, or skipped tests whose reason begins with NAME:",
-    )
+    missing = "accept that this stage cannot run, or skipped tests whose reason begins with NAME:"
+    add("--allow-missing", action="append", default=[], metavar="NAME", help=missing)
     add("--time-limit", type=float, default=NO_LIMIT, metavar="MINUTES", help="total time limit (default: none)")
     stall = "stop a stage after this time without progress (default: %(default)g)"
     add("--stall-limit", type=float, default=STALL_MIN, metavar="MINUTES", help=stall)
