@@ -3,6 +3,8 @@
 When changes are due.
 """
 
+import pytest
+
 from host_sim.client.commands import stop
 from host_sim.client.pacing import BegunTick, Lockstep
 from host_sim.client.robot_client import RobotClient
@@ -31,6 +33,11 @@ def is_known(client: RobotClient, frame: Frame) -> bool:
 
 def last_of(client: RobotClient, name: str) -> Frame:
     return [frame for frame in client.log.frames if frame.id == PROTOCOL.id_of(name)][-1]
+
+
+@pytest.fixture
+def client():
+    return learned(MeddledLink())
 
 
 def test_ticks_taken_over_count_as_sent_and_the_client_continues_from_them():
@@ -62,8 +69,7 @@ def test_tick_begun_elsewhere_is_finished_by_lockstep():
     assert (drive.tick, client.frames.sent, client.frames.repeated) == (LEARNED % 256, sent + 1, 0)
 
 
-def test_last_reports_are_taken_over_and_then_known_as_duplicates():
-    client = learned(MeddledLink())
+def test_last_reports_are_taken_over_and_then_known_as_duplicates(client):
     client.unsettled = LEARNED
     heartbeat = next_one(last_of(client, "HEARTBEAT"))
 
@@ -73,8 +79,7 @@ def test_last_reports_are_taken_over_and_then_known_as_duplicates():
     assert is_known(client, heartbeat)
 
 
-def test_block_without_reports_settles_no_check():
-    client = learned(MeddledLink())
+def test_block_without_reports_settles_no_check(client):
     client.unsettled = LEARNED
 
     take_last_reports(client, [])
@@ -82,8 +87,7 @@ def test_block_without_reports_settles_no_check():
     assert client.unsettled == LEARNED
 
 
-def test_routine_reports_taken_over_are_then_known_as_duplicates():
-    client = learned(MeddledLink())
+def test_routine_reports_taken_over_are_then_known_as_duplicates(client):
     memory = client.memory
     reports = [(kind, next_one(frame)) for kind, frame in routine_reports(client)]
     assert {kind for kind, _ in reports} == {
@@ -97,8 +101,7 @@ def test_routine_reports_taken_over_are_then_known_as_duplicates():
     assert client.memory == memory != (0,) * 8
 
 
-def test_second_half_of_a_memory_may_come_in_a_later_tick():
-    client = learned(MeddledLink())
+def test_second_half_of_a_memory_may_come_in_a_later_tick(client):
     first, second = ((kind, next_one(frame)) for kind, frame in routine_reports(client) if "MEMORY" in kind)
 
     take_routine_reports(client, [first])
@@ -108,8 +111,7 @@ def test_second_half_of_a_memory_may_come_in_a_later_tick():
     assert client.reports.memories == memories + 1
 
 
-def test_report_that_needs_attention_is_not_routine():
-    client = learned(MeddledLink())
+def test_report_that_needs_attention_is_not_routine(client):
     client.reports.heartbeat = {**client.reports.heartbeat, "state": 0}
     client.inbox.take(next_one(next_one(last_of(client, "MEMORY"))))
 
