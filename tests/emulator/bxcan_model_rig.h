@@ -17,43 +17,8 @@ enum {
     ERROR_US = 80, RECOVERY_US = 128 * 22
 };
 
-extern struct can_wire wire;
-extern struct bxcan can, other;
-
-uint32_t read_register(uint32_t offset);
-        /* A register of `can`; a refusal fails the test. */
-
-void write_register(uint32_t offset, uint32_t value);
-
-void pass_us(uint32_t us);
-        /* Lets time pass on the wire. */
-
-void enter_init(struct bxcan *node);
-        /* Asks for init and waits for it. */
-
-void join(struct bxcan *node, uint32_t mcr);
-        /* Enters init, opens all filters, and leaves init for the bus. */
-
-void join_alone(uint32_t mcr);
-        /* A new wire, with `can` alone on it. */
-
-void request_from(struct bxcan *node, uint32_t mailbox, uint32_t id);
-        /* Fills a mailbox and asks for it to be sent. */
-
-void request(uint32_t mailbox, uint32_t id);
-        /* request_from(&can, ...). */
-
-void deliver(uint32_t id);
-        /* Sends a frame from the world, and lets 300 us pass for it to arrive. */
-
-uint32_t take_frame(void);
-        /* Takes the next frame out of FIFO 0, and returns its identifier. */
-
-void assert_heard(unsigned count, const uint32_t ids[]);
-        /* Checks that the world received exactly these, in this order. */
-
-void join_other(void);
-        /* `other` joins the same bus. */
+static struct can_wire wire;
+static struct bxcan can, other;
 
 #define ASSERT_HEARD(...) \
     assert_heard(sizeof((uint32_t[]){__VA_ARGS__}) / sizeof(uint32_t), (const uint32_t[]){__VA_ARGS__})
@@ -63,5 +28,103 @@ void join_other(void);
         (void)(ACCESS);                                                                                                \
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(can.node.refusal, REASON), can.node.refusal);                                        \
     } while (0)
+
+/* A register of `can`; a refusal fails the test. */
+static inline uint32_t read_register(uint32_t offset)
+{
+    int64_t value = node_read(&can.node, offset);
+
+    TEST_ASSERT_TRUE_MESSAGE(value >= 0, can.node.refusal);
+    return (uint32_t)value;
+}
+
+static inline void write_register(uint32_t offset, uint32_t value)
+{
+    TEST_ASSERT_TRUE_MESSAGE(node_write(&can.node, offset, value), can.node.refusal);
+}
+
+/* Lets time pass on the wire. */
+static inline void pass_us(uint32_t us)
+{
+    uint64_t end = wire.now_ns + 1000u * (uint64_t)us, next;
+
+    while ((next = wire_advance(&wire, wire.now_ns)) < end)
+        (void)wire_advance(&wire, next);
+    (void)wire_advance(&wire, end);
+}
+
+/* Asks for init and waits for it. */
+static inline void enter_init(struct bxcan *node)
+{
+    TEST_ASSERT_TRUE(node_write(&node->node, MCR, INRQ));
+    pass_us(30);
+}
+
+/* Enters init, opens all filters, and leaves init for the bus. */
+static inline void join(struct bxcan *node, uint32_t mcr)
+{
+    enter_init(node);
+    node->node.clock_hz = CLOCK_HZ;
+    TEST_ASSERT_TRUE(node_write(&node->node, BTR, BIT_TIMING));
+    TEST_ASSERT_TRUE(node_write(&node->node, FS1R, 1));
+    TEST_ASSERT_TRUE(node_write(&node->node, BANK_0, 0) && node_write(&node->node, BANK_0 + 4, 0));
+    TEST_ASSERT_TRUE(node_write(&node->node, FA1R, 1) && node_write(&node->node, FMR, 0));
+    TEST_ASSERT_TRUE(node_write(&node->node, MCR, mcr));
+    pass_us(30);
+}
+
+/* A new wire, with `can` alone on it. */
+static inline void join_alone(uint32_t mcr)
+{
+    wire_open(&wire);
+    bxcan_open(&can, &wire, 14);
+    join(&can, mcr);
+}
+
+/* Fills a mailbox and asks for it to be sent. */
+static inline void request_from(struct bxcan *node, uint32_t mailbox, uint32_t id)
+{
+    uint32_t base = 0x180 + 0x10 * mailbox;
+
+    TEST_ASSERT_TRUE(node_write(&node->node, base + 0x4, 8) && node_write(&node->node, base + 0x8, 0x04030201));
+    TEST_ASSERT_TRUE(node_write(&node->node, base + 0xC, mailbox) && node_write(&node->node, base, id << 21 | 1));
+}
+
+/* request_from(&can, ...). */
+static inline void request(uint32_t mailbox, uint32_t id)
+{
+    request_from(&can, mailbox, id);
+}
+
+/* Sends a frame from the world, and lets 300 us pass for it to arrive. */
+static inline void deliver(uint32_t id)
+{
+    TEST_ASSERT_TRUE(wire_put(&wire, &(struct frame){.id = id}));
+    pass_us(300);
+}
+
+/* Takes the next frame out of FIFO 0, and returns its identifier. */
+static inline uint32_t take_frame(void)
+{
+    uint32_t id = read_register(OUTPUT_0) >> 21;
+
+    write_register(RF0R, RFOM);
+    return id;
+}
+
+/* Checks that the world received exactly these, in this order. */
+static inline void assert_heard(unsigned count, const uint32_t ids[])
+{
+    TEST_ASSERT_EQUAL_UINT(count, wire.heard.count);
+    for (unsigned i = 0; i < count; i++)
+        TEST_ASSERT_EQUAL_HEX32(ids[i], wire.heard.frames[i].id);
+}
+
+/* `other` joins the same bus. */
+static inline void join_other(void)
+{
+    bxcan_open(&other, &wire, 14);
+    join(&other, TXFP);
+}
 
 #endif

@@ -12,6 +12,8 @@ static long way_um(void)
     return lround(1000.0 * (body.left_mm + body.right_mm) / 2.0);
 }
 
+static struct random dice;
+
 void setUp(void)
 {
     config_reset(&config);

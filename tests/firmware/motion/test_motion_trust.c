@@ -5,6 +5,8 @@
 #include "tests/test.h"
 #include "motion_rig.h"
 
+static struct random dice;
+
 void setUp(void)
 {
     config_reset(&config);

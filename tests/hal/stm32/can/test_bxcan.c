@@ -1,18 +1,17 @@
 #include <stddef.h>
 
 #include "tests/test.h"
-#include "bxcan_registers.h"
+#include "bxcan_rig.h"
 #include "hal/link/link.h"
-#include "hal/stm32/registers.h"
 
 static const uint16_t WANTED[] = {0x0C1, 0x041};
 static struct link *link_here;
 
 void setUp(void)
 {
-    registers_reset();
+    rig_reset();
     TEST_ASSERT_EQUAL(0, link_open(&link_here, "", WANTED, 2));
-    registers_pass_us(100);
+    rig_pass_us(100);
 }
 
 TEST(register_offsets_match_the_manual)
@@ -40,10 +39,10 @@ TEST(link_open_replaces_the_filters_that_a_boot_loader_left)
     static const uint16_t ids[] = {0x0C1, LINK_FAMILY | 0x680};
 
     for (unsigned i = 0; i < 4; i++) {
-        registers_reset();
-        registers_leave_filters(modes[i % 2], modes[i / 2], 0);
+        rig_reset();
+        rig_leave_filters(modes[i % 2], modes[i / 2], 0);
         TEST_ASSERT_EQUAL(0, link_open(&link_here, "", ids, 2));
-        registers_pass_us(100);
+        rig_pass_us(100);
         for (uint32_t id = 0; id <= 0x7FF; id++)
             TEST_ASSERT_EQUAL(id == 0x0C1 ? 0 : id >= 0x680 && id <= 0x69F ? 1 : -1,
                               bxcan_fifo_for(&can, &(struct frame){.id = id}));
@@ -56,9 +55,9 @@ TEST(frames_before_bus_off_are_still_received)
 
     for (uint8_t n = 0; n < 5; n++)
         TEST_ASSERT_TRUE(wire_put(&wire, &(struct frame){.id = 0x0C1, .len = 1, .data = {n}}));
-    registers_pass_us(1500);
+    rig_pass_us(1500);
     can.node.bus_off = can.node.recovery_stuck = true;
-    registers_pass_us(0);
+    rig_pass_us(0);
     TEST_ASSERT_EQUAL(LINK_E_GARBLED, link_receive(link_here, &frame, 0));
     TEST_ASSERT_EQUAL(1, link_receive(link_here, &frame, 0));
     TEST_ASSERT_EQUAL_UINT8(0, frame.data[0]);
@@ -80,7 +79,7 @@ TEST(frame_being_released_is_received_once)
     can.release_slow = true;
     for (uint8_t n = 1; n <= 2; n++)
         TEST_ASSERT_TRUE(wire_put(&wire, &(struct frame){.id = 0x0C1, .len = 1, .data = {n}}));
-    registers_pass_us(600);
+    rig_pass_us(600);
     for (uint8_t n = 1; n <= 2; n++) {
         TEST_ASSERT_EQUAL(1, link_receive(link_here, &frame, 1));
         TEST_ASSERT_EQUAL_UINT8(n, frame.data[0]);

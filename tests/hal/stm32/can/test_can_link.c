@@ -1,6 +1,5 @@
 /* What every CAN controller's driver has to do, with the link on top of it: opening and receiving. Built once with each rig. */
 #include "can_link_cases.h"
-#include "can_rig.h"
 
 #include "tests/test.h"
 #include "hal/port/cortex_m/can_controller.h"

@@ -1,19 +1,17 @@
 #include <stddef.h>
 
 #include "tests/test.h"
-#include "can_rig.h"
-#include "fdcan_registers.h"
+#include "fdcan_rig.h"
 #include "hal/link/link.h"
-#include "hal/stm32/registers.h"
 
 static const uint16_t WANTED[] = {0x0C1, 0x041};
 static struct link *link_here;
 
 void setUp(void)
 {
-    registers_reset();
+    rig_reset();
     TEST_ASSERT_EQUAL(0, link_open(&link_here, "", WANTED, 2));
-    registers_pass_us(100);
+    rig_pass_us(100);
 }
 
 TEST(register_offsets_match_the_manual)
@@ -61,9 +59,9 @@ TEST(filter_accepts_an_odd_number_of_identifiers)
 {
     static const uint16_t three[] = {0x0C1, 0x041, 0x7FF};
 
-    registers_reset();
+    rig_reset();
     TEST_ASSERT_EQUAL(0, link_open(&link_here, "", three, 3));
-    registers_pass_us(100);
+    rig_pass_us(100);
     for (uint32_t id = 0; id <= 0x7FF; id++)
         TEST_ASSERT_EQUAL(id == 0x0C1 || id == 0x041 || id == 0x7FF ? 0 : -1, rig_fifo_for(id));
 }
@@ -72,13 +70,13 @@ TEST(link_open_clears_earlier_filters_and_loss_flags)
 {
     struct frame frame;
 
-    registers_reset();
+    rig_reset();
     for (unsigned n = 0; n < FDCAN_FILTERS; n++)
         can.ram[n] = 2u << 30 | 1u << 27;   /* lets everything in */
     can.ir = 1u << 2 | 1u << 5;
-    registers_show();
+    rig_show();
     TEST_ASSERT_EQUAL(0, link_open(&link_here, "", WANTED, 2));
-    registers_pass_us(100);
+    rig_pass_us(100);
     TEST_ASSERT_EQUAL(0, link_receive(link_here, &frame, 1));
     for (uint32_t id = 0; id <= 0x7FF; id++)
         TEST_ASSERT_EQUAL(id == WANTED[0] || id == WANTED[1] ? 0 : -1, rig_fifo_for(id));
@@ -89,7 +87,7 @@ TEST(link_close_discards_waiting_frames)
     wire.busy = true;
     TEST_ASSERT_EQUAL(0, link_send(link_here, &(struct frame){.id = 0x041}));
     link_close(link_here);
-    registers_pass_us(100);
+    rig_pass_us(100);
     TEST_ASSERT_EQUAL_HEX32(0, FDCAN.txbrp);
 }
 

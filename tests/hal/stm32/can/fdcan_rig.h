@@ -1,11 +1,10 @@
-#include "fdcan_registers.h"
-
-#include <string.h>
-
-#include <unity.h>
+/* fdcan_rig.h: the rig of can_rig.h with the model of FDCAN. */
+#ifndef OCTET_FDCAN_RIG_H
+#define OCTET_FDCAN_RIG_H
 
 #include "can_rig.h"
 #include "hal/stm32/registers.h"
+#include "host_sim/emulator/models/fdcan_model.h"
 
 enum {
     CCCR = 0x018, IR = 0x050, IE = 0x054, ILE = 0x05C, RXF0A = 0x094, RXF1A = 0x09C, TXBAR = 0x0CC, TXBCR = 0x0D0,
@@ -13,10 +12,10 @@ enum {
     NOT_WRITTEN = 0xFF   /* no driver writes that; each write is told from it */
 };
 
-const uint32_t RIG_CLOCKS_HZ[] = {80000000, 16000000, 0};
+static const uint32_t RIG_CLOCKS_HZ[] = {80000000, 16000000, 0};   /* of chips with it; ends with 0 */
 volatile struct fdcan_registers FDCAN;
 volatile struct fdcan_ram FDCAN_RAM;
-struct fdcan can;
+static struct fdcan can;
 
 /* Of what is written to make something happen, each write counts. */
 static bool shows(uint32_t offset, uint32_t *out)
@@ -56,26 +55,28 @@ const struct can_memory CAN_MEMORY = {
     FDCAN_RAM_AT, shows, open_controller, prepare,
 };
 
-struct rig_bit rig_bit(void)
+static inline struct rig_bit rig_bit(void)
 {
     uint32_t timing = FDCAN.nbtp;
 
     return (struct rig_bit){(timing >> 16 & 0x1FFu) + 1, (timing >> 8 & 0xFFu) + 2, (timing & 0x7Fu) + 1, (timing >> 25) + 1};
 }
 
-int rig_fifo_for(uint32_t id)
+static inline int rig_fifo_for(uint32_t id)
 {
     unsigned filter;
 
     return fdcan_fifo_for(&can, &(struct frame){.id = id}, &filter);
 }
 
-void rig_open_filters(void)
+static inline void rig_open_filters(void)
 {
     can.rxgfc = 0;
 }
 
-bool rig_is_off_bus(void)
+static inline bool rig_is_off_bus(void)
 {
     return FDCAN.cccr & 1u;
 }
+
+#endif

@@ -1,15 +1,16 @@
-#include "bxcan_registers.h"
-
-#include <string.h>
+/* bxcan_rig.h: the rig of can_rig.h with the model of bxCAN. */
+#ifndef OCTET_BXCAN_RIG_H
+#define OCTET_BXCAN_RIG_H
 
 #include "can_rig.h"
 #include "hal/stm32/registers.h"
+#include "host_sim/emulator/models/bxcan_model.h"
 
 enum { OUTPUT_0 = 0x1B0, OUTPUT_1 = 0x1C0, OUTPUT_END = 0x1D0 };
 
-const uint32_t RIG_CLOCKS_HZ[] = {42000000, 36000000, 32000000, 16000000, 8000000, 0};
+static const uint32_t RIG_CLOCKS_HZ[] = {42000000, 36000000, 32000000, 16000000, 8000000, 0};   /* of chips with it; ends with 0 */
 volatile struct can_registers CAN1;
-struct bxcan can;
+static struct bxcan can;
 
 static bool is_reserved(uint32_t offset)
 {
@@ -48,35 +49,38 @@ const struct can_memory CAN_MEMORY = {
     &can.node, {(volatile uint32_t *)&CAN1}, {sizeof CAN1 / 4}, 0, shows, open_controller, prepare,
 };
 
-void registers_leave_filters(uint32_t modes, uint32_t scales, uint32_t bank)
+/* All filters active, as a boot loader may leave them: FM1R, FS1R, and each word of each bank. */
+static inline void rig_leave_filters(uint32_t modes, uint32_t scales, uint32_t bank)
 {
     can.filters.words[1] = modes;
     can.filters.words[3] = scales;
     can.filters.words[7] = 0x3FFF;
     for (unsigned i = 0; i < 2 * 14; i++)
         can.filters.banks[i] = bank;
-    registers_show();
+    rig_show();
 }
 
-struct rig_bit rig_bit(void)
+static inline struct rig_bit rig_bit(void)
 {
     uint32_t timing = CAN1.btr;
 
     return (struct rig_bit){(timing & 0x3FFu) + 1, (timing >> 16 & 15u) + 2, (timing >> 20 & 7u) + 1, (timing >> 24) + 1};
 }
 
-int rig_fifo_for(uint32_t id)
+static inline int rig_fifo_for(uint32_t id)
 {
     return bxcan_fifo_for(&can, &(struct frame){.id = id});
 }
 
-void rig_open_filters(void)
+static inline void rig_open_filters(void)
 {
     can.filters.words[1] = 0;                           /* FM1R: a mask ... */
     can.filters.banks[0] = can.filters.banks[1] = 0;    /* ... that asks for nothing */
 }
 
-bool rig_is_off_bus(void)
+static inline bool rig_is_off_bus(void)
 {
     return CAN1.msr & 1u;
 }
+
+#endif
