@@ -20,15 +20,6 @@ static uint32_t pll_mhz(void)
     return (pll_follows_crystal() ? 8u : 4u) * ((RCC.cfgr >> 18 & 15u) + 2u);
 }
 
-static void assert_registers(void)
-{
-    TEST_ASSERT_EQUAL_HEX(0x18, offsetof(struct rcc_registers, apb2enr));
-    TEST_ASSERT_EQUAL_HEX(0x1C, offsetof(struct rcc_registers, apb1enr));
-    TEST_ASSERT_EQUAL_HEX(0x24, offsetof(struct rcc_registers, csr));
-    TEST_ASSERT_EQUAL_HEX(0x14, offsetof(struct flash_registers, ar));
-    TEST_ASSERT_EQUAL_HEX(0x400, sizeof(struct gpio_port));
-}
-
 static void assert_special(void)
 {
     (void)clock_start();

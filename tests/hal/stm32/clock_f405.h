@@ -21,14 +21,6 @@ static uint32_t pll_mhz(void)
     return (pll_follows_crystal() ? 12u : 16u) / (RCC.pllcfgr & 63u) * (RCC.pllcfgr >> 6 & 511u) / (2u * (RCC.pllcfgr >> 16 & 3u) + 2u);
 }
 
-static void assert_registers(void)
-{
-    TEST_ASSERT_EQUAL_HEX(0x30, offsetof(struct rcc_registers, ahb1enr));
-    TEST_ASSERT_EQUAL_HEX(0x40, offsetof(struct rcc_registers, apb1enr));
-    TEST_ASSERT_EQUAL_HEX(0x44, offsetof(struct rcc_registers, apb2enr));
-    TEST_ASSERT_EQUAL_HEX(0x74, offsetof(struct rcc_registers, csr));
-}
-
 /* Reserved bits keep their reset value (RM0090 7.3.2). An emulator without a clock controller runs at full speed. */
 static void assert_special(void)
 {

@@ -22,17 +22,6 @@ static uint32_t pll_mhz(void)
     return source / ((RCC.pllcfgr >> 4 & 15u) + 1u) * (RCC.pllcfgr >> 8 & 127u) / (2u * (RCC.pllcfgr >> 25 & 3u) + 2u);
 }
 
-static void assert_registers(void)
-{
-    TEST_ASSERT_EQUAL_HEX(0x0C, offsetof(struct rcc_registers, pllcfgr));
-    TEST_ASSERT_EQUAL_HEX(0x4C, offsetof(struct rcc_registers, ahb2enr));
-    TEST_ASSERT_EQUAL_HEX(0x58, offsetof(struct rcc_registers, apb1enr1));
-    TEST_ASSERT_EQUAL_HEX(0x88, offsetof(struct rcc_registers, ccipr));
-    TEST_ASSERT_EQUAL_HEX(0x94, offsetof(struct rcc_registers, csr));
-    TEST_ASSERT_EQUAL_HEX(0x08, offsetof(struct flash_registers, keyr));
-    TEST_ASSERT_EQUAL_HEX(0x18, offsetof(struct flash_registers, eccr));
-}
-
 static void assert_special(void)
 {
     (void)clock_start();

@@ -4,7 +4,7 @@
 
 #include "hal/stm32/stm32f103/registers.h"
 
-enum { CORE_HZ = 72000000, SQR_AT = 0x2C, DR_AT = 0x4C };
+enum { CORE_HZ = 72000000 };
 enum { ANALOGUE = 0, PULLED = 8, OUTPUT = 2, ALTERNATE = 11, FLOATING = 4 };
 
 extern volatile struct gpio_port GPIO[PORTS];

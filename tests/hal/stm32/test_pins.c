@@ -1,6 +1,5 @@
 /* The pins of chips that have them as in gpio_f4.h. Built once for each chip, on one of its boards, with PINS_EXPECTED: the
  * header that says what is expected of it. */
-#include <stddef.h>
 #include <string.h>
 
 #include "tests/test.h"
@@ -48,10 +47,8 @@ static bool is_used(unsigned port, unsigned number)
     return pin == BOARD_LED || pin == BOARD_CAN_RX || pin == BOARD_CAN_TX || pin == BOARD_UART_RX || pin == BOARD_UART_TX;
 }
 
-TEST(register_offsets_match_the_manual)
+TEST(ports_are_1_kb_apart)
 {
-    TEST_ASSERT_EQUAL_HEX(0x18, offsetof(struct gpio_registers, bsrr));
-    TEST_ASSERT_EQUAL_HEX(0x20, offsetof(struct gpio_registers, afr));
     TEST_ASSERT_EQUAL_HEX(0x400, sizeof(struct gpio_port));
 }
 

@@ -1,5 +1,4 @@
 /* The pins of an STM32F103, which has them in its own way (RM0008 9), on a Blue Pill. */
-#include <stddef.h>
 #include <string.h>
 
 #include "tests/test.h"
@@ -31,14 +30,9 @@ static uint32_t mode(unsigned port, unsigned pin)
     return GPIO[port].at.cr[pin / 8] >> 4 * (pin % 8) & 15u;
 }
 
-TEST(register_offsets_match_the_manual)
+TEST(ports_are_1_kb_apart)
 {
-    TEST_ASSERT_EQUAL_HEX(0x10, offsetof(struct gpio_registers, bsrr));
     TEST_ASSERT_EQUAL_HEX(0x400, sizeof(struct gpio_port));
-    TEST_ASSERT_EQUAL_HEX(0x18, offsetof(struct rcc_registers, apb2enr));
-    TEST_ASSERT_EQUAL_HEX(0x1C, offsetof(struct rcc_registers, apb1enr));
-    TEST_ASSERT_EQUAL_HEX(0x04, offsetof(struct afio_registers, mapr));
-    TEST_ASSERT_EQUAL_HEX(0x04, offsetof(struct power_registers, csr));
 }
 
 TEST(can_and_uart_have_their_pins)

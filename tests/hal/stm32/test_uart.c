@@ -2,7 +2,6 @@
  * are called and what they hold. */
 #include "hal/port/cortex_m/uart.h"
 
-#include <stddef.h>
 #include <string.h>
 
 #include "tests/test.h"

@@ -1,5 +1,3 @@
-#include <stddef.h>
-
 #include "tests/test.h"
 #include "bxcan_rig.h"
 #include "hal/link/link.h"
@@ -12,19 +10,6 @@ void setUp(void)
     rig_reset();
     TEST_ASSERT_EQUAL(0, link_open(&link_here, "", WANTED, 2));
     rig_pass_us(100);
-}
-
-TEST(register_offsets_match_the_manual)
-{
-    TEST_ASSERT_EQUAL_HEX(0x01C, offsetof(struct can_registers, btr));
-    TEST_ASSERT_EQUAL_HEX(0x180, offsetof(struct can_registers, sent));
-    TEST_ASSERT_EQUAL_HEX(0x1B0, offsetof(struct can_registers, received));
-    TEST_ASSERT_EQUAL_HEX(0x200, offsetof(struct can_registers, fmr));
-    TEST_ASSERT_EQUAL_HEX(0x204, offsetof(struct can_registers, fm1r));
-    TEST_ASSERT_EQUAL_HEX(0x20C, offsetof(struct can_registers, fs1r));
-    TEST_ASSERT_EQUAL_HEX(0x214, offsetof(struct can_registers, ffa1r));
-    TEST_ASSERT_EQUAL_HEX(0x21C, offsetof(struct can_registers, fa1r));
-    TEST_ASSERT_EQUAL_HEX(0x240, offsetof(struct can_registers, bank));
 }
 
 TEST(bxcan_leaves_sleep_with_priority_by_identifier)

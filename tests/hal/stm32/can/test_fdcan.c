@@ -14,25 +14,6 @@ void setUp(void)
     rig_pass_us(100);
 }
 
-TEST(register_offsets_match_the_manual)
-{
-    TEST_ASSERT_EQUAL_HEX(0x018, offsetof(struct fdcan_registers, cccr));
-    TEST_ASSERT_EQUAL_HEX(0x01C, offsetof(struct fdcan_registers, nbtp));
-    TEST_ASSERT_EQUAL_HEX(0x040, offsetof(struct fdcan_registers, ecr));
-    TEST_ASSERT_EQUAL_HEX(0x044, offsetof(struct fdcan_registers, psr));
-    TEST_ASSERT_EQUAL_HEX(0x050, offsetof(struct fdcan_registers, ir));
-    TEST_ASSERT_EQUAL_HEX(0x05C, offsetof(struct fdcan_registers, ile));
-    TEST_ASSERT_EQUAL_HEX(0x080, offsetof(struct fdcan_registers, rxgfc));
-    TEST_ASSERT_EQUAL_HEX(0x090, offsetof(struct fdcan_registers, rxf[0].status));
-    TEST_ASSERT_EQUAL_HEX(0x094, offsetof(struct fdcan_registers, rxf[0].read));
-    TEST_ASSERT_EQUAL_HEX(0x0C0, offsetof(struct fdcan_registers, txbc));
-    TEST_ASSERT_EQUAL_HEX(0x0C4, offsetof(struct fdcan_registers, txfqs));
-    TEST_ASSERT_EQUAL_HEX(0x0C8, offsetof(struct fdcan_registers, txbrp));
-    TEST_ASSERT_EQUAL_HEX(0x0CC, offsetof(struct fdcan_registers, txbar));
-    TEST_ASSERT_EQUAL_HEX(0x0D0, offsetof(struct fdcan_registers, txbcr));
-    TEST_ASSERT_EQUAL_HEX(0x0E8, offsetof(struct fdcan_registers, txefa));
-}
-
 TEST(message_ram_layout_matches_the_manual)
 {
     TEST_ASSERT_EQUAL_HEX(0x070, offsetof(struct fdcan_ram, extended_filters));
