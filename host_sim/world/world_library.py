@@ -74,7 +74,7 @@ WORLD_HEADERS = tuple(
     _NATIVE / f"{name}.h"
     for name in ("vector", "space/space", "body_faults", "world", "space/capsule", "space/plain_space")
 )
-_DRAW = tuple(_NATIVE / "draw" / f"{name}.h" for name in ("draws", "layout", "tour", "layouts", "written"))
+_DRAW = tuple(_NATIVE / "draw" / f"{name}.h" for name in ("draws", "layout", "tour", "written"))
 HEADERS = (
     *(ROOT / "firmware" / name for name in ("io.h", "memory/memory.h", "motion/speed_control.h")),
     *WORLD_HEADERS,

@@ -11,7 +11,7 @@
 #include "host_sim/world/native/edits.h"
 #include "host_sim/world/native/kit/kit.h"
 #include "host_sim/world/native/history.h"
-#include "host_sim/world/native/draw/layouts.h"
+#include "host_sim/world/native/draw/layout.h"
 #include "host_sim/world/native/draw/tour.h"
 #include "host_sim/world/native/space/plain_space.h"
 #include "host_sim/world/native/ranges.h"

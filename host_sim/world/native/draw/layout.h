@@ -120,4 +120,18 @@ struct obstacles layout_obstacles(const struct layout *layout, const struct layo
 double layout_room_mm(const struct layout_params *params);
         /* Clearance of starts and food: nothing is within reach of a robot's sensors there. */
 
+/* Draws the layout of an environment, which its seed and number determine. */
+
+struct layout_which {
+    int64_t seed;
+    int64_t number;
+    uint32_t robots;   /* at least 1; more of them do not change the rest of the layout */
+};
+
+bool layouts_draw(const struct layout_kind *kind, const struct layout_which *which, struct reach *reach,
+                  struct layout *out);
+        /* Draws the first fair layout: nothing is within sensor reach of a start or of a piece of food, and every
+           piece can be reached from each start. out->starts has room for the robots; start_count is the number that
+           find room. False if 1000 draws gave no fair layout. reach is working memory for an arena of this size. */
+
 #endif

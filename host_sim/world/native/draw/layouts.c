@@ -1,4 +1,4 @@
-#include "host_sim/world/native/draw/layouts.h"
+#include "host_sim/world/native/draw/layout.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,5 @@
 #include "tests/test.h"
 #include "host_sim/world/native/draw/layout.h"
-#include "host_sim/world/native/draw/layouts.h"
 #include "host_sim/world/native/draw/tour.h"
 
 #include <math.h>
