@@ -19,12 +19,11 @@ ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build/host-vcan"
 FOLDERS = ("firmware", "hal", "host_sim")
 
-# Sources that cannot be part of a program on the host. The tests of images run the first two.
+# Sources that cannot be part of a program on the host. The tests of images run the first.
 NOT_ON_THE_HOST = {
     "hal/port/cortex_m/startup.c": "written in the core's own assembler, and in symbols of the linker script",
-    "hal/port/cortex_m/reset_chip.c": "as above",
     "hal/pins_body/body_main.c": "a main of its own; tests/image/test_body_node.py runs it",
-    "hal/rp2040/check_main.c": "a main of its own; tests/judges/test_check_wiring.py runs it",
+    "hal/pins_body/check_main.c": "a main of its own; tests/judges/test_check_wiring.py runs it",
     "hal/stm32/stm32g431/nmi.c": "written in the core's own assembler; what it calls is tested as flash_forgives",
     "hal/rp2040/boot2.c": "as above; tests/judges/test_pico.py runs it",
     "hal/rp2040/divide.c": "as above; tests/judges/test_pico.py runs it",
@@ -156,7 +155,7 @@ def test_c_sources_are_tested_or_have_a_reason(reach):
 @pytest.mark.parametrize(
     ("without", "named"),
     [
-        ("tests/emulator/", {"core_blocks.c", "register_space.c", "board_clock.c", "systick_model.c"}),
+        ("tests/emulator/", {"core_blocks.c", "register_space.c", "board_clock.c"}),
         ("tests/web/", {f"page_{part}.c" for part in PAGE_PARTS}),
         ("tests/hal/stm32/test_pins", {"gpio.c", "pins.c"}),
     ],

@@ -28,7 +28,6 @@ MAY_INCLUDE = {
         *("hal/pins_body/", "hal/port/"),
     ),
     "hal/rp2040/": ("hal/flash_store/", "hal/link/", "hal/pins_body/", "hal/port/"),
-    "hal/rp2040/check_main.c": ("hal/hal.h", "hal/pins_body/pins.h", "hal/port/cortex_m/"),
     "hal/library/": ("firmware/", "hal/protocol/"),
     "hal/pins_body/": (
         "firmware/io.h",
@@ -37,6 +36,7 @@ MAY_INCLUDE = {
         "hal/can_body/port.h",
         "hal/protocol/",
     ),
+    "hal/pins_body/check_main.c": ("hal/hal.h", "hal/port/cortex_m/"),
     "host_sim/world/native/": ("firmware/io.h", "firmware/motion/speed_control.h"),
     "host_sim/program/native/": ("firmware/", "hal/library/", "host_sim/world/native/trig.h"),
     "host_sim/sim/native/": (
@@ -101,7 +101,7 @@ PLANTED = [
     ("hal/protocol/crc8.c", "host_sim/world/native/world.h"),
     ("host_sim/world/native/world.c", "hal/protocol/wire.h"),
     ("host_sim/world/native/world.c", "firmware/robot.h"),
-    ("host_sim/world/native/world.c", "hal/pins_body/proximity.h"),
+    ("host_sim/world/native/world.c", "hal/pins_body/inputs.h"),
     ("host_sim/world/native/world.c", "host_sim/sim/native/loop.h"),
     ("host_sim/sim/native/loop.c", "hal/library/exchange.h"),
     ("host_sim/program/native/machine.c", "host_sim/sim/native/loop.h"),

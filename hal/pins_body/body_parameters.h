@@ -4,7 +4,7 @@
 #define OCTET_BODY_PARAMETERS_H
 
 #include "hal/pins_body/calibrate.h"
-#include "hal/pins_body/proximity.h"
+#include "hal/pins_body/inputs.h"
 #include "firmware/motion/speed_control.h"
 
 struct body_parameters {

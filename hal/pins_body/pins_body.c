@@ -1,7 +1,7 @@
 /* A body on pins: implements hal.h on the microcontroller's pins. */
 #include "hal/can_body/port.h"
 #include "hal/pins_body/body_parameters.h"
-#include "hal/pins_body/button.h"
+#include "hal/pins_body/inputs.h"
 #include "hal/pins_body/guard.h"
 #include "hal/pins_body/pins.h"
 #include "hal/pins_body/telemetry.h"

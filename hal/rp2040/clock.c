@@ -1,5 +1,5 @@
 /* From the ring oscillator, on which the chip starts, to the crystal and the PLL (data sheet 2.15 to 2.18). */
-#include "hal/rp2040/clock.h"
+#include "hal/rp2040/machine.h"
 
 #include "hal/rp2040/registers.h"
 

@@ -2,7 +2,7 @@
 #include "hal/flash_store/flash.h"
 
 #include "hal/port/cortex_m/uart.h"
-#include "hal/rp2040/rom.h"
+#include "hal/rp2040/machine.h"
 
 enum {
     SECTOR_COUNT = 64,        /* the last ones of the flash; the last two of these are pages 0 and 1 */

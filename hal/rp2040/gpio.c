@@ -1,4 +1,4 @@
-#include "hal/rp2040/gpio.h"
+#include "hal/rp2040/machine.h"
 
 #include "hal/rp2040/registers.h"
 

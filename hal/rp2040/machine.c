@@ -2,7 +2,6 @@
 #include "hal/rp2040/machine.h"
 
 #include "hal/port/cortex_m/mcu.h"
-#include "hal/rp2040/gpio.h"
 #include "hal/rp2040/registers.h"
 
 enum {

@@ -1,4 +1,4 @@
-#include "hal/port/cortex_m/reset_chip.h"
+#include "hal/port/cortex_m/mcu.h"
 
 #include "hal/rp2040/registers.h"
 

@@ -1,4 +1,4 @@
-#include "hal/rp2040/rom.h"
+#include "hal/rp2040/machine.h"
 
 enum {
     MAGIC = 0x01754D, MAGIC_MASK = 0xFFFFFF,   /* "Mu", and a 1 */

@@ -16,7 +16,6 @@ _NAMES = (
     "fdcan_model",
     "board_clock",
     "core_blocks",
-    "systick_model",
     "register_space",
 )
 _HEADERS = (ROOT / "hal" / "link" / "link.h", *(_MODELS / f"{name}.h" for name in _NAMES))

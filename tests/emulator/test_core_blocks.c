@@ -1,7 +1,6 @@
 /* The core's instructions are counted block by block, here of a Thumb program in the test's memory. */
 #include "tests/test.h"
 #include "host_sim/emulator/models/core_blocks.h"
-#include "host_sim/emulator/models/systick_model.h"
 
 #include <string.h>
 

@@ -20,6 +20,10 @@ bool mcu_clock_is_exact(void);
 enum reset_cause mcu_reset_cause(void);
         /* What has reset the chip since the last call. A reset requested by the core is RESET_SOFTWARE. */
 
+void reset_chip(void);
+        /* Restarts the program: resets the chip. If that fails, the watchdog does it. The port has one by the core's
+           own request; a chip may have its own. */
+
 void mcu_feed(void);
         /* Feeds the watchdog, which otherwise resets the chip after 1 to 4 s. */
 

@@ -5,7 +5,6 @@
 #include "hal/port/cortex_m/core.h"
 #include "hal/port/cortex_m/crash.h"
 #include "hal/port/cortex_m/mcu.h"
-#include "hal/port/cortex_m/reset_chip.h"
 #include "hal/port/cortex_m/systick.h"
 
 #ifndef OCTET_INTERRUPTS
@@ -13,7 +12,9 @@
 #endif
 
 enum {
-    ICSR_VECTOR = 0x1FF       /* number of the active exception */
+    ICSR_VECTOR = 0x1FF,      /* number of the active exception */
+    AIRCR_KEY = 0x05FA << 16,
+    AIRCR_RESET = 1 << 2
 };
 
 /* From the linker script: addresses only. */
@@ -52,6 +53,16 @@ __attribute__((naked, section(".vectors.interrupts"), used)) void startup_interr
 void core_sleep(void)
 {
     __asm__ volatile("dsb\n\twfi" ::: "memory");
+}
+
+/* A chip may have its own. The reset takes a few cycles. The barrier completes all earlier stores of compiler and
+ * core. */
+__attribute__((weak)) void reset_chip(void)
+{
+    __asm__ volatile("dsb" ::: "memory");
+    SCB.aircr = AIRCR_KEY | AIRCR_RESET;
+    for (;;)
+        continue;
 }
 
 /* No interrupt may come before PRIMASK is set. */

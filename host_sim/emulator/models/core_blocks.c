@@ -42,3 +42,17 @@ void core_on_block(void *emulator, uint64_t address, uint32_t size, void *contex
     blocks->end = address + size;
     clock_execute(blocks->clock, instructions);
 }
+
+uint64_t systick_counted(const struct systick *timer)
+{
+    if (!(timer->ctrl & SYSTICK_ENABLE))
+        return 0;
+    return (timer->clock->cycles - timer->since_cycles) / (timer->ctrl & SYSTICK_CLKSOURCE ? 1 : SYSTICK_DIVISOR);
+}
+
+uint32_t systick_value(const struct systick *timer)
+{
+    uint64_t past = systick_counted(timer) % ((uint64_t)timer->load + 1);
+
+    return past == 0 ? 0 : (uint32_t)(timer->load + 1 - past);
+}

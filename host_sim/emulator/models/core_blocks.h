@@ -1,5 +1,5 @@
-/* core_blocks.h: counts the executed instructions, block by block, and drives the clock with them. Python reads
- * this header too. */
+/* core_blocks.h: counts the executed instructions, block by block, and drives the clock with them; and the
+ * core's own timer (PM0214 4.5), polled. Python reads this header too. */
 #ifndef OCTET_CORE_BLOCKS_H
 #define OCTET_CORE_BLOCKS_H
 
@@ -30,5 +30,20 @@ struct core_blocks {
 
 void core_on_block(void *emulator, uint64_t address, uint32_t size, void *blocks);
         /* Unicorn's hook: a block of instructions is about to be executed. */
+
+enum { SYSTICK_ENABLE = 1 << 0, SYSTICK_CLKSOURCE = 1 << 2, SYSTICK_DIVISOR = 8 };
+
+struct systick {
+    const struct board_clock *clock;
+    uint32_t ctrl;
+    uint32_t load;
+    uint64_t since_cycles;   /* when it was restarted */
+};
+
+uint64_t systick_counted(const struct systick *timer);
+        /* Counts since it was restarted. */
+
+uint32_t systick_value(const struct systick *timer);
+        /* VAL: counts down from LOAD to 0, over and over. */
 
 #endif

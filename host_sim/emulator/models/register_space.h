@@ -11,7 +11,7 @@
 
 #include "host_sim/emulator/models/board_clock.h"
 #include "host_sim/emulator/models/can_node.h"
-#include "host_sim/emulator/models/systick_model.h"
+#include "host_sim/emulator/models/core_blocks.h"
 
 enum {
     SPACE_WAITING_READS = 8,    /* reads in a row without news, after which the image counts as waiting */

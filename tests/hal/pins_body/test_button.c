@@ -1,7 +1,6 @@
 #include "tests/test.h"
-#include "hal/pins_body/button.h"
+#include "hal/pins_body/inputs.h"
 #include "hal/pins_body/guard.h"
-#include "hal/pins_body/proximity.h"
 
 enum { SECOND = 50, PRESS = 10 };   /* ticks */
 

@@ -1,4 +1,4 @@
-#include "hal/rp2040/clock.h"
+#include "hal/rp2040/machine.h"
 
 #include <string.h>
 

@@ -5,7 +5,7 @@
 
 #include "tests/test.h"
 #include "hal/port/cortex_m/uart.h"
-#include "hal/rp2040/rom.h"
+#include "hal/rp2040/machine.h"
 
 enum { SECTORS_AT = 0x1C0000, SECTOR_COUNT = 64, NEVER = -1 };
 

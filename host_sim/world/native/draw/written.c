@@ -222,7 +222,7 @@ static bool check_room(const struct check *it, const struct obstacles *obstacles
                          nearbyint(room), needed);
 }
 
-/* Whether there is room at each position, and a path from the first to all others, as in layouts.h. */
+/* Whether there is room at each position, and a path from the first to all others, as layouts_draw has it. */
 static bool check_fair(const struct check *it)
 {
     struct layout layout;
