@@ -9,11 +9,14 @@ import pytest
 from host_sim.api import RunConfig
 from host_sim.base.errors import BrainError
 from host_sim.cli.main import main
+from host_sim.lab.study.figures import FIGURES, compare
+from host_sim.lab.study.fleets import sample_of
 from host_sim.lab.study.folder import StudyFolder
 from host_sim.lab.study.trial import Trial, run_trial
 from host_sim.sim.fleet import run_fleet
 from host_sim.sim.own_brain import OWN_HEADERS
 
+WALL_FOLLOWER = OWN_HEADERS.parent / "examples" / "wall_follower.c"
 TEMPLATE = (OWN_HEADERS / "mine.c").read_text()
 BESIDE = "uint8_t *volatile beside = (uint8_t *)brain;\n    for (int i = 0; i < 300; i++) beside[i] = 7;"
 CRASH = TEMPLATE.replace("brain->awaits = NOTHING;", BESIDE)  # only the address sanitizer notices that
@@ -43,6 +46,15 @@ def test_fleet_of_the_template_behaves_as_article(mine, tmp_path, capsys):
     assert tables[0] == tables[1]
     assert len(tables[0]) == 81
     assert f"profile {mine}" in capsys.readouterr().out
+
+
+def test_example_wall_follower_finishes_more_and_sooner_than_searcher():
+    theirs, ours = (sample_of(it, RunConfig(profile=it), 5_000_001, 300) for it in ("searcher", str(WALL_FOLLOWER)))
+
+    assert compare(FIGURES["mean_s"], ours, theirs).high < 1
+    assert ours.finished.mean() > 0.995
+    assert not ours.bumped.any()
+    assert ours.wrong.mean() == 0
 
 
 def test_sharing_fleet_of_the_template_behaves_as_article(mine):
