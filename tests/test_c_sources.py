@@ -34,6 +34,7 @@ NOT_ON_THE_HOST = {
         f"host_sim/program/own/{name}.c": "linked with a file of its user's; tests/sim/test_own_brain.py runs it"
         for name in ("guard", "undefined", "checked", "fast", "mine")
     },
+    "host_sim/program/examples/wall_follower.c": "the same; tests/lab/study/test_own_behaviour.py runs it",
     "host_sim/program/own/image.c": "linked with a file of its user's; tests/image/test_own_image.py runs it",
     "host_sim/lab/grade/native/judge.c": "linked with a pupil's file; tests/lab/grade/test_grade.py runs it",
 }
@@ -42,7 +43,7 @@ NOT_ON_THE_HOST = {
 FOR_OTHERS = "/octet_brain.dir/"
 """The brain without the robot, for projects that ask for it; tests/tools/test_release.py builds it."""
 
-PAGE_PARTS = ("commands", "frames", "history", "layouts", "memory", "open", "program", "state", "world")
+PAGE_PARTS = ("commands", "layouts", "memory", "open", "program", "world")
 
 
 @dataclass
