@@ -52,7 +52,8 @@ def test_replay_goes_from_change_to_change_and_says_what_happened(surprised, ope
 
 
 def test_live_page_shows_changes_when_they_happen(watch, open_page):
-    page = open_page(watch("--environments", "1", "--limit-s", "20", *CHANGES[:4]).url)
+    later = ("--change", "plant@61s", "--change", "swap-motors@62s")  # a page may take its time to open
+    page = open_page(watch("--environments", "1", "--limit-s", "70", *later).url)
     assert page.inner_text("#news") == ""
     full_speed(page)
 
@@ -103,7 +104,7 @@ def test_reasons_have_colours_names_and_widths(open_page):
 
     assert page.evaluate("octet.lane.renderer.palette.reasons.every((colour) => /^#/.test(colour))")
     assert page.locator("#legend [data-reason]").count() == len(Reason) == len(MARKS)
-    widths = with_modules('(modules) => modules["draw/trail.ts"].WIDTH_MM.size', "draw/trail.ts")
+    widths = with_modules('(modules) => modules["draw/trail_layer.ts"].WIDTH_MM.size', "draw/trail_layer.ts")
     assert page.evaluate(widths) == len(Reason)
 
 

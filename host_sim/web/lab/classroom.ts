@@ -22,17 +22,23 @@ const FNV_PRIME = 0x01000193;
 /** Its element stands in the head of the page in a class, and in the lessons elsewhere. */
 export class Classroom {
   /** Whether a server takes reports. */
-  isOpen = document.querySelector('meta[name="octet-class"]') !== null;
-  key = keptKey();
+  isOpen: boolean;
+  key: string;
   told = "";
   reports = 0;
   isLost = false;
-  field = made("input", [], { maxlength: `${NAME_MAX}`, autocomplete: "off", id: "my-name", value: kept("name") });
-  news = made("span", [], { role: "status", id: "class-news" });
-  element = made("div", [], { id: "class-name" });
+  field: HTMLInputElement;
+  news: HTMLSpanElement;
+  element: HTMLDivElement;
 
   constructor(readonly course: Course) {
-    if (this.isOpen) byId("show-link-code").after(this.element);
+    this.isOpen = document.querySelector('meta[name="octet-class"]') !== null;
+    this.key = keptKey();
+    this.field = made("input", [], { maxlength: `${NAME_MAX}`, autocomplete: "off", id: "my-name" });
+    this.field.value = kept("name");
+    this.news = made("span", [], { role: "status", id: "class-news" });
+    this.element = made("div", [], { id: "class-name" });
+    if (this.isOpen) byId("status").after(this.element);
     if (this.isOpen) hideToken();
     this.field.addEventListener("change", () => this.rename());
     inEachLanguage(() => this.build());

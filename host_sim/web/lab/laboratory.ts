@@ -2,14 +2,14 @@
 
 import { byId, mayMove, setText } from "../core/dom.js";
 import { heard, inEachLanguage, say } from "../core/language.js";
-import { ShownRun } from "./shown_run.js";
+import { ShownRun, restartNames } from "./shown_run.js";
 import { Toast } from "../core/toast.js";
 import { PlayingPage } from "./playing_page.js";
 import { Simulator } from "./simulator.js";
 import type { RunData } from "../core/run_data.js";
 import type { RecordedRun } from "../sim/log_opening.js";
 import type { Worlds } from "../sim/simulation.js";
-import type { Change, Experiment, RobotSetup } from "../types.js";
+import type { Change, Experiment, RobotSetup, SimParams } from "../types.js";
 
 /**
  * What `octet_page` has put into the page: page.wasm packed, and the worker's script, and for a recorded run what repeats
@@ -21,10 +21,14 @@ export type Parts = { worlds: Worlds; programs: Record<string, string>; wasm: st
 const LANES_MAX = 4;
 
 /** Subclasses show the runs: `onLanes`, `onScene` and `onRefusal` tell them what has changed. */
-export abstract class Laboratory extends PlayingPage {
-  params = this.parts.worlds.random;
-  simulator = new Simulator(this.parts);
-  note = new Toast();
+export class Laboratory extends PlayingPage {
+  programs: Record<string, string>;
+  /** The command that opens a log in a debugger. */
+  debugger: string;
+  worlds: Worlds;
+  params: SimParams;
+  simulator: Simulator;
+  note: Toast;
   /** Whether the next run plays as soon as it is there. */
   playsNext = false;
   lanes: ShownRun[] = [];
@@ -36,8 +40,15 @@ export abstract class Laboratory extends PlayingPage {
    * @param experiment - The first run's.
    * @param recorded - That run, if it is a recorded one.
    */
-  constructor(readonly parts: Parts, experiment: Experiment, public recorded?: RunData) {
+  constructor(parts: Parts, experiment: Experiment, public recorded?: RunData) {
     super(recorded?.first ?? 0);
+    const { worlds, programs, debugger: command } = parts;
+    this.programs = programs;
+    this.debugger = command;
+    this.worlds = worlds;
+    this.params = worlds.random;
+    this.simulator = new Simulator(parts);
+    this.note = new Toast();
     this.lane = this.addLane(experiment, recorded);
     this.recalled = this.recall(parts, this.lane);
     this.recalled.catch(() => {});
@@ -52,21 +63,21 @@ export abstract class Laboratory extends PlayingPage {
   }
 
   /** Called when the number of runs has changed. */
-  abstract onLanes(): void;
+  onLanes() {}
 
   /** Called when another scene or another robot is selected. */
-  abstract onScene(): void;
+  onScene() {}
 
   /** Called when a change was refused. */
-  abstract onRefusal(): void;
+  onRefusal() {}
 
   /** The last tick of all runs; while one of them is simulated, the tick that is shown may still be beyond it. */
-  get last(): number {
+  override get last(): number {
     const known = Math.max(0, ...this.lanes.map((lane) => lane.last));
     return this.lanes.some((lane) => lane.isRunning) ? Math.max(known, this.tick) : known;
   }
 
-  get tickMs() {
+  override get tickMs() {
     return this.recorded?.measures.tick_ms ?? this.params.tick_s * 1000;
   }
 
@@ -80,14 +91,13 @@ export abstract class Laboratory extends PlayingPage {
     return this.lanes.length >= LANES_MAX;
   }
 
-  show() {
+  override show() {
     for (const lane of this.lanes) lane.go(this.tick, false);
   }
 
   /** @param experiment - Of the run to add, and to simulate if it is not recorded. */
   addLane(experiment: Experiment, recorded?: RunData) {
-    const number = this.lanes.length ? Math.max(...this.lanes.map((other) => other.number)) + 1 : 0;
-    const lane = new ShownRun(experiment, number, byId("floors"), this.viewport);
+    const lane = new ShownRun(experiment, byId("floors"), this.viewport);
     this.lanes.push(lane);
     lane.canvas.addEventListener("pointerdown", () => this.select(lane), { capture: true });
     lane.canvas.addEventListener("focus", () => this.select(lane));
@@ -107,7 +117,7 @@ export abstract class Laboratory extends PlayingPage {
 
   /** Closes a run. */
   drop(lane: ShownRun) {
-    lane.figure.remove();
+    lane.remove();
     this.simulator.queued.delete(lane);
   }
 
@@ -119,6 +129,7 @@ export abstract class Laboratory extends PlayingPage {
     const old = this.lanes;
     this.lanes = [];
     old.forEach((lane) => this.drop(lane));
+    restartNames();
     this.setPlaying(false);
     this.go(0);
     this.select(this.addLane(experiment, recorded));
@@ -137,7 +148,7 @@ export abstract class Laboratory extends PlayingPage {
     this.showStatus();
   }
 
-  whatIf() {
+  override whatIf() {
     if (this.lane.isRecorded) this.inCopy(() => {});
     else if (this.copy()) this.note.show(say("copyHint"));
   }

@@ -1,26 +1,35 @@
 /* A page that plays a run, forward and back: the tick that it shows, its buttons and its keys. */
 
-import { byId, setText, typedById } from "../core/dom.js";
+import { byId, isForPage, setText, typedById } from "../core/dom.js";
 import { inEachLanguage, say } from "../core/language.js";
 import { Viewport } from "../draw/viewport.js";
 import { explainMarks } from "../panel/timeline.js";
 
-export abstract class PlayingPage {
+/**
+ * Subclasses say which ticks there are (`last`, `tickMs`), show one (`show`), draw (`draw`, `drawMarks`), and do what
+ * the buttons ask for (`jump`, `whatIf`).
+ */
+export class PlayingPage {
   /** The tick that is shown. */
-  tick = this.first;
+  tick: number;
   /** The same with a fraction, while it plays. */
-  exactTick = this.first;
+  exactTick: number;
   playing = false;
   /** When the last frame was drawn, ms. */
   frameAt: number | undefined;
   /** Whether there is anything new to draw. */
   stale = true;
-  viewport = new Viewport(() => (this.stale = true));
-  scrub = typedById("scrub", HTMLInputElement);
-  marks = typedById("marks", HTMLCanvasElement);
+  viewport: Viewport;
+  scrub: HTMLInputElement;
+  marks: HTMLCanvasElement;
 
   /** @param first - The first tick. */
   constructor(public first: number) {
+    this.tick = first;
+    this.exactTick = first;
+    this.viewport = new Viewport(() => (this.stale = true));
+    this.scrub = typedById("scrub", HTMLInputElement);
+    this.marks = typedById("marks", HTMLCanvasElement);
     this.scrub.min = `${first}`;
     this.scrub.addEventListener("input", () => this.go(Number(this.scrub.value)));
     byId("play").addEventListener("click", () => this.setPlaying(!this.playing));
@@ -39,26 +48,28 @@ export abstract class PlayingPage {
   }
 
   /** The last tick. */
-  abstract get last(): number;
+  get last() {
+    return this.first;
+  }
 
   /** Length of a tick, ms of robot time. */
-  abstract get tickMs(): number;
+  get tickMs() {
+    return Infinity;
+  }
 
   /** Shows the tick. */
-  abstract show(): void;
-  abstract draw(): void;
+  show() {}
+
+  draw() {}
 
   /** Draws the marks above the scrubber. */
-  abstract drawMarks(): void;
+  drawMarks() {}
 
-  /** @param step - 1 for the next event of the chosen kind, -1 for the one before. */
-  abstract jump(step: number): void;
+  /** @param _step - 1 for the next event of the chosen kind, -1 for the one before. */
+  jump(_step: number) {}
 
   /** Opens "What if?" at this tick. */
-  abstract whatIf(): void;
-
-  /** Whether a key is meant for the page. */
-  abstract takesKey(event: KeyboardEvent): boolean;
+  whatIf() {}
 
   resize() {
     this.drawMarks();
@@ -132,6 +143,11 @@ export abstract class PlayingPage {
     if (!action) return;
     event.preventDefault();
     action();
+  }
+
+  /** Whether a key is meant for the page. */
+  takesKey(event: KeyboardEvent) {
+    return isForPage(event, event.key === " " ? "select, button" : "select");
   }
 
   /**

@@ -2,7 +2,6 @@
 
 import { pictureOf } from "../panel/cells_view.js";
 import { byId, made, termsOf } from "../core/dom.js";
-import { languageCode } from "../core/language.js";
 import { CELL_COUNT } from "../generated.js";
 import { binary } from "../core/phrases.js";
 import type { Texts as AllTexts } from "../core/language.js";
@@ -17,38 +16,36 @@ export class Worksheet {
   element = byId("sheet");
 
   constructor() {
-    addEventListener("afterprint", () => this.element.replaceChildren());
+    addEventListener("afterprint", () => this.clear());
   }
 
   get isEmpty() {
     return this.element.childElementCount === 0;
   }
 
-  /** @param notes - Whether to fill it with those for teachers. */
-  fill({ id }: Plan, texts: Texts, notes: boolean) {
-    this.element.replaceChildren(...(notes ? this.notes(id, texts) : this.worksheet(id, texts)));
-    this.element.lang = languageCode();
+  clear() {
+    this.element.replaceChildren();
   }
 
-  worksheet(id: Plan["id"], texts: Texts) {
+  fill({ id }: Plan, texts: Texts) {
     const { words, lessons } = texts;
     const { title, question, steps, goals, tasks } = lessons[id];
     const [table] = tableIn(texts, id);
-    return [
+    this.element.replaceChildren(
       made("h1", [title]), headOf(words), made("p", [question], { class: "question" }),
       made("h2", [words.steps]), made("ol", steps.map((step) => made("li", [step]))),
       made("h2", [words.goalsPrinted]), made("ul", goals.map((goal) => made("li", [goal])), { class: "boxes" }),
       made("h2", [words.tasks]), made("ol", tasks.map((task) => made("li", [task, linesOf()]))),
       ...(table ? [made("h2", [table]), tableOf(words)] : []),
-    ];
+    );
   }
 
-  notes(id: Plan["id"], texts: Texts) {
+  fillNotes({ id }: Plan, texts: Texts) {
     const { words, lessons, glossary } = texts;
-    return [
+    this.element.replaceChildren(
       made("h1", [`${lessons[id].title}: ${words.notes}`]), notesOf(texts, id),
       made("h2", [words.glossary]), made("dl", termsOf(glossary), { class: "glossary" }),
-    ];
+    );
   }
 }
 

@@ -39,11 +39,12 @@ function exchangesOf(log: string) {
 
 /** A flash image on its serial line. */
 class PicoRobot {
-  board = new PicoBoard(RP2040, this.image);
+  board: PicoBoard;
   text = "";
   said: string[] = [];
 
-  constructor(readonly image: Uint8Array) {
+  constructor(image: Uint8Array) {
+    this.board = new PicoBoard(RP2040, image);
     this.hearUntil(1, BOOT_NS);
   }
 

@@ -6,8 +6,8 @@ from itertools import chain
 from pathlib import Path
 
 from host_sim.api import RunConfig, resimulate, run
-from host_sim.report.octet_page import speakers
 from host_sim.report.replay_page import run_data
+from host_sim.report.octet_page import speakers
 from host_sim.talk.conversation import NO_FACTS, SPEAKERS, Conversation, script_named, texts_of
 from host_sim.talk.facts import RobotFacts
 from host_sim.talk.log_index import index_log
@@ -18,8 +18,7 @@ ANSWERS = """
 const [speakers, run, told, table] = texts.map((text) => JSON.parse(text));
 const data = await modules["core/run_data.ts"].RunData.from(run);
 const { Conversation } = modules["talk/conversation.ts"];
-const made = ([name, { script, texts }]) => [name, new Conversation(script, texts)];
-const talks = Object.fromEntries(Object.entries(speakers).map(made));
+const talks = Object.fromEntries(Object.entries(speakers).map(([name, it]) => [name, new Conversation(it)]));
 return table.map(([who, tick, sentence]) => {
   const { mark, text, ticks, cells, food } = talks[who].answer(sentence, { data, robot: 0, tick, told });
   return [mark, text, [ticks, cells, food]];
