@@ -159,10 +159,13 @@ def test_tune_prints_what_it_found_and_run_takes_a_file_of_settings(tmp_path, ca
     assert last_wins == log_of("--set", "turn_deg=20", "--set", "step_mm=16") != log_of("--set", f"@{preset}")
 
 
-def test_only_tune_uses_the_held_out_seeds():
+def test_only_tune_and_one_example_use_the_held_out_seeds():
     uses = [it.what for it in read_used() if it.last >= tune_command.HELD_OUT]
 
-    assert uses == ["the settings that tools/octet tune finds"]
+    assert uses == [
+        "the settings that tools/octet tune finds, and those of wall_follower.c",
+        "wall_follower.c: learning.md",
+    ]
 
 
 def test_held_out_seeds_begin_after_those_of_the_search(tmp_path, capsys, monkeypatch):

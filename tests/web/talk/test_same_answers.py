@@ -6,8 +6,8 @@ from itertools import chain
 from pathlib import Path
 
 from host_sim.api import RunConfig, resimulate, run
-from host_sim.report.replay_page import run_data
 from host_sim.report.octet_page import speakers
+from host_sim.report.replay_page import run_data
 from host_sim.talk.conversation import NO_FACTS, SPEAKERS, Conversation, script_named, texts_of
 from host_sim.talk.facts import RobotFacts
 from host_sim.talk.log_index import index_log
