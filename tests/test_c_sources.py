@@ -23,7 +23,7 @@ FOLDERS = ("firmware", "hal", "host_sim")
 NOT_ON_THE_HOST = {
     "hal/port/cortex_m/startup.c": "written in the core's own assembler, and in symbols of the linker script",
     "hal/pins_body/body_main.c": "a main of its own; tests/image/test_body_node.py runs it",
-    "hal/pins_body/check_main.c": "a main of its own; tests/judges/test_check_wiring.py runs it",
+    "hal/rp2040/check_main.c": "a main of its own; tests/judges/test_check_wiring.py runs it",
     "hal/stm32/stm32g431/nmi.c": "written in the core's own assembler; what it calls is tested as flash_forgives",
     "hal/rp2040/boot2.c": "as above; tests/judges/test_pico.py runs it",
     "hal/rp2040/divide.c": "as above; tests/judges/test_pico.py runs it",

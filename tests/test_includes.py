@@ -28,6 +28,7 @@ MAY_INCLUDE = {
         *("hal/pins_body/", "hal/port/"),
     ),
     "hal/rp2040/": ("hal/flash_store/", "hal/link/", "hal/pins_body/", "hal/port/"),
+    "hal/rp2040/check_main.c": ("hal/hal.h", "hal/pins_body/pins.h", "hal/port/cortex_m/"),
     "hal/library/": ("firmware/", "hal/protocol/"),
     "hal/pins_body/": (
         "firmware/io.h",
@@ -36,7 +37,6 @@ MAY_INCLUDE = {
         "hal/can_body/port.h",
         "hal/protocol/",
     ),
-    "hal/pins_body/check_main.c": ("hal/hal.h", "hal/port/cortex_m/"),
     "host_sim/world/native/": ("firmware/io.h", "firmware/motion/speed_control.h"),
     "host_sim/program/native/": ("firmware/", "hal/library/", "host_sim/world/native/trig.h"),
     "host_sim/sim/native/": (

@@ -190,14 +190,6 @@ def _owner(descriptor: int) -> str:
     return ""
 
 
-COMPRESSED = ".gz"
-"""File name suffix of a compressed log."""
-
-_CHUNK_BYTES = 1 << 16
-_LEVEL = 1  # compresses a log to a quarter; the default level takes three times as long for a fifth
-_GZIP = 16 + zlib.MAX_WBITS
-
-
 @contextmanager
 def run_folder(path: Path) -> Iterator[None]:
     """Creates the folder of a run's files if it does not exist, and keeps other runs out of it.
@@ -215,6 +207,14 @@ def run_folder(path: Path) -> Iterator[None]:
         yield
     finally:
         os.close(descriptor)
+
+
+COMPRESSED = ".gz"
+"""File name suffix of a compressed log."""
+
+_CHUNK_BYTES = 1 << 16
+_LEVEL = 1  # compresses a log to a quarter; the default level takes three times as long for a fifth
+_GZIP = 16 + zlib.MAX_WBITS
 
 
 class CompressedFile:

@@ -111,12 +111,15 @@ static struct action look_around(struct brain *brain)
     return look;
 }
 
+static uint8_t less(int distance, int steps)
+{
+    return (uint8_t)(distance > steps ? distance - steps : 0);
+}
+
 static struct action drive(struct brain *brain, enum reason reason, int steps)
 {
-    uint8_t *left = &brain->own[TO_LOOK];
-
-    for (; left <= &brain->own[TO_FOLLOW]; left++)
-        *left = (uint8_t)(*left > steps ? *left - steps : 0);
+    brain->own[TO_LOOK] = less(brain->own[TO_LOOK], steps);
+    brain->own[TO_FOLLOW] = less(brain->own[TO_FOLLOW], steps);
     brain->awaits = STEPPED;
     return step(reason, STEP_LENGTH_MM * steps);
 }

@@ -6,8 +6,6 @@
 #include "hal/protocol/e2e.h"
 #include "octet.h"
 
-
-
 static inline struct frame protected_frame(struct frame frame)
 {
     e2e_protect(&frame);
