@@ -192,7 +192,6 @@ ALLOWED = {
     "host_sim/lab/campaign/host_events.py": "sets it, for those who read it",
     "host_sim/live/class_roster.py": "tells when a page last reported",
     "host_sim/live/class_server.py": "tells how long ago that was",
-    "host_sim/live/feed.py": "tells the page when a message was made",
     "host_sim/sim/own_brain.py": "keeps in its cache what another run may be about to use",
     "host_sim/transport/socket_pair_bus.py": "the time stamp that python-can wants of a frame",
 }

@@ -84,7 +84,7 @@ def test_modules_with_one_importer_have_at_least_40_lines(texts):
     assert too_small(texts) <= set(STAND_ALONE)
 
 
-@pytest.mark.parametrize("where", ["host_sim/live/page_talk.py", "host_sim/web/board/board.ts"])
+@pytest.mark.parametrize("where", ["host_sim/live/qr_code.py", "host_sim/web/board/board.ts"])
 def test_small_module_with_one_importer_is_found(texts, where):
     planted = str(PurePath(where).with_stem("planted"))
     line = {".ts": 'import { planted } from "./planted.js";', ".py": "from host_sim.live.planted import planted"}

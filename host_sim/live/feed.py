@@ -1,21 +1,23 @@
-"""The messages to one open page: only what has changed, and only the latest state."""
+"""The messages to one open page: only what has changed, only the latest state, and answers to what it asks."""
 
 import json
-import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, Question
-from host_sim.live.page_talk import PageTalk
 from host_sim.protocol.generated import ROW, Reason
 from host_sim.recording.phrases import news_of
 from host_sim.recording.state import environment_scene, measures, states
 from host_sim.recording.state_types import Lesson
 from host_sim.recording.summary import frame_counts
-from host_sim.recording.trajectory import AXES, RobotTrack
+from host_sim.recording.trajectory import AXES, RobotTrack, at
+from host_sim.talk.conversation import NO_FACTS, Conversation, script_named, texts_of
+from host_sim.talk.eliza import Facts
+from host_sim.talk.facts import RobotFacts
+from host_sim.talk.log_index import LogIndex
 
 TRAIL_MAX = 3000
 """Maximum number of ticks in the trail of a page that joins late."""
@@ -24,6 +26,7 @@ _POINTS_MAX = 200
 _NOTES_MAX = 8
 _NEWS_MAX = 8
 _ANSWERS_MAX = 8
+_PLACES_MAX = 100
 _REASON = ROW.index("reason")
 _USUAL = (Reason.WANDER, Reason.LOOK_AROUND)
 
@@ -49,6 +52,41 @@ class Memo:
         if key not in self._parts:
             self._parts[key] = as_json(make())
         return self._parts[key]
+
+
+@dataclass
+class PageTalk:
+    """The conversations of one page."""
+
+    live: PacedRun
+    _talks: dict[str, Conversation] = field(default_factory=dict)
+
+    def answer(self, question: Question) -> dict[str, Any]:
+        """An answer, as the page's TalkBox takes it.
+
+        Returns:
+            `who` and `sentence`, as they were asked; `said`: mark, text, ticks, cells and food, as in
+            `host_sim.talk.conversation`; and `places`, where the robot was in those ticks of this environment, mm.
+        """
+        who = question.who
+        if who not in self._talks:
+            self._talks[who] = Conversation(script_named(who), NO_FACTS, texts_of(who))
+        talk = self._talks[who]
+        nodes = self.live.simulation.nodes
+        robot = nodes.index(question.node) if question.node in nodes else 0
+        run = self.live.recorder.trajectory
+        talk.ask_about(self._facts(who, robot) if run.ticks else NO_FACTS)
+        said = talk.answer(question.text)
+        first = at(run.scenes, run.ticks - 1)["first_tick"] if run.ticks else 0
+        ticks = [tick for tick in said.rests.ticks if tick >= max(first, run.first_tick)][-_PLACES_MAX:]
+        places = [[round(part, 1) for part in run.tracks[robot].pose(tick)[:2]] for tick in ticks]
+        answer = {"mark": said.mark, "text": said.text, **said.rests._asdict()}
+        return {"who": who, "sentence": question.text, "said": answer, "places": places}
+
+    def _facts(self, who: str, robot: int) -> Facts:
+        run, simulation = self.live.recorder.trajectory, self.live.simulation
+        run = replace(run, news=news_of(simulation.record))
+        return RobotFacts(run, LogIndex(), run.ticks - 1, texts_of(who), robot).by_name()
 
 
 @dataclass
@@ -89,7 +127,7 @@ class PageFeed:
         `events`, for each robot those since the last message, as in report/replay_page.py; `trails`, for each robot
         the ticks since then as [x, y, reason, ...], thinned out if many; `lessons`, those of all robots; `play`, the
         state of the controls; `health`; `pins`, for each robot that has some, what is on them; `notes`, if there are
-        any; `answers`, as of `PageTalk`, to what the page has asked since; `at`, wall-clock time in ms since 1970.
+        any; `answers`, as of `PageTalk`, to what the page has asked since.
         """
         now = (self.live.simulation.tick, self.live.change)
         if now == self._sent and not self.notes:
@@ -109,13 +147,13 @@ class PageFeed:
 
     def _news(self, first: bool) -> dict[str, str]:
         """The parts that are this page's own, as JSON."""
-        parts: dict[str, Any] = {"at": round(time.time() * 1000)}
+        parts: dict[str, Any] = {}
         if first:
             limit = self.live.recorder.trajectory.boredom_limit
             parts["measures"] = measures(self.live.params, limit)
         if self.live.layout != self._layout:
             parts |= self._arena()
-        parts |= {"lessons": self._new_lessons()}
+        parts["lessons"] = self._new_lessons()
         if self.notes:
             parts["notes"] = list(self.notes)
             self.notes.clear()
@@ -223,7 +261,6 @@ def play_state(live: PacedRun) -> dict[str, Any]:
         "done": live.done,
         "rate": round(live.rate),
         "stays": live.stays,
-        "waits": live.waits,
         "ended": _ended(live),
     }
 

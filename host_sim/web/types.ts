@@ -9,7 +9,6 @@ export interface Play {
   done: boolean;
   rate: number;
   stays: boolean;
-  waits: boolean;
   ended: Ended | null;
 }
 
@@ -40,7 +39,6 @@ export type PinFigures = { volts: number; counts: number[]; duty: number[] };
 export interface Message {
   measures?: Measures;
   environment?: EnvironmentScene;
-  at: number;
   states: State[];
   trails: number[][];
   lessons: Lesson[];
@@ -59,7 +57,7 @@ export interface Message {
  */
 export type Said = { mark: "log" | "words"; text: string; ticks: number[]; cells: number[]; food: number[] };
 
-/** What a page asked, and the answer: see PageTalk in host_sim/live/page_talk.py. */
+/** What a page asked, and the answer: see PageTalk in host_sim/live/feed.py. */
 type Answer = { who: string; sentence: string; said: Said; places: WirePlace[] };
 
 /** What changed in the world or the bodies before a tick, in a sentence. */
@@ -110,15 +108,7 @@ export type Command = { do: "play" | "pause" | "decision" | "next" }
   | { do: "erase"; node: number }
   | { do: "freeze"; node: number; on: number }
   | { do: "ask"; who: string; text: string; node: number }
-  | { do: "add_bar"; a: WirePlace; b: WirePlace }
-  | { do: "move_bar"; id: number; a: WirePlace; b: WirePlace }
-  | { do: "remove_bar"; id: number }
-  | { do: "move_food"; id: number; at: WirePlace }
-  | { do: "plant"; at: WirePlace; radius: number }
-  | { do: "move_plant"; id: number; at: WirePlace }
-  | { do: "grow_plant"; id: number; radius: number }
-  | { do: "remove_plant"; id: number }
-  | { do: "body"; what: string; robot: number; seed: number }
+  | Exclude<WorldEdit, { do: "lift" | "put" }>
   | { do: "lift"; node: number }
   | { do: "put"; node: number; at: WirePlace; heading: number };
 
@@ -134,17 +124,17 @@ export interface RobotSetup {
 }
 
 /** A change of the world, as world files have it. */
-export type WorldEdit = { do: "add_bar"; a: [number, number]; b: [number, number] }
-  | { do: "move_bar"; id: number; a: [number, number]; b: [number, number] }
+export type WorldEdit = { do: "add_bar"; a: WirePlace; b: WirePlace }
+  | { do: "move_bar"; id: number; a: WirePlace; b: WirePlace }
   | { do: "remove_bar"; id: number }
-  | { do: "move_food"; id: number; at: [number, number] }
-  | { do: "plant"; at: [number, number]; radius: number }
-  | { do: "move_plant"; id: number; at: [number, number] }
+  | { do: "move_food"; id: number; at: WirePlace }
+  | { do: "plant"; at: WirePlace; radius: number }
+  | { do: "move_plant"; id: number; at: WirePlace }
   | { do: "grow_plant"; id: number; radius: number }
   | { do: "remove_plant"; id: number }
   | { do: "body"; what: string; robot?: number; seed?: number }
   | { do: "lift"; robot?: number }
-  | { do: "put"; robot?: number; at: [number, number]; heading: number };
+  | { do: "put"; robot?: number; at: WirePlace; heading: number };
 
 /**
  * What a robot is told between two ticks; robots are counted from 0. A start restarts the robot with another

@@ -6,10 +6,9 @@ from typing import Any
 import pytest
 
 from host_sim.client.commands import write_cells
-from host_sim.live.feed import PageFeed, points
+from host_sim.live.feed import PageFeed, PageTalk, points
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, NewSeed, Question, page_command_from
-from host_sim.live.page_talk import PageTalk
 from host_sim.protocol.generated import ROW, Reason
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import RobotTrack

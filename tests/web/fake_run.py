@@ -79,7 +79,6 @@ class FakeRun:
 
     def _message(self, **fields: Any) -> dict[str, Any]:
         return {
-            "at": 0,
             "states": self.states,
             "trails": [[state["x"], state["y"], state["reason"]] for state in self.states],
             "lessons": [],

@@ -104,7 +104,7 @@ def test_reasons_have_colours_names_and_widths(open_page):
 
     assert page.evaluate("octet.lane.renderer.palette.reasons.every((colour) => /^#/.test(colour))")
     assert page.locator("#legend [data-reason]").count() == len(Reason) == len(MARKS)
-    widths = with_modules('(modules) => modules["draw/trail_layer.ts"].WIDTH_MM.size', "draw/trail_layer.ts")
+    widths = with_modules('(modules) => modules["draw/trail.ts"].WIDTH_MM.size', "draw/trail.ts")
     assert page.evaluate(widths) == len(Reason)
 
 

@@ -28,7 +28,7 @@ LIVE = ("#floors", "#play", "#scrub", "#after", "#speed", "#doing", "#cells", "#
 REPLAY = ("#floors", "#play", "#scrub", "#doing", "#cells", "#pin", "#before", "#after")
 # How far from the middle of each item, at right angles to a bar, a finger may be: px.
 REACH = """(modules) => {
-  const { itemAt } = modules["edit/hit_testing.ts"];
+  const { itemAt } = modules["edit/items.ts"];
   const { scene, renderer } = octet.lane;
   const [, ax, ay, bx, by] = scene.environment.bars[0];
   const length = Math.hypot(bx - ax, by - ay);
@@ -175,7 +175,7 @@ def test_controls_and_arena_items_are_large_enough_for_touch_on_a_phone(live):
         resize(live, size)
         assert live.evaluate(TOO_SMALL) == [], size
         wait_for(live, "octet.lane.renderer.size.width === octet.lane.renderer.canvas.clientWidth")
-        assert live.evaluate(with_modules(REACH, "edit/hit_testing.ts")) == [], size
+        assert live.evaluate(with_modules(REACH, "edit/items.ts")) == [], size
 
 
 def test_arena_stays_in_view_when_an_obstacle_is_added_on_a_phone(live):

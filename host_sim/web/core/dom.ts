@@ -1,5 +1,7 @@
 /* Finding and making the elements of a page. */
 
+import type { Place } from "../types.js";
+
 /** The element with an id. */
 export function byId(id: string): HTMLElement {
   return typedById(id, HTMLElement);
@@ -18,12 +20,18 @@ export function setText(element: HTMLElement, text: string) {
 }
 
 /** The context to draw on a canvas. */
-export function contextOf(
-  canvas: HTMLCanvasElement,
-  settings?: CanvasRenderingContext2DSettings,
-): CanvasRenderingContext2D {
+export function contextOf(canvas: HTMLCanvasElement, settings?: CanvasRenderingContext2DSettings) {
   const context = canvas.getContext("2d", settings);
   if (!context) throw new Error("this browser cannot draw on a canvas");
+  return context;
+}
+
+/** The same for a canvas of the style sheet's size, with the pixels of the screen and the page's own as its unit. */
+export function sizedContext(canvas: HTMLCanvasElement) {
+  canvas.width = Math.round(canvas.clientWidth * devicePixelRatio);
+  canvas.height = Math.round(canvas.clientHeight * devicePixelRatio);
+  const context = contextOf(canvas);
+  context.scale(devicePixelRatio, devicePixelRatio);
   return context;
 }
 
@@ -35,6 +43,11 @@ export function isForPage(event: KeyboardEvent, fields: string) {
   if (event.ctrlKey || event.metaKey || event.altKey) return false;
   return !(event.target instanceof Element && event.target.closest(fields));
 }
+
+/** The direction of each arrow key: steps to the right and down. */
+export const ARROWS: Record<string, Place | undefined> = {
+  ArrowLeft: { x: -1, y: 0 }, ArrowRight: { x: 1, y: 0 }, ArrowUp: { x: 0, y: -1 }, ArrowDown: { x: 0, y: 1 },
+};
 
 /** Whether the page may move by itself. */
 export function mayMove() {

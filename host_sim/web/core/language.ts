@@ -1,6 +1,6 @@
 /* The texts of the page in the reader's language: the browser's, or the one chosen here before. */
 
-import { byId, made } from "./dom.js";
+import { byId, made, typedById } from "./dom.js";
 import { ENGLISH, filled } from "./phrases.js";
 import { keep, kept } from "./storage.js";
 import type { Words } from "./phrases.js";
@@ -13,7 +13,7 @@ export type Texts = typeof import("../texts/en.json");
 
 export type Key = keyof Texts["page"] | keyof Texts["wall"];
 
-type Group = "kinds" | "reasons" | "columns";
+type Group = "kinds" | "reasons";
 
 const FALLBACK = "en";
 const CHANGED = "octet-language";
@@ -103,23 +103,21 @@ function sayAll() {
   write("data-say", (element, text) => (element.textContent = text));
   write("data-say-label", (element, text) => element.setAttribute("aria-label", text));
   write("data-say-title", (element, text) => element.setAttribute("title", text));
-  for (const field of document.querySelectorAll("input[pattern]")) explain(field);
-  for (const option of document.querySelectorAll("[data-kinds] option")) option.textContent = nameIn("kinds", option.getAttribute("value") ?? "");
+  for (const field of document.querySelectorAll<HTMLInputElement>("input[pattern]")) explain(field);
+  for (const option of document.querySelectorAll<HTMLOptionElement>("[data-kinds] option")) option.text = nameIn("kinds", option.value);
 }
 
 /** Lets a field for a whole number say so in the language of the page, not in that of the browser. */
-function explain(field: Element) {
-  if (!(field instanceof HTMLInputElement)) return;
+function explain(field: HTMLInputElement) {
   field.oninput = () => {
     field.setCustomValidity("");
     if (field.validity.patternMismatch) field.setCustomValidity(say("wholeNumber"));
   };
 }
 
-/** Fills the element `language`, if the page has one. */
+/** Fills the element `language`. */
 function offerLanguages() {
-  const field = document.getElementById("language");
-  if (!(field instanceof HTMLSelectElement)) return;
+  const field = typedById("language", HTMLSelectElement);
   field.append(...LANGUAGES.map(([value, name]) => made("option", [name], { value, lang: value })));
   field.value = spoken;
   field.addEventListener("change", () => speak(field.value));

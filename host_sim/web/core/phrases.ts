@@ -2,7 +2,7 @@
 
 import { BODY_SENTENCES, PATTERNS, REASON, SENTENCES, SIDE, SIDES } from "../generated.js";
 import { REASON_KEYS } from "./palette.js";
-import type { Lesson, Measures, State } from "../generated_types.js";
+import type { Lesson, State } from "../generated_types.js";
 
 /** The words of a language: see Words in host_sim/recording/phrases.py. */
 export type Words = { sentences: Record<string, string>; patterns: string[]; sides: string[]; point: string; many: string };
@@ -74,19 +74,10 @@ export function filled(text: string, words: Record<string, string | number> | st
 }
 
 /**
- * Robot time of a tick, such as 1:05.2.
- * @param tick - Counted from where the clock begins.
- * @param point - The decimal point.
- */
-export function clock(tick: number, measures: Measures, point?: string): string {
-  return minutes((Math.max(0, tick) * measures.tick_ms) / 1000, point);
-}
-
-/**
  * Seconds, such as 1:05.2.
  * @param point - The decimal point.
  */
-export function minutes(seconds: number, point = ".") {
+export function minutes(seconds: number, point: string) {
   const tenths = Math.round(seconds * 10);
   return `${Math.floor(tenths / 600)}:${((tenths % 600) / 10).toFixed(1).padStart(4, "0").replace(".", point)}`;
 }

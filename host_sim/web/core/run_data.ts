@@ -3,8 +3,8 @@
 import { CELL_COUNT } from "../generated.js";
 import { unpackColumns } from "./packed_columns.js";
 import type { Trail } from "../draw/trail.js";
-import type { Lesson, Measures, State } from "../generated_types.js";
-import type { EventKind, RobotRun, Run } from "../types.js";
+import type { Lesson, State } from "../generated_types.js";
+import type { RobotRun, Run } from "../types.js";
 import type { Columns } from "./packed_columns.js";
 
 const VERSION = 3;
@@ -13,10 +13,10 @@ const PLACES_PER_MM = 10;
 
 /** A run in memory. Ticks are counted from the start of the run. */
 export class RunData {
-  first: number;
-  last: number;
-  measures: Measures;
-  robots: RobotData[];
+  first = this.run.first_tick;
+  last = this.run.first_tick + this.run.ticks - 1;
+  measures = this.run.measures;
+  robots = this.run.robots.map((robot, i) => new RobotData(robot, this.columns[i], this.run.first_tick));
 
   /** Unpacks a run. */
   static async from(run: Run): Promise<RunData> {
@@ -34,12 +34,7 @@ export class RunData {
   }
 
   /** @param columns - Of each robot. */
-  constructor(readonly run: Run, columns: Columns[]) {
-    this.first = run.first_tick;
-    this.last = run.first_tick + run.ticks - 1;
-    this.measures = run.measures;
-    this.robots = run.robots.map((robot, i) => new RobotData(robot, columns[i], run.first_tick));
-  }
+  constructor(readonly run: Run, readonly columns: Columns[]) {}
 
   /** The states of all robots at a tick. */
   statesAt(tick: number): State[] {
@@ -120,11 +115,36 @@ export class RobotData {
 
   /**
    * The tick of the next event of a kind after a tick, or the one before it; undefined if there is none.
+   * @param kind - An EventKind, "decision" or "obstacle".
    * @param step - 1 or -1.
    */
-  eventFrom(kind: EventKind, tick: number, step: number) {
+  nextTick(kind: string, tick: number, step: number) {
+    if (kind === "decision") return this.search(tick, step, (at) => this.begins(at));
+    if (kind === "obstacle") return this.search(tick, step, (at) => this.meets(at));
     const ticks = this.run.events.filter(([at, what]) => what === kind && (at - tick) * step > 0).map(([at]) => at);
     return step > 0 ? ticks[0] : ticks.at(-1);
+  }
+
+  /** The tick in which the action of a tick began. */
+  actionStart(tick: number) {
+    return this.begins(tick) ? tick : (this.search(tick, -1, (at) => this.begins(at)) ?? this.first);
+  }
+
+  begins(tick: number) {
+    const { first, columns: { action } } = this;
+    return tick === first || action[tick - first] !== action[tick - first - 1];
+  }
+
+  /** Whether something comes in the way of a robot that had nothing there. */
+  meets(tick: number) {
+    const { first, columns: { pattern } } = this;
+    return pattern[tick - first] !== 0 && (tick === first || pattern[tick - first - 1] === 0);
+  }
+
+  search(from: number, step: number, wanted: (tick: number) => boolean) {
+    const end = this.first + this.columns.action.length;
+    for (let tick = from + step; tick >= this.first && tick < end; tick += step) if (wanted(tick)) return tick;
+    return undefined;
   }
 
   addTrail(trail: Trail, from: number, to: number) {

@@ -1,6 +1,6 @@
 /* A chart of counts that grow with time: a line for each robot, with its name at the end. */
 
-import { contextOf } from "../core/dom.js";
+import { sizedContext } from "../core/dom.js";
 import { currentPalette } from "../core/palette.js";
 import type { Palette } from "../core/palette.js";
 
@@ -27,10 +27,7 @@ export function drawChart(
   { last, most, time }: { last: number, most: number, time: string },
 ) {
   const [width, height, size] = [canvas.clientWidth, canvas.clientHeight, parseFloat(getComputedStyle(canvas).fontSize)];
-  canvas.width = Math.round(width * devicePixelRatio);
-  canvas.height = Math.round(height * devicePixelRatio);
-  const context = contextOf(canvas);
-  context.scale(devicePixelRatio, devicePixelRatio);
+  const context = sizedContext(canvas);
   context.font = `bold ${size}px system-ui, sans-serif`;
   const names = Math.max(0, ...lines.map(({ name }) => context.measureText(name).width));
   const [left, right, top, bottom] = [2.2 * size, width - names - 0.8 * size, 0.6 * size, height - 1.6 * size];
@@ -70,11 +67,7 @@ function drawAxes(
 }
 
 /** @returns The height at which it ends, px. */
-function drawLine(
-  context: CanvasRenderingContext2D,
-  { ticks, counts, end, colour, dash }: Line,
-  { x, y, size }: Scale,
-): number {
+function drawLine(context: CanvasRenderingContext2D, { ticks, counts, end, colour, dash }: Line, { x, y, size }: Scale): number {
   context.strokeStyle = colour;
   context.lineWidth = size / 6;
   context.setLineDash(dash);

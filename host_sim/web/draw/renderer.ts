@@ -4,8 +4,7 @@ import { contextOf } from "../core/dom.js";
 import { currentPalette } from "../core/palette.js";
 import { RobotView } from "./robot_view.js";
 import { circle, drawPlant } from "./shapes.js";
-import { TrailLayer } from "./trail_layer.js";
-import type { Palette } from "../core/palette.js";
+import { TrailLayer } from "./trail.js";
 import type { Measures } from "../generated_types.js";
 import type { Place } from "../types.js";
 import type { Item, Meant, Scene } from "./scene.js";
@@ -21,24 +20,19 @@ export class Renderer {
   /** The scene that was drawn last. */
   scene: Scene | undefined;
   /** The upper left corner of what is in view, and its middle, mm. */
-  corner: Place;
+  corner = { x: -MARGIN_MM, y: -MARGIN_MM };
   middle = { x: 0, y: 0 };
-  context: CanvasRenderingContext2D;
-  palette: Palette;
-  trailLayer: TrailLayer;
+  context = contextOf(this.canvas, { alpha: false });
+  palette = currentPalette();
+  trailLayer = new TrailLayer();
   scale = 1;
-  size: { width: number; height: number };
+  size = { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
 
   /** @param viewport - Says which part of the arena to show; without one, all of it. */
   constructor(readonly canvas: HTMLCanvasElement, readonly viewport?: Viewport) {
     viewport?.watch(this);
-    this.corner = { x: -MARGIN_MM, y: -MARGIN_MM };
-    this.context = contextOf(canvas, { alpha: false });
-    this.palette = currentPalette();
     this.context.fillStyle = this.palette.of.floor; // until there is a scene; without alpha, a canvas begins black
     this.context.fillRect(0, 0, canvas.width, canvas.height);
-    this.trailLayer = new TrailLayer();
-    this.size = { width: canvas.clientWidth, height: canvas.clientHeight };
     new ResizeObserver(() => this.measure()).observe(canvas);
   }
 

@@ -1,11 +1,10 @@
 /* What a page shows: the world, its robots, and what a person has selected or holds. */
 
 import { heard, robotWords } from "../core/language.js";
-import { clock } from "../core/phrases.js";
+import { minutes } from "../core/phrases.js";
 import { trailsFor } from "./trail.js";
 import type { EnvironmentScene, Measures, State } from "../generated_types.js";
 import type { News, WirePlace } from "../types.js";
-import type { Trail } from "./trail.js";
 
 /**
  * What a person can select or drag. id: a robot's node, a food's index, a bar's or plant's id. part: "a" or "b" for one end of a
@@ -25,8 +24,8 @@ export type Ghost = { x: number; y: number; heading: number };
  * and colours tell of, by node.
  */
 export class Scene {
-  trails: Trail[];
-  node: number;
+  trails = trailsFor(this.states.length);
+  node = this.states[0].node;
   news: News[] = [];
   item: Item | undefined;
   /** What an answer is about; it is highlighted. */
@@ -35,10 +34,7 @@ export class Scene {
   shown: Map<number, State> = new Map();
 
   /** @param states - Of at least one robot. */
-  constructor(public measures: Measures, public environment: EnvironmentScene, public states: State[]) {
-    this.trails = trailsFor(states.length);
-    this.node = states[0].node;
-  }
+  constructor(public measures: Measures, public environment: EnvironmentScene, public states: State[]) {}
 
   /** The state of the robot that the panel shows. */
   get state() {
@@ -74,7 +70,8 @@ export class Scene {
 
   /** Robot time since the run was started over. */
   clock(tick: number) {
-    return clock(tick - this.environment.start_tick, this.measures, robotWords().point);
+    const passed = Math.max(0, tick - this.environment.start_tick);
+    return minutes((passed * this.measures.tick_ms) / 1000, robotWords().point);
   }
 
   /** @param state - Of a robot that may be off the floor. */

@@ -1,7 +1,7 @@
 /* Which part of the arena a page shows: zoomed and moved by wheel, fingers, buttons and keys, or following the robot. */
 
-import { byId, isForPage, typedById } from "../core/dom.js";
-import { itemAt } from "../edit/hit_testing.js";
+import { ARROWS, byId, isForPage, typedById } from "../core/dom.js";
+import { itemAt } from "../edit/items.js";
 import type { Place } from "../types.js";
 import type { Renderer } from "./renderer.js";
 import type { Scene } from "./scene.js";
@@ -13,7 +13,6 @@ const FOLLOW_ZOOM = 2.5;
 const WHEEL_PX = 400;
 /** How far an arrow key moves the view, as a fraction of its size. */
 const ARROW_SHARE = 0.15;
-const ARROWS: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 /** Serves all arenas of a page; its buttons are zoom-in, zoom-out and follow. */
 export class Viewport {
@@ -113,10 +112,10 @@ export class Viewport {
   onArrow(event: KeyboardEvent, renderer: Renderer) {
     const arrow = ARROWS[event.key];
     if (!arrow || this.zoom === 1 || renderer.scene?.item || !isForPage(event, "select")) return;
-    const [x, y] = arrow.map((step) => step * ARROW_SHARE * renderer.lengthOf(renderer.canvas.clientWidth));
+    const far = ARROW_SHARE * renderer.lengthOf(renderer.canvas.clientWidth);
     event.preventDefault();
     event.stopPropagation();
-    this.move(renderer, { x, y });
+    this.move(renderer, { x: far * arrow.x, y: far * arrow.y });
   }
 
   press(event: PointerEvent, renderer: Renderer) {

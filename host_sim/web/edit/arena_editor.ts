@@ -1,12 +1,15 @@
-/* What a person does to the world: selects items, moves obstacles, plants, food and robots, adds and removes obstacles. */
+/* What a person does to the world in the selected run: selects items, moves obstacles, plants, food and robots, adds and
+   removes obstacles; with the pointer, with buttons and with keys. */
 
-import { byId, setText, typedById } from "../core/dom.js";
+import { ARROWS, byId, isForPage, setText, typedById } from "../core/dom.js";
 import { say } from "../core/language.js";
-import { allItems, whole } from "./hit_testing.js";
-import { endsOf, insideWalls, isInside, movedBar, plantOf, turnedBar, wirePlace } from "./placement.js";
+import { allItems, endsOf, insideWalls, isInside, movedBar, plantOf, turnedBar, whole, wirePlace } from "./items.js";
 import { PLANT_GROWTH_MM, PLANT_RADIUS_MM } from "../generated.js";
+import { DragController } from "./drag_controller.js";
 import type { Ghost, Item, Scene } from "../draw/scene.js";
-import type { Command, Place } from "../types.js";
+import type { LabPage } from "../lab/lab_page.js";
+import type { ShownRun } from "../lab/shown_run.js";
+import type { Place, WorldEdit } from "../types.js";
 
 /** Beyond the reach of the robot's sensors. */
 const PLANT_GAP_MM = 20;
@@ -15,24 +18,58 @@ const BEARINGS = [0, 0.5, -0.5, 1].map((half) => half * Math.PI);
 const NEW_BAR_MM = 250;
 /** A new obstacle lies in the middle, or higher up if the robot is about there. */
 const NEW_BAR_ROOM_MM = 300;
+const NUDGE_MM = 50;
+const SMALL_NUDGE_MM = 10;
+const TURN = Math.PI / 12;
 
-/** Sends commands about the world. */
+/** Makes changes of the selected run. */
 export class ArenaEditor {
+  /** By the lane that is touched; closed lanes are not kept. */
+  drags: WeakMap<ShownRun, DragController> = new WeakMap();
   barPending = false;
   plantPending = false;
+  /** The value of `ids` when an obstacle or a plant was put down that is not there yet. */
+  idsBefore = 0;
   /** Robots that were asked to be lifted, and are not lifted yet. */
   lifting: Set<number> = new Set();
 
-  /**
-   * @param scene - The editor sets its `item`, `node` and `ghosts`.
-   * @param onChange - Called when there is something new to draw.
-   */
-  constructor(public scene: Scene, readonly send: (command: Command) => void, readonly onChange: () => void) {
+  /** @param scene - The editor sets its `item`, `node` and `ghosts`. */
+  constructor(readonly lab: LabPage, public scene: Scene) {
     byId("lift").addEventListener("click", () => this.liftOrPut());
     byId("add-bar").addEventListener("click", () => this.addBar());
     byId("add-plant").addEventListener("click", () => this.addPlant());
     byId("grow").addEventListener("click", () => this.grow());
     byId("remove-bar").addEventListener("click", () => this.removeBar());
+  }
+
+  /** Makes the arena of a run editable. */
+  watch(lane: ShownRun) {
+    if (this.drags.has(lane)) return;
+    this.drags.set(lane, new DragController(lane.renderer, this));
+    lane.canvas.addEventListener("keydown", (event) => {
+      const action = isForPage(event, "select") ? this.actionOf(event) : undefined;
+      if (!action) return;
+      event.preventDefault();
+      action();
+    });
+  }
+
+  send(change: WorldEdit) {
+    this.idsBefore = this.ids;
+    this.lab.change(change);
+  }
+
+  /** The highest ids of obstacles and plants, added up: this grows with each that is put down. */
+  get ids() {
+    const { bars, plants = [] } = this.scene.environment;
+    const [bar, plant] = [bars, plants].map((things) => Math.max(-1, ...things.map(([id]) => id)));
+    return bar + plant;
+  }
+
+  /** The states may have changed, and with them what can be done. */
+  beforeDrawing() {
+    if ((this.barPending || this.plantPending) && this.ids > this.idsBefore) this.onEnvironment();
+    this.onStates(this.drags.get(this.lab.lane)?.robot);
   }
 
   /** Called when the arena has changed: the selected item may be gone, and a requested obstacle may be there. */
@@ -66,7 +103,7 @@ export class ArenaEditor {
   onRefusal() {
     this.lifting.clear();
     this.barPending = this.plantPending = false;
-    this.onChange();
+    this.lab.lightUp();
   }
 
   /** The state of the robot that the buttons act on: that of the panel. */
@@ -77,7 +114,7 @@ export class ArenaEditor {
   select(item: Item | undefined) {
     this.scene.item = item;
     if (item?.kind === "robot") this.scene.node = item.id;
-    this.onChange();
+    this.lab.lightUp();
   }
 
   /** @param step - 1 for the next item, -1 for the one before. */
@@ -87,13 +124,6 @@ export class ArenaEditor {
     const now = items.findIndex(({ kind, id }) => kind === item?.kind && id === item.id);
     const first = step > 0 ? 0 : items.length - 1;
     this.select(items[now < 0 ? first : (now + step + items.length) % items.length]);
-  }
-
-  /** Shows a robot in the panel; if another robot is selected in the arena, selects this one instead. */
-  pick(node: number) {
-    if (this.scene.item?.kind === "robot") this.select(whole("robot", node));
-    this.scene.node = node;
-    this.onChange();
   }
 
   liftOrPut() {
@@ -107,20 +137,24 @@ export class ArenaEditor {
 
   lift(node: number) {
     this.lifting.add(node);
-    this.send({ do: "lift", node });
+    this.send({ do: "lift", robot: this.indexOf(node) });
   }
 
   /** Puts a robot down where a person holds it. */
   put(node: number) {
     const ghost = this.scene.ghosts.get(node);
     if (!ghost) return;
-    this.send({ do: "put", node, at: wirePlace(ghost, this.scene.measures), heading: ghost.heading });
+    this.send({ do: "put", robot: this.indexOf(node), at: wirePlace(ghost, this.scene.measures), heading: ghost.heading });
+  }
+
+  indexOf(wanted: number) {
+    return this.scene.states.findIndex(({ node }) => node === wanted);
   }
 
   /** Draws a robot where a person holds it, which is never beyond the walls. */
   hold(node: number, ghost: Ghost) {
     this.scene.ghosts.set(node, insideWalls(ghost, this.scene.measures));
-    this.onChange();
+    this.lab.lightUp();
   }
 
   addBar() {
@@ -182,6 +216,24 @@ export class ArenaEditor {
     if (ghost) this.hold(item.id, { ...ghost, heading: Math.round(1000 * wrap(ghost.heading / 1000 + radians)) });
     const ends = item?.kind === "bar" && endsOf(environment, item.id);
     if (ends) this.send({ do: "move_bar", id: item.id, ...turnedBar(ends, radians, measures) });
+  }
+
+  /** What a key does to what is selected. */
+  actionOf({ key, shiftKey }: KeyboardEvent): (() => void) | undefined {
+    const arrow = ARROWS[key];
+    const step = shiftKey ? SMALL_NUDGE_MM : NUDGE_MM;
+    if (arrow) return () => this.nudge({ x: arrow.x * step, y: arrow.y * step });
+    const actions: Record<string, () => void> = {
+      q: () => this.selectNext(-1),
+      e: () => this.selectNext(1),
+      r: () => this.turn(shiftKey ? -TURN : TURN),
+      p: () => this.liftOrPut(),
+      a: () => this.addBar(),
+      delete: () => this.removeBar(),
+      backspace: () => this.removeBar(),
+      escape: () => this.select(undefined),
+    };
+    return actions[key.toLowerCase()];
   }
 }
 

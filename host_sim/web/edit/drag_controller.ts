@@ -1,12 +1,11 @@
 /* Dragging in the arena: what the pointer does to obstacles, plants, food and robots. */
 
-import { distance, itemAt } from "./hit_testing.js";
-import { endsOf, movedBar, wirePlace } from "./placement.js";
+import { distance, endsOf, itemAt, movedBar, wirePlace } from "./items.js";
 import type { Renderer } from "../draw/renderer.js";
 import type { Item } from "../draw/scene.js";
 import type { Place } from "../types.js";
 import type { ArenaEditor } from "./arena_editor.js";
-import type { Ends } from "./placement.js";
+import type { Ends } from "./items.js";
 
 /** What is dragged, where the drag began, and for a bar its ends at that time. */
 type Drag = { item: Item; from: Place; ends: Ends | undefined };

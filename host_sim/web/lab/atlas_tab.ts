@@ -1,6 +1,6 @@
 /* The tab with the map of all memories: its colours, the ways of the robots that are shown, and a robot for each square. */
 
-import { buttonOf, contextOf, made, mayMove, setText } from "../core/dom.js";
+import { ARROWS, buttonOf, contextOf, made, mayMove, setText } from "../core/dom.js";
 import { heard, inEachLanguage, say } from "../core/language.js";
 import { currentPalette } from "../core/palette.js";
 import { strokeOf } from "../draw/chart.js";
@@ -15,36 +15,24 @@ const SQUARE = 9;
 const COLOURS = [[253, 231, 37], [94, 201, 98], [33, 145, 140], [59, 82, 139], [68, 1, 84]];
 /** The share of memories that get the darkest colour, since a few are far slower than all others. */
 const SLOWEST = 0.01;
-const STEPS = {
-  ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1],
-} as Record<string, [number, number]>;
 
 export class AtlasTab {
-  studied: StudiedMap;
+  studied = new StudiedMap(this.lab.parts.atlas);
   /** By world and body. */
   coarse: Map<string, CoarseMap> = new Map();
-  cursor: number[];
+  cursor = placeOf(memoryAt(0, 0));
   /** The run of the square that was pressed. */
   lane: ShownRun | undefined;
   key = "";
-  help: HTMLParagraphElement;
-  canvas: HTMLCanvasElement;
-  square: HTMLOutputElement;
-  about: HTMLParagraphElement;
-  drives: HTMLButtonElement;
-  extends: HTMLButtonElement;
+  help = made("p", []);
+  canvas = made("canvas", [], { id: "atlas-map", tabindex: "0", role: "application", "aria-describedby": "atlas-square" });
+  square = made("output", [], { id: "atlas-square" });
+  about = made("p", [], { id: "atlas-about" });
+  drives = buttonOf("", () => this.drive());
+  extends = buttonOf("", () => this.extend());
 
-  /** @param seconds - The mean times that the study measured. */
-  constructor(parent: HTMLElement, readonly lab: Laboratory, seconds: number[]) {
-    this.studied = new StudiedMap(seconds);
-    this.cursor = placeOf(memoryAt(0, 0));
-    this.help = made("p", []);
-    this.canvas = made("canvas", [], { id: "atlas-map", tabindex: "0", role: "application", "aria-describedby": "atlas-square" });
+  constructor(parent: HTMLElement, readonly lab: Laboratory) {
     Object.assign(this.canvas, { width: WIDTH * SQUARE, height: HEIGHT * SQUARE });
-    this.square = made("output", [], { id: "atlas-square" });
-    this.about = made("p", [], { id: "atlas-about" });
-    this.drives = buttonOf("", () => this.drive());
-    this.extends = buttonOf("", () => this.extend());
     this.extends.id = "atlas-extend";
     parent.append(this.canvas, this.square, made("div", [this.drives, this.extends], { class: "controls" }), this.about, this.help);
     this.bind();
@@ -70,8 +58,8 @@ export class AtlasTab {
       this.drive();
     });
     this.canvas.addEventListener("keydown", (event) => {
-      const step = STEPS[event.key];
-      if (step) move(this.cursor[0] + step[0], this.cursor[1] + step[1]);
+      const step = ARROWS[event.key];
+      if (step) move(this.cursor[0] + step.x, this.cursor[1] + step.y);
       else if (event.key === "Enter") this.drive();
       else return;
       event.preventDefault();

@@ -22,23 +22,17 @@ const FNV_PRIME = 0x01000193;
 /** Its element stands in the head of the page in a class, and in the lessons elsewhere. */
 export class Classroom {
   /** Whether a server takes reports. */
-  isOpen: boolean;
-  key: string;
+  isOpen = document.querySelector('meta[name="octet-class"]') !== null;
+  key = keptKey();
   told = "";
   reports = 0;
   isLost = false;
-  field: HTMLInputElement;
-  news: HTMLSpanElement;
-  element: HTMLDivElement;
+  field = made("input", [], { maxlength: `${NAME_MAX}`, autocomplete: "off", id: "my-name", value: kept("name") });
+  news = made("span", [], { role: "status", id: "class-news" });
+  element = made("div", [], { id: "class-name" });
 
   constructor(readonly course: Course) {
-    this.isOpen = document.querySelector('meta[name="octet-class"]') !== null;
-    this.key = keptKey();
-    this.field = made("input", [], { maxlength: `${NAME_MAX}`, autocomplete: "off", id: "my-name" });
-    this.field.value = kept("name");
-    this.news = made("span", [], { role: "status", id: "class-news" });
-    this.element = made("div", [], { id: "class-name" });
-    if (this.isOpen) byId("status").after(this.element);
+    if (this.isOpen) byId("show-link-code").after(this.element);
     if (this.isOpen) hideToken();
     this.field.addEventListener("change", () => this.rename());
     inEachLanguage(() => this.build());

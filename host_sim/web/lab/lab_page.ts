@@ -2,18 +2,16 @@
 
 import { AtlasTab } from "./atlas_tab.js";
 import { SidePanel } from "./side_panel.js";
-import { buttonOf, byId, isForPage, mayMove, setText, typedById } from "../core/dom.js";
+import { byId, isForPage, mayMove, setText, typedById } from "../core/dom.js";
 import { LANGUAGES, heard, inEachLanguage, languageCode, nameIn, say } from "../core/language.js";
-import { LabEditor } from "./lab_editor.js";
+import { ArenaEditor } from "../edit/arena_editor.js";
 import { experimentOf, inWords } from "./shown_run.js";
-import { nextTick } from "./run_events.js";
 import { Laboratory } from "./laboratory.js";
 import { Course } from "../lessons/course.js";
 import { PLANS } from "../lessons/plans.js";
 import { settingAt } from "../lessons/evidence.js";
-import { Panel } from "../panel/panel.js";
+import { Panel, RobotPicker } from "../panel/panel.js";
 import { DivergenceView } from "../panel/divergence.js";
-import { RobotPicker } from "../panel/robot_picker.js";
 import { linkOf } from "../program/link.js";
 import { ProgramTab } from "../program/program_tab.js";
 import { LinkCode, fieldsOf } from "./share.js";
@@ -32,19 +30,18 @@ const CHANGES = "#lift, #add-bar, #add-plant, #erase, #freeze, #break, #new-run 
 
 /** Shows the laboratory's runs, and what belongs to the one that is selected. */
 export class LabPage extends Laboratory {
-  panel: Panel;
-  desk: SidePanel;
-  atlas: AtlasTab;
-  conversations: Conversations;
-  talk: TalkBox;
-  course: Course;
-  programTab: ProgramTab;
-  parting: DivergenceView;
-  share: HTMLButtonElement;
+  panel = new Panel((cell, side) => this.change({ do: "write", robot: this.lane.robot, cell, side }));
+  desk = new SidePanel(this);
+  atlas = new AtlasTab(byId("panel-atlas"), this);
+  conversations = new Conversations();
+  talk = new TalkBox(byId("panel-talk"), this);
+  course = new Course(this);
+  programTab = new ProgramTab(this);
+  parting = new DivergenceView();
   /** The tick that the memory is compared with. */
   pinned: number | undefined;
   picker: RobotPicker | undefined;
-  editor: LabEditor | undefined;
+  editor: ArenaEditor | undefined;
 
   /** @param recorded - The run to show; a new one by default. */
   constructor(parts: Parts, recorded?: RunData) {
@@ -54,29 +51,12 @@ export class LabPage extends Laboratory {
     const experiment = experimentOf({ seed, environments: of, robots, profile });
     experiment.robots.forEach((it) => Object.assign(it.settings, settings));
     super(parts, experiment, recorded);
-    this.panel = new Panel((cell, side) => this.change({ do: "write", robot: this.lane.robot, cell, side }));
-    this.desk = new SidePanel(this);
-    this.atlas = new AtlasTab(byId("panel-atlas"), this, parts.atlas);
-    this.conversations = new Conversations();
-    this.talk = new TalkBox(byId("panel-talk"), this);
-    this.course = new Course(this);
-    this.programTab = new ProgramTab(this);
-    this.parting = new DivergenceView();
     const code = new LinkCode();
-    const showCode = buttonOf("", () => code.show(new URL(this.link(this.lane.experiment), location.href).href));
-    this.share = buttonOf("", () => this.copyLink());
-    this.share.id = "copy-link";
-    showCode.id = "show-link-code";
-    byId("status").after(this.share, showCode);
+    byId("copy-link").addEventListener("click", () => this.copyLink(this.lane.experiment));
+    byId("show-link-code").addEventListener("click", () => code.show(new URL(this.link(this.lane.experiment), location.href).href));
     byId("pin").addEventListener("click", () => this.pin());
     byId("back").addEventListener("click", () => this.goBack());
-    inEachLanguage(() => {
-      setText(this.share, say("copyLink"));
-      this.share.title = say("copyLinkHelp");
-      setText(showCode, say("linkCode"));
-      showCode.title = say("linkCodeHelp");
-      this.showPin();
-    });
+    inEachLanguage(() => this.showPin());
     addEventListener("hashchange", () => location.reload()); // what follows the # is read when the page begins
     this.playsNext = !recorded && !location.hash && mayMove();
     const { why, live } = parts;
@@ -108,7 +88,7 @@ export class LabPage extends Laboratory {
     setText(byId("pin"), pinned === undefined ? say("compareNow") : say("comparedWith", { time: scene?.clock(pinned) ?? "" }));
   }
 
-  override onLanes() {
+  onLanes() {
     byId("back").hidden = !this.isAway;
     byId("floors").dataset.lanes = `${this.lanes.length}`;
     typedById("remove-lane", HTMLButtonElement).disabled = this.lanes.length < 2;
@@ -116,7 +96,7 @@ export class LabPage extends Laboratory {
     this.stale = true;
   }
 
-  override onScene() {
+  onScene() {
     const { scene } = this;
     this.resize();
     if (!scene) return;
@@ -124,12 +104,12 @@ export class LabPage extends Laboratory {
     this.playsNext = false;
     this.picker ??= new RobotPicker(scene, (node) => this.pick(node));
     this.picker.scene = scene;
-    this.editor ??= new LabEditor(this, scene);
+    this.editor ??= new ArenaEditor(this, scene);
     this.editor.scene = scene;
     for (const lane of this.lanes) this.editor.watch(lane);
   }
 
-  override onRefusal() {
+  onRefusal() {
     this.editor?.onRefusal();
   }
 
@@ -162,7 +142,8 @@ export class LabPage extends Laboratory {
   /** What a link can name. */
   get known() {
     const lessons = PLANS.map(({ id }) => id);
-    return { programs: this.programs, worlds: Object.keys(this.worlds), lessons, languages: LANGUAGES.map(([code]) => code) };
+    const { programs, worlds } = this.parts;
+    return { programs, worlds: Object.keys(worlds), lessons, languages: LANGUAGES.map(([code]) => code) };
   }
 
   /**
@@ -175,14 +156,12 @@ export class LabPage extends Laboratory {
     return linkOf({ ...fieldsOf(experiment), tick: Math.round(tick), ...lesson, language: languageCode(), ...others }, this.known);
   }
 
-  /** Puts all that is shown into the address, and into the clipboard. */
-  copyLink() {
-    const { experiment } = this.lane;
-    history.replaceState(null, "", this.link(experiment));
-    const where = typeof (experiment.world ?? "") === "string" ? "linkCopied" : "linkWithoutWorld";
-    const tell = (words: "linkCopied" | "linkInAddress" | "linkWithoutWorld") => this.note.show(say(words));
-    tell("linkInAddress");
-    navigator.clipboard?.writeText(location.href).then(() => tell(where), () => {});
+  /** Puts all that is shown into the address, and into the clipboard. The parameters are those of `link`. */
+  copyLink(experiment: Experiment, others: Partial<Linked> = {}) {
+    history.replaceState(null, "", this.link(experiment, others));
+    this.note.show(say("linkInAddress"));
+    const words = typeof (experiment.world ?? "") === "string" ? "linkCopied" : "linkWithoutWorld";
+    navigator.clipboard?.writeText(location.href).then(() => this.note.show(say(words)), () => {});
   }
 
   pick(node: number) {
@@ -190,21 +169,21 @@ export class LabPage extends Laboratory {
     this.onScene();
   }
 
-  override drawMarks() {
+  drawMarks() {
     const { data, robot } = this.lane;
     if (data) drawMarks(this.marks, data.eventsOf(robot), { first: this.first, last: this.last });
   }
 
-  override jump(step: number) {
+  jump(step: number) {
     const { data, robot } = this.lane;
     if (!data) return;
     const kind = typedById("kind", HTMLSelectElement).value;
-    const tick = nextTick(data.robots[robot], kind, this.tick, step);
+    const tick = data.robots[robot].nextTick(kind, this.tick, step);
     if (tick === undefined) this.note.show(say(step > 0 ? "noLater" : "noEarlier", { kind: nameIn("kinds", kind) }));
     else this.seek(tick);
   }
 
-  override draw() {
+  draw() {
     const { lane, lanes, tick } = this;
     const { scene, data } = lane;
     if (!scene || !data) return;
@@ -239,7 +218,7 @@ export class LabPage extends Laboratory {
     return { then: states[Math.min(this.lane.robot, states.length - 1)]?.memory, where: say("inRun") };
   }
 
-  override takesKey(event: KeyboardEvent) {
+  takesKey(event: KeyboardEvent) {
     const inArena = event.target instanceof HTMLCanvasElement;
     const fields = event.key === " " ? "select, button, input:not(#scrub), summary, textarea" : "select, input:not(#scrub), [role=tab], textarea";
     return isForPage(event, fields) && !event.defaultPrevented && !(inArena && event.key.startsWith("Arrow"));

@@ -2,14 +2,14 @@
 
 import { byId, mayMove, setText } from "../core/dom.js";
 import { heard, inEachLanguage, say } from "../core/language.js";
-import { ShownRun, restartNames } from "./shown_run.js";
+import { ShownRun } from "./shown_run.js";
 import { Toast } from "../core/toast.js";
 import { PlayingPage } from "./playing_page.js";
 import { Simulator } from "./simulator.js";
 import type { RunData } from "../core/run_data.js";
 import type { RecordedRun } from "../sim/log_opening.js";
 import type { Worlds } from "../sim/simulation.js";
-import type { Change, Experiment, RobotSetup, SimParams } from "../types.js";
+import type { Change, Experiment, RobotSetup } from "../types.js";
 
 /**
  * What `octet_page` has put into the page: page.wasm packed, and the worker's script, and for a recorded run what repeats
@@ -21,14 +21,10 @@ export type Parts = { worlds: Worlds; programs: Record<string, string>; wasm: st
 const LANES_MAX = 4;
 
 /** Subclasses show the runs: `onLanes`, `onScene` and `onRefusal` tell them what has changed. */
-export class Laboratory extends PlayingPage {
-  programs: Record<string, string>;
-  /** The command that opens a log in a debugger. */
-  debugger: string;
-  worlds: Worlds;
-  params: SimParams;
-  simulator: Simulator;
-  note: Toast;
+export abstract class Laboratory extends PlayingPage {
+  params = this.parts.worlds.random;
+  simulator = new Simulator(this.parts);
+  note = new Toast();
   /** Whether the next run plays as soon as it is there. */
   playsNext = false;
   lanes: ShownRun[] = [];
@@ -40,15 +36,8 @@ export class Laboratory extends PlayingPage {
    * @param experiment - The first run's.
    * @param recorded - That run, if it is a recorded one.
    */
-  constructor(parts: Parts, experiment: Experiment, public recorded?: RunData) {
+  constructor(readonly parts: Parts, experiment: Experiment, public recorded?: RunData) {
     super(recorded?.first ?? 0);
-    const { worlds, programs, debugger: command } = parts;
-    this.programs = programs;
-    this.debugger = command;
-    this.worlds = worlds;
-    this.params = worlds.random;
-    this.simulator = new Simulator(parts);
-    this.note = new Toast();
     this.lane = this.addLane(experiment, recorded);
     this.recalled = this.recall(parts, this.lane);
     this.recalled.catch(() => {});
@@ -63,21 +52,21 @@ export class Laboratory extends PlayingPage {
   }
 
   /** Called when the number of runs has changed. */
-  onLanes() {}
+  abstract onLanes(): void;
 
   /** Called when another scene or another robot is selected. */
-  onScene() {}
+  abstract onScene(): void;
 
   /** Called when a change was refused. */
-  onRefusal() {}
+  abstract onRefusal(): void;
 
   /** The last tick of all runs; while one of them is simulated, the tick that is shown may still be beyond it. */
-  override get last(): number {
+  get last(): number {
     const known = Math.max(0, ...this.lanes.map((lane) => lane.last));
     return this.lanes.some((lane) => lane.isRunning) ? Math.max(known, this.tick) : known;
   }
 
-  override get tickMs() {
+  get tickMs() {
     return this.recorded?.measures.tick_ms ?? this.params.tick_s * 1000;
   }
 
@@ -91,13 +80,14 @@ export class Laboratory extends PlayingPage {
     return this.lanes.length >= LANES_MAX;
   }
 
-  override show() {
+  show() {
     for (const lane of this.lanes) lane.go(this.tick, false);
   }
 
   /** @param experiment - Of the run to add, and to simulate if it is not recorded. */
   addLane(experiment: Experiment, recorded?: RunData) {
-    const lane = new ShownRun(experiment, byId("floors"), this.viewport);
+    const number = this.lanes.length ? Math.max(...this.lanes.map((other) => other.number)) + 1 : 0;
+    const lane = new ShownRun(experiment, number, byId("floors"), this.viewport);
     this.lanes.push(lane);
     lane.canvas.addEventListener("pointerdown", () => this.select(lane), { capture: true });
     lane.canvas.addEventListener("focus", () => this.select(lane));
@@ -117,7 +107,7 @@ export class Laboratory extends PlayingPage {
 
   /** Closes a run. */
   drop(lane: ShownRun) {
-    lane.remove();
+    lane.figure.remove();
     this.simulator.queued.delete(lane);
   }
 
@@ -129,7 +119,6 @@ export class Laboratory extends PlayingPage {
     const old = this.lanes;
     this.lanes = [];
     old.forEach((lane) => this.drop(lane));
-    restartNames();
     this.setPlaying(false);
     this.go(0);
     this.select(this.addLane(experiment, recorded));
@@ -148,7 +137,7 @@ export class Laboratory extends PlayingPage {
     this.showStatus();
   }
 
-  override whatIf() {
+  whatIf() {
     if (this.lane.isRecorded) this.inCopy(() => {});
     else if (this.copy()) this.note.show(say("copyHint"));
   }

@@ -1,35 +1,26 @@
 /* A page that plays a run, forward and back: the tick that it shows, its buttons and its keys. */
 
-import { byId, isForPage, setText, typedById } from "../core/dom.js";
+import { byId, setText, typedById } from "../core/dom.js";
 import { inEachLanguage, say } from "../core/language.js";
 import { Viewport } from "../draw/viewport.js";
 import { explainMarks } from "../panel/timeline.js";
 
-/**
- * Subclasses say which ticks there are (`last`, `tickMs`), show one (`show`), draw (`draw`, `drawMarks`), and do what
- * the buttons ask for (`jump`, `whatIf`).
- */
-export class PlayingPage {
+export abstract class PlayingPage {
   /** The tick that is shown. */
-  tick: number;
+  tick = this.first;
   /** The same with a fraction, while it plays. */
-  exactTick: number;
+  exactTick = this.first;
   playing = false;
   /** When the last frame was drawn, ms. */
   frameAt: number | undefined;
   /** Whether there is anything new to draw. */
   stale = true;
-  viewport: Viewport;
-  scrub: HTMLInputElement;
-  marks: HTMLCanvasElement;
+  viewport = new Viewport(() => (this.stale = true));
+  scrub = typedById("scrub", HTMLInputElement);
+  marks = typedById("marks", HTMLCanvasElement);
 
   /** @param first - The first tick. */
   constructor(public first: number) {
-    this.tick = first;
-    this.exactTick = first;
-    this.viewport = new Viewport(() => (this.stale = true));
-    this.scrub = typedById("scrub", HTMLInputElement);
-    this.marks = typedById("marks", HTMLCanvasElement);
     this.scrub.min = `${first}`;
     this.scrub.addEventListener("input", () => this.go(Number(this.scrub.value)));
     byId("play").addEventListener("click", () => this.setPlaying(!this.playing));
@@ -48,28 +39,26 @@ export class PlayingPage {
   }
 
   /** The last tick. */
-  get last() {
-    return this.first;
-  }
+  abstract get last(): number;
 
   /** Length of a tick, ms of robot time. */
-  get tickMs() {
-    return Infinity;
-  }
+  abstract get tickMs(): number;
 
   /** Shows the tick. */
-  show() {}
-
-  draw() {}
+  abstract show(): void;
+  abstract draw(): void;
 
   /** Draws the marks above the scrubber. */
-  drawMarks() {}
+  abstract drawMarks(): void;
 
-  /** @param _step - 1 for the next event of the chosen kind, -1 for the one before. */
-  jump(_step: number) {}
+  /** @param step - 1 for the next event of the chosen kind, -1 for the one before. */
+  abstract jump(step: number): void;
 
   /** Opens "What if?" at this tick. */
-  whatIf() {}
+  abstract whatIf(): void;
+
+  /** Whether a key is meant for the page. */
+  abstract takesKey(event: KeyboardEvent): boolean;
 
   resize() {
     this.drawMarks();
@@ -143,11 +132,6 @@ export class PlayingPage {
     if (!action) return;
     event.preventDefault();
     action();
-  }
-
-  /** Whether a key is meant for the page. */
-  takesKey(event: KeyboardEvent) {
-    return isForPage(event, event.key === " " ? "select, button" : "select");
   }
 
   /**

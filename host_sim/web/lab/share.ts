@@ -11,9 +11,7 @@ import type { Linked } from "../program/link.js";
 import type { Experiment } from "../types.js";
 
 /** The fields for a link; a world or a body from a file is left out. */
-export function fieldsOf(
-  { seed, environments, robots, changes, world = RANDOM, body = IDEAL }: Experiment,
-): Partial<Linked> {
+export function fieldsOf({ seed, environments, robots, changes, world = RANDOM, body = IDEAL }: Experiment): Partial<Linked> {
   const [{ profile, settings, memory, program }] = robots;
   const setups = robots.map((it) => ({ ...it, program: undefined }));
   const differ = setups.some((it) => it.seed !== undefined || JSON.stringify(it) !== JSON.stringify(setups[0]));

@@ -14,24 +14,17 @@ import type { Beads } from "../sim/run_recorder.js";
 import type { Change, Experiment, RobotSetup } from "../types.js";
 import type { OnAnswer, Simulator } from "./simulator.js";
 
-let lanes = 0;
 /** When each change was made: a later one has a higher number. */
 const madeAt: WeakMap<Change, number> = new WeakMap();
 let changesMade = 0;
 
-/** The next run is the original again. */
-export function restartNames() {
-  lanes = 0;
-}
-
 /** Shows its run at any tick. `data` and `scene` are there once the first environment was simulated. */
 export class ShownRun {
-  number = lanes;
   /** Its name in a lesson: a key of the texts, or a behaviour. */
   called = "";
-  canvas: HTMLCanvasElement;
-  caption: HTMLElement;
-  figure: HTMLElement;
+  canvas = made("canvas", [], { tabindex: "0", role: "application", "aria-describedby": "help" });
+  caption = made("figcaption", []);
+  figure = made("figure", [this.canvas, this.caption], { class: "lane" });
   renderer: Renderer;
   data: RunData | undefined;
   scene: Scene | undefined;
@@ -50,14 +43,11 @@ export class ShownRun {
   done: Promise<void> = Promise.resolve();
 
   /**
+   * @param number - 0 for the original, from 1 on for copies.
    * @param parent - Where its arena goes.
    * @param viewport - Says which part of the arena to show.
    */
-  constructor(public experiment: Experiment, parent: HTMLElement, viewport: Viewport) {
-    lanes += 1;
-    this.canvas = made("canvas", [], { tabindex: "0", role: "application", "aria-describedby": "help" });
-    this.caption = made("figcaption", []);
-    this.figure = made("figure", [this.canvas, this.caption], { class: "lane" });
+  constructor(public experiment: Experiment, readonly number: number, parent: HTMLElement, viewport: Viewport) {
     parent.append(this.figure);
     this.renderer = new Renderer(this.canvas, viewport);
   }
@@ -199,10 +189,6 @@ export class ShownRun {
   setUp(setup: Partial<RobotSetup>) {
     const robots = this.experiment.robots.map((it, robot) => (robot === this.robot ? { ...it, ...setup } : it));
     this.experiment = { ...this.experiment, robots };
-  }
-
-  remove() {
-    this.figure.remove();
   }
 }
 

@@ -1,15 +1,13 @@
 /* The desk beside the arena: the run, the parameters, the listing, the curves and the files, one at a time. */
 
-import { ParameterSliders } from "./parameter_sliders.js";
-import { Curves, csvOf } from "./curves.js";
-import { byId, made, setText, typedById } from "../core/dom.js";
+import { Curves } from "./curves.js";
+import { buttonOf, byId, made, setText, typedById } from "../core/dom.js";
 import { heard, inEachLanguage, languageCode, robotWords, say } from "../core/language.js";
 import { bodySentence, lessonSentence } from "../core/phrases.js";
 import { SENSORS } from "../core/sensors.js";
-import { memoryIn, save, worldText } from "./files.js";
-import { PROFILES } from "../generated.js";
+import { FilesTab } from "./files.js";
+import { PARAMETERS, PROFILES } from "../generated.js";
 import { experimentOf } from "./shown_run.js";
-import { actionStart } from "./run_events.js";
 import { WorldPictures } from "./world_pictures.js";
 import { ListingView } from "../panel/listing_view.js";
 import { RANDOM, nameOf } from "../core/world_names.js";
@@ -36,38 +34,29 @@ export class SidePanel {
   bench = new ParameterSliders((parameter, value) => this.set(parameter, value));
   listing = new ListingView();
   curves = new Curves();
-  lessons = new LessonsView();
+  files = new FilesTab(this);
   behaviour = typedById("behaviour", HTMLSelectElement);
   /** The worlds to choose from, by name. */
-  worlds: Map<string, World>;
-  pictures: WorldPictures;
-  body: HTMLSelectElement;
-  faults: FaultMenu;
-  robotSeed: HTMLInputElement;
+  worlds = new Map(Object.keys(this.lab.parts.worlds).map((name) => [name, name as World]));
+  pictures = new WorldPictures(this.lab.simulator);
+  body = typedById("body", HTMLSelectElement);
+  fault = typedById("fault", HTMLSelectElement);
+  robotSeed = typedById("robot-seed", HTMLInputElement);
   frozen = 0;
-  /** The last message about files, in the language of the page. */
-  fileNews = () => "";
+  /** What is written of the lessons. */
+  lessonsKey = "";
 
   constructor(readonly lab: Laboratory) {
-    this.worlds = new Map(Object.keys(lab.worlds).map((name) => [name, name as World]));
-    this.pictures = new WorldPictures(lab.simulator);
-    this.body = typedById("body", HTMLSelectElement);
-    this.faults = new FaultMenu((what) => {
-      const { robot, experiment } = lab.lane;
-      lab.change({ do: "body", what, robot, seed: experiment.seed });
-    });
-    this.robotSeed = typedById("robot-seed", HTMLInputElement);
     inEachLanguage(() => this.offer());
     this.bindTabs();
     this.bindRun();
-    this.bindFiles();
   }
 
   /** Fills the fields with their choices. */
   offer() {
     offer(this.behaviour, PROFILES.map((name) => [name, heard(name)]));
+    offer(this.fault, FAULTS.map((what) => [what, heard(bodySentence(what)).replace(/\.$/, "")]));
     this.pictures.offer(this.worlds, this.pictures.chosen);
-    this.report(this.fileNews);
   }
 
   bindTabs() {
@@ -95,53 +84,24 @@ export class SidePanel {
   bindRun() {
     const { lab } = this;
     const on = (id: string, action: () => void) => byId(id).addEventListener("click", action);
-    byId("new-run").addEventListener("submit", (event) => this.newRun(event));
+    byId("new-run").addEventListener("submit", (event) => {
+      event.preventDefault();
+      lab.renew(this.wanted);
+    });
     this.behaviour.addEventListener("change", () => this.choose(this.behaviour.value));
     this.robotSeed.addEventListener("change", () => this.reseed());
     byId("curve").addEventListener("change", () => this.show());
     on("erase", () => lab.change({ do: "erase", robot: lab.lane.robot }));
     on("freeze", () => lab.change({ do: "freeze", robot: lab.lane.robot, on: 1 - this.frozen }));
+    on("break", () => {
+      const { robot, experiment } = lab.lane;
+      lab.change({ do: "body", what: this.fault.value, robot, seed: experiment.seed });
+    });
     on("copy-debugger", () => this.copyDebugger());
     on("remove-lane", () => lab.removeLane(lab.lane));
     on("undo", () => {
       if (lab.lane.undo()) lab.simulate(lab.lane);
     });
-  }
-
-  bindFiles() {
-    const on = (id: string, action: () => Promise<void>) =>
-      byId(id).addEventListener("click", () => this.tell(this.lab.whole().then(action)));
-    on("save-csv", async () => save("octet.csv", [csvOf(this.lab.lanes)]));
-    on("save-log", async () => save("run.log", await this.lab.simulator.ask("log", { experiment: this.lab.lane.experiment })));
-    on("save-world", async () => {
-      const { experiment, data } = this.lab.lane;
-      if (data) save("run.world.json", [worldText(experiment, data, this.lab.params.front_extra_mm)]);
-    });
-    on("save-memory", async () => {
-      const { lane, simulator, tick } = this.lab;
-      const { experiment, robot, last } = lane;
-      save("robot.mem", [Uint8Array.from(await simulator.ask("memory", { experiment, robot, tick: Math.min(tick, last) }))]);
-    });
-    const input = typedById("open", HTMLInputElement);
-    input.addEventListener("change", () => {
-      this.tell(this.openFiles([...(input.files ?? [])]));
-      input.value = "";
-    });
-  }
-
-  /** @param done - Fails with the reason if something cannot be done with a file. */
-  tell(done: Promise<void>) {
-    done.catch((error) => this.report(() => heard(error instanceof Error ? error.message : `${error}`)));
-  }
-
-  report(news: () => string) {
-    this.fileNews = news;
-    setText(byId("file-news"), news());
-  }
-
-  newRun(event: SubmitEvent) {
-    event.preventDefault();
-    this.lab.renew(this.wanted);
   }
 
   /** The experiment that the form describes. */
@@ -188,9 +148,9 @@ export class SidePanel {
 
   /** The command that stops the selected robot in a debugger at the tick that is shown. */
   get debugger() {
-    const { debugger: command, lane, recorded, scene } = this.lab;
+    const { parts, lane, recorded, scene } = this.lab;
     const log = lane.isRecorded ? recorded?.run.log ?? "RUN.LOG" : "run.log";
-    return `${command} ${log} --node ${scene?.state.node} --tick ${scene?.state.tick}`;
+    return `${parts.debugger} ${log} --node ${scene?.state.node} --tick ${scene?.state.tick}`;
   }
 
   /** Puts that command into the clipboard, or says why there is none. */
@@ -199,39 +159,6 @@ export class SidePanel {
     if (lane.setup.program !== undefined) return note.show(say("debuggerNeedsC"));
     const words = say(!lane.isRecorded ? "debuggerNeedsLog" : "debuggerCopied");
     navigator.clipboard?.writeText(this.debugger).then(() => note.show(words), () => {});
-  }
-
-  async openFiles(files: File[]) {
-    const named = (...ends: string[]) => files.find(({ name }) => ends.some((end) => name.endsWith(end)));
-    const [memory, log, world] = [named(".mem"), named(".log"), named(".json", ".toml")];
-    const strange = files.find((file) => ![memory, log, world].includes(file));
-    if (strange) throw new Error(`${strange.name}: a log ends with .log, a world with .toml or .json, a memory with .mem`);
-    if (log) await this.openLog(log, world);
-    else if (world) await this.openWorld(world);
-    if (memory) await this.openMemory(memory);
-  }
-
-  async openMemory(file: File) {
-    const { lane, simulator } = this.lab;
-    const memory = await memoryIn(file);
-    const robots = lane.experiment.robots.map((it, robot) => (robot === lane.robot ? { ...it, memory } : it));
-    const experiment = { ...lane.experiment, robots };
-    await simulator.ask("memory", { experiment, robot: lane.robot, tick: 0 }); // it throws if they are not a memory
-    this.lab.setUp({ memory });
-    this.report(() => say("memoryBegins", { file: file.name }));
-  }
-
-  async openWorld(file: File) {
-    this.begin(await this.lab.simulator.ask("world", { file: { name: file.name, text: await file.text() }, base: this.wanted }));
-    this.report(() => say("worldBegins", { file: file.name }));
-  }
-
-  async openLog(log: File, world: File | undefined) {
-    this.report(() => say("reading", { file: log.name }));
-    const files = { text: await log.text(), world: world ? await world.text() : "" };
-    const { experiment, news } = await this.lab.simulator.ask("open", files);
-    this.begin(experiment);
-    this.report(() => heard(news));
   }
 
   show() {
@@ -250,50 +177,25 @@ export class SidePanel {
     typedById("undo", HTMLButtonElement).disabled = lane.isRecorded || lane.experiment.changes.length === 0;
     const robot = data.robots[lane.robot];
     if (this.tab === "run") {
-      this.lessons.show(scene, robot.lessonsUpTo(state.tick, scene.environment.start_tick));
+      this.showLessons(scene, robot.lessonsUpTo(state.tick, scene.environment.start_tick));
       this.pictures.show();
     }
     if (this.tab === "parameters") this.bench.show(setup.settings);
     if (this.tab === "listing") {
-      this.listing.show(state, actionStart(robot, state.tick));
+      this.listing.show(state, robot.actionStart(state.tick));
       setText(byId("debugger"), this.debugger);
     }
     if (this.tab === "curves") this.curves.show(lanes, tick);
   }
-}
-
-/** Fills the element `lessons`. */
-class LessonsView {
-  list = byId("lessons");
-  key = "";
-
-  constructor() {}
 
   /** @param lessons - Those of the robot that the panel shows, the oldest first. */
-  show(scene: Scene, lessons: Lesson[]) {
+  showLessons(scene: Scene, lessons: Lesson[]) {
     const key = JSON.stringify([languageCode(), scene.environment.start_tick, lessons]);
-    if (this.key === key) return;
-    this.key = key;
-    this.list.replaceChildren(...lessons.map((lesson) => itemFor(lesson, scene)).reverse());
-    if (!lessons.length) this.list.append(made("li", [say("nothingLearned")]));
+    if (this.lessonsKey === key) return;
+    this.lessonsKey = key;
+    const said = lessons.map((lesson) => `${scene.clock(lesson.tick)} ${lessonSentence(lesson, robotWords())}`).reverse();
+    byId("lessons").replaceChildren(...(said.length ? said : [say("nothingLearned")]).map((words) => made("li", [words])));
   }
-}
-
-function itemFor(lesson: Lesson, scene: Scene) {
-  return made("li", [`${scene.clock(lesson.tick)} ${lessonSentence(lesson, robotWords())}`]);
-}
-
-/** Fills the element `fault`; the button `break` injects what is chosen there. */
-class FaultMenu {
-  constructor(onBreak: (what: string) => void) {
-    const menu = typedById("fault", HTMLSelectElement);
-    inEachLanguage(() => offer(menu, FAULTS.map((what) => [what, faultName(what)])));
-    byId("break").addEventListener("click", () => onBreak(menu.value));
-  }
-}
-
-function faultName(what: string) {
-  return heard(bodySentence(what)).replace(/\.$/, "");
 }
 
 /**
@@ -303,4 +205,48 @@ function faultName(what: string) {
 function offer(select: HTMLSelectElement, options: [string, string][]) {
   const chosen = select.value || options[0][0];
   select.replaceChildren(...options.map(([value, name]) => new Option(name, value, false, value === chosen)));
+}
+
+type Parameter = keyof typeof PARAMETERS;
+
+type Slider = { input: HTMLInputElement; output: HTMLElement; reset: HTMLButtonElement };
+
+/** A slider for each parameter of the robot. Fills the element panel-parameters. */
+class ParameterSliders {
+  sliders: Map<Parameter, Slider> = new Map();
+
+  constructor(readonly onChange: (parameter: string, value: number) => void) {
+    inEachLanguage(() => this.fill(byId("panel-parameters")));
+  }
+
+  fill(panel: HTMLElement) {
+    panel.replaceChildren();
+    for (const name of Object.keys(PARAMETERS) as Parameter[]) this.sliders.set(name, this.makeSlider(panel, name));
+  }
+
+  /** @param settings - All but the defaults. */
+  show(settings: Record<string, number>) {
+    for (const [name, { input, output, reset }] of this.sliders) {
+      const value = settings[name] ?? PARAMETERS[name].default;
+      if (document.activeElement !== input || input.value === output.dataset.value) input.value = `${value}`;
+      output.dataset.value = `${value}`;
+      output.textContent = `${input.value} ${heard(PARAMETERS[name].unit)}`;
+      reset.disabled = value === PARAMETERS[name].default;
+    }
+  }
+
+  makeSlider(parent: HTMLElement, name: Parameter): Slider {
+    const { min, max, default: usual } = PARAMETERS[name];
+    const meaning = heard(PARAMETERS[name].meaning);
+    const output = made("output", []);
+    const input = made("input", [], { type: "range", min: `${min}`, max: `${max}`, step: "1", title: name });
+    const reset = buttonOf("↺", () => this.onChange(name, usual));
+    reset.title = `${usual}`;
+    reset.setAttribute("aria-label", say("backTo", { meaning, value: usual }));
+    const label = made("label", [meaning.replace(/\.$/, ""), " ", output, input]);
+    parent.append(made("div", [label, reset], { class: "slider" }));
+    input.addEventListener("input", () => (output.textContent = `${input.value} ${heard(PARAMETERS[name].unit)}`));
+    input.addEventListener("change", () => this.onChange(name, Number(input.value)));
+    return { input, output, reset };
+  }
 }

@@ -3,40 +3,26 @@
 import { byId } from "../core/dom.js";
 import { keep, kept } from "../core/storage.js";
 import { LessonView } from "./lesson_view.js";
-import { inEachLanguage, languageCode, wordsOf } from "../core/language.js";
+import { inEachLanguage, wordsOf } from "../core/language.js";
 import { PLANS } from "./plans.js";
 import { Samples } from "./samples.js";
 import { Worksheet } from "./worksheet.js";
 import { Classroom } from "../lab/classroom.js";
-import type { Laboratory } from "../lab/laboratory.js";
-import type { Known, Linked } from "../program/link.js";
-import type { TalkBox } from "../talk/talk_box.js";
-import type { Experiment } from "../types.js";
-import type { Goal, Plan } from "./plans.js";
-
-/** The page, with its conversations. */
-export type Lab = Laboratory & {
-  talk: TalkBox; teach: (who: string, word: string, answer: string) => void; restartTalk: () => void;
-  course: Course; known: Known;
-  link: (experiment: Experiment, others?: Partial<Linked>) => string };
+import type { LabPage } from "../lab/lab_page.js";
+import type { Goal } from "./plans.js";
 
 /** Shows lessons in the element panel-lessons. The part of the address behind # may name the one to open. */
 export class Course {
   /** By lesson, the indices of the goals reached and of the steps done; the browser keeps them. */
   progress: Record<string, { goals: number[]; steps: number[] }> = progressIn(kept("lessons"));
-  plan: Plan;
+  plan = PLANS.find(({ id }) => `#${id}` === location.hash) ?? PLANS.find(({ id }) => id === kept("lesson")) ?? PLANS[0];
   begun = false;
-  samples: Samples;
-  sheet: Worksheet;
-  classroom: Classroom;
-  view: LessonView;
+  samples = new Samples(this.lab.simulator, () => this.lab.lightUp());
+  sheet = new Worksheet();
+  classroom = new Classroom(this);
+  view = new LessonView(this);
 
-  constructor(readonly lab: Lab) {
-    this.plan = PLANS.find(({ id }) => `#${id}` === location.hash) ?? PLANS.find(({ id }) => id === kept("lesson")) ?? PLANS[0];
-    this.samples = new Samples(lab.simulator, () => lab.lightUp());
-    this.sheet = new Worksheet();
-    this.classroom = new Classroom(this);
-    this.view = new LessonView(this);
+  constructor(readonly lab: LabPage) {
     inEachLanguage(() => this.renew());
     byId("tab-lessons").addEventListener("click", () => this.view.reveal());
     addEventListener("beforeprint", () => this.onPrint());
@@ -129,17 +115,13 @@ export class Course {
 
   /** @param notes - Whether to print those for teachers, and not the worksheet. */
   print(notes: boolean) {
-    if (notes) this.sheet.fillNotes(this.plan, this.texts);
-    else this.sheet.fill(this.plan, this.texts);
-    this.sheet.element.lang = languageCode();
+    this.sheet.fill(this.plan, this.texts, notes);
     print();
   }
 
   /** Printing the page while a lesson is open prints its worksheet. */
   onPrint() {
-    if (byId("panel-lessons").hidden || !this.sheet.isEmpty) return;
-    this.sheet.fill(this.plan, this.texts);
-    this.sheet.element.lang = languageCode();
+    if (!byId("panel-lessons").hidden && this.sheet.isEmpty) this.sheet.fill(this.plan, this.texts, false);
   }
 }
 

@@ -54,16 +54,12 @@ export function hasEatenAll(data: RunData, tick: number) {
 }
 
 /** A parameter of a robot at a tick. */
-export function settingAt(
-  lane: ShownRun,
-  { robot, name }: { robot: number, name: keyof typeof PARAMETERS },
-  tick: number,
-) {
+export function settingAt(lane: ShownRun, { robot, name }: { robot: number, name: keyof typeof PARAMETERS }, tick: number) {
   return lane.setupAt(tick, robot).settings[name] ?? PARAMETERS[name].default;
 }
 
 /** Whether a robot knows a turn for each pattern at a tick, all written by a person. */
-export function isProgrammed(robot: RobotData, tick: number) {
+export function isByHand(robot: RobotData, tick: number) {
   const last = robot.lastLessons(tick);
   return last.every((lesson, cell) => cell === 0 || Boolean(lesson?.by_hand && lesson.side));
 }

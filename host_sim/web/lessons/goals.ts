@@ -1,8 +1,8 @@
-/* Checks of the lessons' goals on the runs, up to the tick shown, and on the conversation. */
+/* Checks of the lessons' goals on a run, up to the tick shown, or on all runs; and on the conversation. */
 
-import { PARAMETERS, PATTERNS, SIDE, REASON } from "../generated.js";
-import { hasEatenAll, hasEnded, isProgrammed, longestStretch, settingAt, stretchesOf, ticksPerObstacle } from "./evidence.js";
-import { besideBar } from "../edit/hit_testing.js";
+import { CELL_COUNT, PARAMETERS, PATTERNS, SIDE, REASON } from "../generated.js";
+import { hasEatenAll, hasEnded, isByHand, longestStretch, settingAt, stretchesOf, ticksPerObstacle } from "./evidence.js";
+import { besideBar } from "../edit/items.js";
 import type { RunData } from "../core/run_data.js";
 import type { ShownRun } from "../lab/shown_run.js";
 import type { Exchange, TalkBox } from "../talk/talk_box.js";
@@ -12,8 +12,8 @@ import type { Place } from "../types.js";
 /** A run of which at least the first environment is simulated. */
 export type Shown = { lane: ShownRun; data: RunData };
 
-export const FRONT_RIGHT = PATTERNS.indexOf("front-right");
-export const FRONT_LEFT = PATTERNS.indexOf("front-left");
+const FRONT_RIGHT = PATTERNS.indexOf("front-right");
+const FRONT_LEFT = PATTERNS.indexOf("front-left");
 const STUCK_S = 10;
 const SOON_STUCK_S = 3;
 const SOON_CLEAR_S = 4;
@@ -25,23 +25,50 @@ function seconds(data: RunData, ticks: number) {
   return (ticks * data.measures.tick_ms) / 1000;
 }
 
-/** Whether a trial has ended by a tick, with this result. */
-export function hasTried(data: RunData, tick: number, helped: number) {
-  return data.robots[0].run.trials.some(([at, trial]) => at <= tick && trial?.helped === helped && !trial.frozen);
+/** Whether a trial has ended, with one of these results. */
+export function hasTried({ data }: Shown, tick: number, results = [0, 1]) {
+  return data.robots[0].run.trials.some(([at, it]) => at <= tick && it && !it.frozen && results.includes(it.helped ?? NaN));
 }
 
-export function hasLearnedBothSides(data: RunData, tick: number) {
+export function hasFailed(run: Shown, tick: number) {
+  return hasTried(run, tick, [0]);
+}
+
+export function hasSucceeded(run: Shown, tick: number) {
+  return hasTried(run, tick, [1]);
+}
+
+export function knowsSomething({ data }: Shown, tick: number) {
+  return data.robots[0].memoryAt(tick).some(Boolean);
+}
+
+export function hasLearnedBothSides({ data }: Shown, tick: number) {
   const last = data.robots[0].lastLessons(tick);
   const learned = (pattern: number, side: number) =>
     last[pattern]?.side === side && !last[pattern]?.by_hand;
   return learned(FRONT_RIGHT, SIDE.LEFT) && learned(FRONT_LEFT, SIDE.RIGHT);
 }
 
-/** Whether a robot with a person's program gets clear sooner than one that learns. */
+export function haveBothEnded(runs: Shown[], tick: number) {
+  return runs.length > 1 && haveEnded(runs, tick);
+}
+
+/** Whether a person has written all that the robot knows. */
+export function isProgrammed({ data }: Shown, tick: number) {
+  return isByHand(data.robots[0], tick);
+}
+
+/** Whether all runs have ended. */
+export function haveEnded(runs: Shown[], tick: number) {
+  return runs.every(({ lane }) => hasEnded(lane, tick));
+}
+
+/** Whether a robot with a person's program has got clear sooner than one that learns, when all runs have ended. */
 export function isLearnerBeaten(runs: Shown[], tick: number) {
+  if (!haveEnded(runs, tick)) return false;
   const robots = runs.map(({ data }) => data.robots[0]);
   const learners = robots.filter((robot) => robot.lastLessons(tick).every((lesson) => !lesson?.by_hand));
-  const programmed = robots.filter((robot) => isProgrammed(robot, tick));
+  const programmed = robots.filter((robot) => isByHand(robot, tick));
   const best = Math.min(...programmed.map((robot) => ticksPerObstacle(robot, tick)));
   return learners.some((learner) => best < ticksPerObstacle(learner, tick));
 }
@@ -54,16 +81,24 @@ export function hasFreedItself({ lane, data }: Shown, tick: number) {
   return limit < PARAMETERS.boredom_limit.max && wasBored && longest <= SOON_CLEAR_S && hasEnded(lane, tick);
 }
 
-export function wasStuck(data: RunData, tick: number) {
+export function wasStuck({ data }: Shown, tick: number) {
   return seconds(data, longestStretch(data.robots[0], tick)) >= STUCK_S;
 }
 
-export function hasBeenStuck(data: RunData, tick: number) {
+export function hasBeenStuck({ data }: Shown, tick: number) {
   return seconds(data, longestStretch(data.robots[0], tick)) >= SOON_STUCK_S;
 }
 
+export function hasPlant(run: Shown, tick: number) {
+  return plantsPut(run, tick) > 0;
+}
+
+export function hasPlants(run: Shown, tick: number) {
+  return plantsPut(run, tick) > 1;
+}
+
 /** How often a plant was put somewhere, up to a tick. */
-export function plantsPut({ experiment }: ShownRun, tick: number) {
+function plantsPut({ lane: { experiment } }: Shown, tick: number) {
   return experiment.changes.filter((change) => (change.do === "plant" || change.do === "move_plant") && change.tick <= tick + 1).length;
 }
 
@@ -72,18 +107,23 @@ export function hasEatenFast({ lane, data }: Shown, tick: number) {
 }
 
 /** Whether a robot that knew nothing had to try at the plant. */
-export function hadToTry(data: RunData, tick: number) {
+export function hadToTry({ data }: Shown, tick: number) {
   return meetingsOf(data).some((it) => it.last < tick && it.tried && it.knewNothing);
 }
 
 /** The meetings, up to a tick, after which the robot got past the plant by what it knew. */
-export function hasPassed(data: RunData, tick: number) {
+function passes({ data }: Shown, tick: number) {
   return meetingsOf(data).filter(({ last, tried, knewNothing }) => last < tick && !tried && !knewNothing);
 }
 
-export function areApart(meetings: Meeting[]) {
-  const [{ at: first } = { at: { x: 0, y: 0 } }] = meetings;
-  return meetings.some(({ at }) => Math.hypot(at.x - first.x, at.y - first.y) >= MOVED_MM);
+export function hasPassed(run: Shown, tick: number) {
+  return passes(run, tick).length > 0;
+}
+
+/** Whether it got past the plant in places that are far apart. */
+export function hasPassedElsewhere(run: Shown, tick: number) {
+  const [first, ...others] = passes(run, tick);
+  return others.some(({ at }) => Math.hypot(at.x - first.at.x, at.y - first.at.y) >= MOVED_MM);
 }
 
 /** The times up to a tick during which a sensor was broken in this way. */
@@ -101,7 +141,7 @@ function brokenTimes({ experiment }: ShownRun, how: string, tick: number) {
 }
 
 /** Whether a sensor has ever reported what was not there. */
-export function isBroken(lane: ShownRun, tick: number) {
+export function isBroken({ lane }: Shown, tick: number) {
   return brokenTimes(lane, "stuck-on", tick + 1).length > 0;
 }
 
@@ -122,14 +162,15 @@ export function bumpsBlindly({ lane, data }: Shown, tick: number) {
     data.robots[0].columns.bump.subarray(first, last + 1).some(Boolean));
 }
 
-export function isSharing(lane: ShownRun, tick: number) {
+export function isSharing({ lane }: Shown, tick: number) {
   const { robots } = lane.experiment;
   return robots.length > 1 && robots.every((_, robot) => settingAt(lane, { robot, name: "share" }, tick) > 0);
 }
 
-/** Whether a robot knows a turn that came neither from itself nor from a person. */
-export function hasHeard({ lane, data }: Shown, tick: number) {
-  if (lane.experiment.changes.some((change) => change.do === "write")) return false;
+/** Whether robots share what they know, and one knows a turn that came neither from itself nor from a person. */
+export function hasHeard(run: Shown, tick: number) {
+  const { lane, data } = run;
+  if (!isSharing(run, tick) || lane.experiment.changes.some((change) => change.do === "write")) return false;
   const heard = data.robots.flatMap(({ run }) => run.lessons).filter(({ by_hand, side }) => by_hand && side);
   return heard.some((lesson) => lesson.tick > 0 && lesson.tick <= tick);
 }
@@ -142,8 +183,8 @@ export function knowSooner(runs: Shown[], tick: number) {
     const memory = robot.memoryAt(Math.min(tick, data.last));
     return memory[FRONT_RIGHT] && memory[FRONT_LEFT];
   });
-  const sharing = runs.filter((run) => isSharing(run.lane, tick) && hasHeard(run, tick));
-  const silent = runs.filter(({ lane }) => !isSharing(lane, tick) && lane.experiment.robots.length > 1);
+  const sharing = runs.filter((run) => hasHeard(run, tick));
+  const silent = runs.filter((run) => !isSharing(run, tick) && run.data.robots.length > 1);
   return sharing.some(know) && silent.some((run) => !know(run));
 }
 
@@ -164,9 +205,8 @@ export function tellsKnowingFromSaying({ history }: TalkBox) {
     isEliza(one) !== isEliza(other) && [one, other].every((it) => (it.said.mark === "words") === isEliza(it)));
 }
 
-/** @param who - The first letters of a speaker. */
-export function wasAsked({ history }: TalkBox, who: string) {
-  return history.some((exchange) => exchange.who.startsWith(who));
+export function askedEliza({ history }: TalkBox) {
+  return history.some(({ who }) => who.startsWith("eliza"));
 }
 
 export function repeatsWhatItWasTaught({ history, taught }: TalkBox) {
@@ -225,4 +265,65 @@ function addedThings(data: RunData, tick: number): Thing[] {
 
 function middleOf({ bar: [, ax, ay, bx, by] }: Thing) {
   return { x: (ax + bx) / 2, y: (ay + by) / 2 };
+}
+
+/* What robots unlearn: how sure they are of each cell, and what they know after their motors were swapped. */
+
+const BEADS_MAX = 3;
+const MEETINGS_MIN = 30;
+const CELLS = Array.from({ length: CELL_COUNT }, (_, cell) => cell);
+
+/**
+ * The beads of a robot at a tick, by cell; none for a robot whose behaviour keeps none.
+ * @param robot - Counted from 0.
+ */
+export function beadsAt({ beads }: ShownRun, tick: number, robot = 0) {
+  return beads[robot]?.filter(([at]) => at <= tick).at(-1)?.[1] ?? CELLS.map(() => 0);
+}
+
+/** The tick at which the motors of a run's first robot were swapped; none if they were not. */
+function swappedAt({ experiment }: ShownRun) {
+  return experiment.changes.find((change) => change.do === "body" && change.what === "swap-motors")?.tick;
+}
+
+export function areSwapped({ lane }: Shown, tick: number) {
+  return (swappedAt(lane) ?? Infinity) <= tick + 1;
+}
+
+export function hasThreeBeads({ lane }: Shown, tick: number) {
+  return (lane.beads[0] ?? []).some(([at, beads]) => at <= tick && beads.includes(BEADS_MAX));
+}
+
+/** Whether a robot has become less sure of a cell, or has forgotten it, since its motors were swapped. */
+export function doubts(run: Shown, tick: number) {
+  return hasLostBeads(run, tick, swappedAt(run.lane) ?? Infinity);
+}
+
+/** The same since a tick; since the beginning by default. */
+export function hasLostBeads({ lane }: Shown, tick: number, from = 0) {
+  const [known = []] = lane.beads;
+  return known.some(([at, beads], i) => i > 0 && at >= from && at <= tick && CELLS.some((cell) => beads[cell] < known[i - 1][1][cell]));
+}
+
+/** Whether a robot has learned to turn the other way round since its motors were swapped. */
+export function knowsMirrored(run: Shown, tick: number) {
+  const memory = run.data.robots[0].memoryAt(tick);
+  return areSwapped(run, tick) && memory[FRONT_RIGHT] === SIDE.RIGHT && memory[FRONT_LEFT] === SIDE.LEFT;
+}
+
+/**
+ * Whether a robot has met many obstacles since its motors were swapped, and still knows what it knew, to the end of its run.
+ */
+export function neverRelearned({ lane, data }: Shown, tick: number) {
+  const [robot] = data.robots;
+  const since = swappedAt(lane) ?? Infinity;
+  const met = stretchesOf(robot).filter(({ first, last }) => first >= since && last <= tick).length;
+  return met >= MEETINGS_MIN && robot.memoryAt(tick).every((side, cell) => side === robot.memoryAt(since - 1)[cell]);
+}
+
+/** Whether a cell that had lost all its beads, or had others, holds the other side again. */
+export function refilled({ data }: Shown, tick: number) {
+  const { memory } = data.robots[0].run;
+  const upTo = memory.filter(([at]) => at <= tick);
+  return CELLS.some((cell) => new Set(upTo.map(([, sides]) => sides[cell]).filter(Boolean)).size > 1);
 }

@@ -10,34 +10,22 @@ import type { Tool } from "./tools.js";
 
 /** Fills the element panel-lessons, for one lesson in one language. */
 export class LessonView {
-  marks: { state: HTMLSpanElement; item: HTMLLIElement }[];
+  marks = this.course.texts.lessons[this.course.plan.id].goals.map((goal) => makeGoal(goal));
   /** The tools of the step that is shown. */
   tools: Tool[] = [];
-  news: HTMLParagraphElement;
-  begin: HTMLButtonElement;
-  head: HTMLDivElement;
-  body: HTMLDivElement;
-  foot: HTMLDivElement;
-  step: HTMLDivElement;
+  news = made("p", [], { role: "status", id: "lesson-news" });
+  begin = buttonOf(this.course.texts.words.start, () => this.course.begin());
+  head = made("div", [], { class: "head" });
+  body = made("div", [], { class: "held" });
+  foot = made("div", [], { class: "foot" });
+  step = made("div", [this.head, this.news, this.body, this.foot], { id: "step", role: "group" });
   /** The index of the step that is shown, of the one whose text and tools are written, and a key of what else is. */
-  place: number;
-  writtenPlace: number;
+  place = this.firstOpen;
+  writtenPlace = NaN;
   written = "";
 
   constructor(readonly course: Course) {
-    const { texts, plan } = course;
-    this.marks = texts.lessons[plan.id].goals.map((goal) => makeGoal(goal));
-    this.news = made("p", [], { role: "status", id: "lesson-news" });
-    this.begin = buttonOf(texts.words.start, () => course.begin());
-    this.begin.className = "main";
-    this.begin.id = "begin-lesson";
-    const [head, body, foot] = ["head", "held", "foot"].map((name) => made("div", [], { class: name }));
-    this.head = head;
-    this.body = body;
-    this.foot = foot;
-    this.step = made("div", [head, this.news, body, foot], { id: "step", role: "group" });
-    this.place = this.firstOpen;
-    this.writtenPlace = NaN;
+    Object.assign(this.begin, { className: "main", id: "begin-lesson" });
     byId("panel-lessons").replaceChildren(...this.parts());
   }
 

@@ -2,12 +2,7 @@
 
 import { PARAMETERS } from "../generated.js";
 import { experimentOf } from "../lab/shown_run.js";
-import { areSwapped, hasLostBeads, hasThreeBeads, knowsMirrored, neverRelearned, refilled } from "./bead_goals.js";
-import { hasEnded, isProgrammed } from "./evidence.js";
-import { areApart, bumpsBlindly, eatsWithoutBelieving, hadToTry, hasEatenFast, hasFreedItself, isBroken } from "./goals.js";
-import { hasBeenStuck, hasHeard, hasLearnedBothSides, hasPassed, hasTried, isLearnerBeaten, isSharing } from "./goals.js";
-import { isStuckBySensor, knowSooner, plantsPut, wasStuck } from "./goals.js";
-import { changedAnswer, repeatsWhatItWasTaught, tellsKnowingFromSaying, wasAsked } from "./goals.js";
+import * as goals from "./goals.js";
 import type { TalkBox } from "../talk/talk_box.js";
 import type { Experiment } from "../types.js";
 import type { Shown } from "./goals.js";
@@ -44,7 +39,21 @@ const TALK_TICKS = 1000;
 
 const hasBegun: Goal = (_runs, tick) => tick >= BEGUN_TICKS;
 const areTwo: Goal = (runs) => runs.length > 1;
-const haveEnded: (runs: Shown[], tick: number) => boolean = (runs, tick) => runs.every(({ lane }) => hasEnded(lane, tick));
+
+/** A goal that one of the runs reaches. */
+function some(check: (run: Shown, tick: number) => boolean): Goal {
+  return (runs, tick) => runs.some((run) => check(run, tick));
+}
+
+/** A goal that a conversation reaches. */
+function talk(check: (talk: TalkBox) => boolean): Goal {
+  return (_runs, _tick, told) => check(told.talk);
+}
+
+/** A goal that runs reach which no arena shows. */
+function samples(check: (samples: Samples) => boolean): Goal {
+  return (_runs, _tick, told) => check(told.samples);
+}
 
 export const PLANS: Plan[] = [
   {
@@ -52,15 +61,11 @@ export const PLANS: Plan[] = [
     begin: () => [runOf({ seed: 12, environments: 3 })],
     steps: [
       { seen: hasBegun },
-      { seen: (runs, tick) => runs.some(({ data }) => hasTried(data, tick, 0) || hasTried(data, tick, 1)) },
-      { tools: ["boxes"], seen: (runs, tick) => runs.some(({ data }) => data.robots[0].memoryAt(tick).some(Boolean)) },
-      { tools: ["boxes"], seen: (runs, tick) => runs.some(({ data }) => hasLearnedBothSides(data, tick)) },
+      { seen: some(goals.hasTried) },
+      { tools: ["boxes"], seen: some(goals.knowsSomething) },
+      { tools: ["boxes"], seen: some(goals.hasLearnedBothSides) },
     ],
-    goals: [
-      (runs, tick) => runs.some(({ data }) => hasTried(data, tick, 0)),
-      (runs, tick) => runs.some(({ data }) => hasTried(data, tick, 1)),
-      (runs, tick) => runs.some(({ data }) => hasLearnedBothSides(data, tick)),
-    ],
+    goals: [some(goals.hasFailed), some(goals.hasSucceeded), some(goals.hasLearnedBothSides)],
   },
   {
     id: "program",
@@ -68,59 +73,44 @@ export const PLANS: Plan[] = [
     names: ["learner", "yours"],
     steps: [
       { seen: areTwo },
-      { tools: ["boxes"], seen: (runs, tick) => runs.some(({ data }) => isProgrammed(data.robots[0], tick)) },
-      { tools: ["score"], seen: haveEnded },
-      { tools: ["score"], seen: (runs, tick) => haveEnded(runs, tick) && isLearnerBeaten(runs, tick) },
+      { tools: ["boxes"], seen: some(goals.isProgrammed) },
+      { tools: ["score"], seen: goals.haveEnded },
+      { tools: ["score"], seen: goals.isLearnerBeaten },
     ],
-    goals: [
-      (runs, tick) => runs.some(({ data }) => isProgrammed(data.robots[0], tick)),
-      (runs, tick) => haveEnded(runs, tick) && isLearnerBeaten(runs, tick),
-    ],
+    goals: [some(goals.isProgrammed), goals.isLearnerBeaten],
   },
   {
     id: "boredom",
     begin: () => [runOf({ seed: 111, memory: LEARNED, settings: { boredom_limit: PARAMETERS.boredom_limit.max } })],
     steps: [
-      { seen: (runs, tick) => runs.some(({ data }) => hasBeenStuck(data, tick)) },
+      { seen: some(goals.hasBeenStuck) },
       { tools: ["whatIf"], seen: areTwo },
-      { tools: ["patience"], seen: (runs, tick) => runs.some((run) => hasFreedItself(run, tick)) },
-      { tools: ["patience"], seen: (runs, tick) => runs.some((run) => hasEatenFast(run, tick)) },
+      { tools: ["patience"], seen: some(goals.hasFreedItself) },
+      { tools: ["patience"], seen: some(goals.hasEatenFast) },
     ],
-    goals: [
-      (runs, tick) => runs.some(({ data }) => wasStuck(data, tick)),
-      (runs, tick) => runs.some((run) => hasFreedItself(run, tick)),
-      (runs, tick) => runs.some((run) => hasEatenFast(run, tick)),
-    ],
+    goals: [some(goals.wasStuck), some(goals.hasFreedItself), some(goals.hasEatenFast)],
   },
   {
     id: "plant",
     begin: () => [runOf({ seed: 3, environments: 2, memory: LEARNED })],
     steps: [
-      { tools: ["addPlant"], seen: (runs, tick) => runs.some(({ lane }) => plantsPut(lane, tick) > 0) },
-      { tools: ["addPlant"], seen: (runs, tick) => runs.some(({ lane }) => plantsPut(lane, tick) > 1) },
-      { tools: ["addPlant"], seen: (runs, tick) => runs.some(({ data }) => areApart(hasPassed(data, tick))) },
-      { tools: ["erase", "addPlant"], seen: (runs, tick) => runs.some(({ data }) => hadToTry(data, tick)) },
+      { tools: ["addPlant"], seen: some(goals.hasPlant) },
+      { tools: ["addPlant"], seen: some(goals.hasPlants) },
+      { tools: ["addPlant"], seen: some(goals.hasPassedElsewhere) },
+      { tools: ["erase", "addPlant"], seen: some(goals.hadToTry) },
     ],
-    goals: [
-      (runs, tick) => runs.some(({ data }) => hasPassed(data, tick).length > 0),
-      (runs, tick) => runs.some(({ data }) => areApart(hasPassed(data, tick))),
-      (runs, tick) => runs.some(({ data }) => hadToTry(data, tick)),
-    ],
+    goals: [some(goals.hasPassed), some(goals.hasPassedElsewhere), some(goals.hadToTry)],
   },
   {
     id: "sensor",
     begin: () => [runOf({ seed: 5, memory: LEARNED })],
     steps: [
-      { tools: ["sensors"], seen: (runs, tick) => runs.some(({ lane }) => isBroken(lane, tick)) },
-      { seen: (runs, tick) => runs.some((run) => isStuckBySensor(run, tick)) },
-      { tools: ["distrust"], seen: (runs, tick) => runs.some((run) => eatsWithoutBelieving(run, tick)) },
-      { tools: ["sensors"], seen: (runs, tick) => runs.some((run) => bumpsBlindly(run, tick)) },
+      { tools: ["sensors"], seen: some(goals.isBroken) },
+      { seen: some(goals.isStuckBySensor) },
+      { tools: ["distrust"], seen: some(goals.eatsWithoutBelieving) },
+      { tools: ["sensors"], seen: some(goals.bumpsBlindly) },
     ],
-    goals: [
-      (runs, tick) => runs.some((run) => isStuckBySensor(run, tick)),
-      (runs, tick) => runs.some((run) => eatsWithoutBelieving(run, tick)),
-      (runs, tick) => runs.some((run) => bumpsBlindly(run, tick)),
-    ],
+    goals: [some(goals.isStuckBySensor), some(goals.eatsWithoutBelieving), some(goals.bumpsBlindly)],
   },
   {
     id: "share",
@@ -128,30 +118,22 @@ export const PLANS: Plan[] = [
     steps: [
       { seen: () => true },
       { tools: ["whatIf"], seen: areTwo },
-      { tools: ["share"], seen: (runs, tick) => runs.some(({ lane }) => isSharing(lane, tick)) },
-      { seen: (runs, tick) => knowSooner(runs, tick) },
+      { tools: ["share"], seen: some(goals.isSharing) },
+      { seen: goals.knowSooner },
     ],
-    goals: [
-      (runs, tick) => runs.some(({ lane }) => isSharing(lane, tick)),
-      (runs, tick) => runs.some((run) => isSharing(run.lane, tick) && hasHeard(run, tick)),
-      (runs, tick) => knowSooner(runs, tick),
-    ],
+    goals: [some(goals.isSharing), some(goals.hasHeard), goals.knowSooner],
   },
   {
     id: "talk",
     begin: () => [runOf({ seed: 12 })],
     steps: [
       { seen: (_runs, tick) => tick >= TALK_TICKS },
-      { tools: ["talk"], seen: (_runs, _tick, { talk }) => wasAsked(talk, "eliza") },
-      { tools: ["talk"], seen: (_runs, _tick, { talk }) => tellsKnowingFromSaying(talk) },
-      { tools: ["teach", "talk"], seen: (_runs, _tick, { talk }) => repeatsWhatItWasTaught(talk) },
-      { tools: ["talk", "boxes"], seen: (_runs, _tick, { talk }) => changedAnswer(talk) },
+      { tools: ["talk"], seen: talk(goals.askedEliza) },
+      { tools: ["talk"], seen: talk(goals.tellsKnowingFromSaying) },
+      { tools: ["teach", "talk"], seen: talk(goals.repeatsWhatItWasTaught) },
+      { tools: ["talk", "boxes"], seen: talk(goals.changedAnswer) },
     ],
-    goals: [
-      (_runs, _tick, { talk }) => tellsKnowingFromSaying(talk),
-      (_runs, _tick, { talk }) => repeatsWhatItWasTaught(talk),
-      (_runs, _tick, { talk }) => changedAnswer(talk),
-    ],
+    goals: [talk(goals.tellsKnowingFromSaying), talk(goals.repeatsWhatItWasTaught), talk(goals.changedAnswer)],
   },
   {
     id: "unlearn",
@@ -159,31 +141,23 @@ export const PLANS: Plan[] = [
     names: ["article", "adaptive"],
     steps: [
       { seen: hasBegun },
-      { tools: ["swap"], seen: (runs, tick) => runs.every(({ lane }) => areSwapped(lane, tick)) },
-      { tools: ["boxes"], seen: (runs, tick) => runs.some((run) => knowsMirrored(run, tick)) },
-      { tools: ["score"], seen: haveEnded },
+      { tools: ["swap"], seen: (runs, tick) => runs.every((run) => goals.areSwapped(run, tick)) },
+      { tools: ["boxes"], seen: some(goals.knowsMirrored) },
+      { tools: ["score"], seen: goals.haveEnded },
     ],
-    goals: [
-      (runs, tick) => runs.some((run) => hasLostBeads(run, tick, true)),
-      (runs, tick) => runs.some((run) => knowsMirrored(run, tick)),
-      (runs, tick) => runs.some((run) => neverRelearned(run, tick)),
-    ],
+    goals: [some(goals.doubts), some(goals.knowsMirrored), some(goals.neverRelearned)],
   },
   {
     id: "chance",
     begin: () => ["article", "searcher"].map((profile) => runOf({ seed: 2, profile })),
     names: ["article", "searcher"],
     steps: [
-      { seen: haveEnded },
-      { tools: ["samples"], seen: (_runs, _tick, { samples }) => samples.count >= 10 },
-      { tools: ["samples"], seen: (_runs, _tick, { samples }) => samples.count >= 100 },
-      { tools: ["samples"], seen: (_runs, _tick, { samples }) => samples.tried.size > 1 },
+      { seen: goals.haveEnded },
+      { tools: ["samples"], seen: samples(({ count }) => count >= 10) },
+      { tools: ["samples"], seen: samples(({ count }) => count >= 100) },
+      { tools: ["samples"], seen: samples(({ tried }) => tried.size > 1) },
     ],
-    goals: [
-      (runs, tick) => haveEnded(runs, tick) && runs.length > 1,
-      (_runs, _tick, { samples }) => samples.wereTogether,
-      (_runs, _tick, { samples }) => samples.wereApart,
-    ],
+    goals: [goals.haveBothEnded, samples(({ wereTogether }) => wereTogether), samples(({ wereApart }) => wereApart)],
   },
   {
     id: "matchboxes",
@@ -192,14 +166,10 @@ export const PLANS: Plan[] = [
       {},
       {},
       {},
-      { tools: ["boxes"], seen: (runs, tick) => runs.some((run) => hasThreeBeads(run, tick)) },
-      { tools: ["swap", "boxes"], seen: (runs, tick) => runs.some((run) => refilled(run, tick)) },
+      { tools: ["boxes"], seen: some(goals.hasThreeBeads) },
+      { tools: ["swap", "boxes"], seen: some(goals.refilled) },
     ],
-    goals: [
-      (runs, tick) => runs.some((run) => hasThreeBeads(run, tick)),
-      (runs, tick) => runs.some((run) => hasLostBeads(run, tick, false)),
-      (runs, tick) => runs.some((run) => refilled(run, tick)),
-    ],
+    goals: [some(goals.hasThreeBeads), some(goals.hasLostBeads), some(goals.refilled)],
   },
 ];
 

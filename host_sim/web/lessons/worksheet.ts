@@ -2,6 +2,7 @@
 
 import { pictureOf } from "../panel/cells_view.js";
 import { byId, made, termsOf } from "../core/dom.js";
+import { languageCode } from "../core/language.js";
 import { CELL_COUNT } from "../generated.js";
 import { binary } from "../core/phrases.js";
 import type { Texts as AllTexts } from "../core/language.js";
@@ -16,36 +17,38 @@ export class Worksheet {
   element = byId("sheet");
 
   constructor() {
-    addEventListener("afterprint", () => this.clear());
+    addEventListener("afterprint", () => this.element.replaceChildren());
   }
 
   get isEmpty() {
     return this.element.childElementCount === 0;
   }
 
-  clear() {
-    this.element.replaceChildren();
+  /** @param notes - Whether to fill it with those for teachers. */
+  fill({ id }: Plan, texts: Texts, notes: boolean) {
+    this.element.replaceChildren(...(notes ? this.notes(id, texts) : this.worksheet(id, texts)));
+    this.element.lang = languageCode();
   }
 
-  fill({ id }: Plan, texts: Texts) {
+  worksheet(id: Plan["id"], texts: Texts) {
     const { words, lessons } = texts;
     const { title, question, steps, goals, tasks } = lessons[id];
     const [table] = tableIn(texts, id);
-    this.element.replaceChildren(
+    return [
       made("h1", [title]), headOf(words), made("p", [question], { class: "question" }),
       made("h2", [words.steps]), made("ol", steps.map((step) => made("li", [step]))),
       made("h2", [words.goalsPrinted]), made("ul", goals.map((goal) => made("li", [goal])), { class: "boxes" }),
       made("h2", [words.tasks]), made("ol", tasks.map((task) => made("li", [task, linesOf()]))),
       ...(table ? [made("h2", [table]), tableOf(words)] : []),
-    );
+    ];
   }
 
-  fillNotes({ id }: Plan, texts: Texts) {
+  notes(id: Plan["id"], texts: Texts) {
     const { words, lessons, glossary } = texts;
-    this.element.replaceChildren(
+    return [
       made("h1", [`${lessons[id].title}: ${words.notes}`]), notesOf(texts, id),
       made("h2", [words.glossary]), made("dl", termsOf(glossary), { class: "glossary" }),
-    );
+    ];
   }
 }
 

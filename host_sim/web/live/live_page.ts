@@ -8,8 +8,7 @@ import { RunData } from "../core/run_data.js";
 import { hideToken } from "../core/storage.js";
 import { SIDE } from "../generated.js";
 import { LabPage, withhold } from "../lab/lab_page.js";
-import { Connection } from "./connection.js";
-import { LiveRun } from "./live_run.js";
+import { Connection, LiveRun } from "./live_run.js";
 import type { EnvironmentScene, State } from "../generated_types.js";
 import type { Parts } from "../lab/laboratory.js";
 import type { ShownRun } from "../lab/shown_run.js";
@@ -30,7 +29,7 @@ class LivePage extends LabPage {
   hasEnded = false;
   isLost = false;
   /** What repeats the recording. */
-  parts: Pick<Parts, "why" | "recorded"> = {};
+  repeats: Pick<Parts, "why" | "recorded"> = {};
   /** Settled when the recording is here; undefined unless it is being fetched. */
   past: Promise<void> | undefined;
   /** The tick of the recording to show. */
@@ -123,7 +122,7 @@ class LivePage extends LabPage {
     const { live, tick } = this;
     const lane = live ? this.lane : this.lanes.find(({ isRecorded }) => isRecorded);
     this.recorded = data;
-    this.parts = parts;
+    this.repeats = parts;
     if (lane) {
       lane.keep(data);
       this.canChange(lane);
@@ -139,7 +138,7 @@ class LivePage extends LabPage {
   canChange(lane: ShownRun) {
     this.first = lane.data?.first ?? 0;
     this.scrub.min = `${this.first}`;
-    this.recalled = this.recall(this.parts, lane);
+    this.recalled = this.recall(this.repeats, lane);
     this.recalled.catch(() => {});
   }
 

@@ -8,10 +8,7 @@ import { CONES, patternBit } from "../core/sensors.js";
 import type { Scene } from "../draw/scene.js";
 import type { State } from "../generated_types.js";
 
-/**
- * What a cell shows; `then` is what it held at another time,
- * or in another run.
- */
+/** What a cell shows; `then` is what it held at another time, or in another run. */
 type Facts = { cell: number; side: number; when: string; byHand: boolean; uses: number; inUse: boolean; trying: number; meant: boolean;
   then: number | null; where: string };
 
@@ -24,14 +21,13 @@ export const SVG = "http://www.w3.org/2000/svg";
 /** A cone of 45 degrees that looks up. */
 const SECTOR = "M0 0 L-12.2 -29.6 A32 32 0 0 1 12.2 -29.6 Z";
 
-/** Shows a memory in a list; its cells are buttons if there is an `onPress`. */
+/** Shows a memory in a list; its cells are buttons. */
 export class CellsView {
-  cells: Parts[];
+  cells = Array.from({ length: CELL_COUNT }, (_, cell) => makeCell(this.list, cell, this.onPress));
   shown: string[] = [];
 
   /** @param onPress - Gets the cell that was pressed, and what it is to hold next. */
-  constructor(list: HTMLElement, onPress?: OnPress) {
-    this.cells = Array.from({ length: CELL_COUNT }, (_, cell) => makeCell(list, cell, onPress));
+  constructor(readonly list: HTMLElement, readonly onPress: OnPress) {
     inEachLanguage(() => this.nameCells());
   }
 
@@ -39,7 +35,7 @@ export class CellsView {
     this.shown = [];
     this.cells.forEach(({ name, button }, cell) => {
       name.replaceChildren(made("span", [robotWords().patterns[cell]]), ` ${binary(cell)}`);
-      if (button instanceof HTMLButtonElement) button.title = say(cell ? "pressCell" : "nothingToLearn");
+      button.title = say(cell ? "pressCell" : "nothingToLearn");
     });
   }
 
@@ -107,10 +103,10 @@ function historyOf({ cell, side, when, byHand, uses }: Facts) {
   return [learned, uses ? say("usedTimes", { uses }) : ""].filter(Boolean).join(", ");
 }
 
-function makeCell(list: HTMLElement, cell: number, onPress?: OnPress): Parts {
+function makeCell(list: HTMLElement, cell: number, onPress: OnPress): Parts {
   const parts = ["name", "side", "history", "then"].map((part) => made("span", [], { class: `cell-${part}` }));
   const [name, side, history, then] = parts;
-  const button = onPress ? makeButton(cell, onPress) : made("div", [], { role: "img" });
+  const button = makeButton(cell, onPress);
   button.classList.add("cell");
   button.append(pictureOf(cell), ...parts);
   list.append(made("li", [button]));

@@ -16,8 +16,6 @@ export class DivergenceView {
   /** What was compared last: both runs, and the language of the words. */
   compared: unknown[] = [];
 
-  constructor() {}
-
   /** Compares the first run with the one that is selected, or with the second. */
   show([first, ...others]: ShownRun[], selected: ShownRun) {
     const other = selected === first ? others[0] : selected;
@@ -32,11 +30,7 @@ export class DivergenceView {
  * The first tick in which a robot of one run does something else than that of another; undefined if none does.
  * @param columns - What is compared.
  */
-export function partingOf(
-  one: RunData,
-  other: RunData,
-  columns: string[] = DRIVE,
-): { tick: number, robot: number } | undefined {
+export function partingOf(one: RunData, other: RunData, columns: string[] = DRIVE): { tick: number, robot: number } | undefined {
   const robots = Math.min(one.robots.length, other.robots.length);
   const ticks = Math.min(one.last, other.last) + 1;
   let first = { tick: ticks, robot: 0 };
@@ -56,7 +50,7 @@ function firstDifference(one: Columns, other: Columns, ticks: number, names: str
 }
 
 /** When two runs part, and what each does then. */
-export function partingWords(one: ShownRun, other: ShownRun) {
+function partingWords(one: ShownRun, other: ShownRun) {
   if (!one.data || !other.data || !one.scene) return "";
   const parting = partingOf(one.data, other.data);
   if (!parting) return say("sameToEnd");

@@ -1,7 +1,7 @@
-/* The texts beside the arena: what a robot does and why, how bored it is, and the state of the run. */
+/* The texts beside the arena: what a robot does and why, how bored it is, and the state of the run; and which robot is meant. */
 
 import { CellsView } from "./cells_view.js";
-import { byId, made, setText } from "../core/dom.js";
+import { buttonOf, byId, isForPage, made, setText } from "../core/dom.js";
 import { REASON_KEYS } from "../core/palette.js";
 import { inEachLanguage, nameIn, robotWords, say } from "../core/language.js";
 import { sentence, verdict } from "../core/phrases.js";
@@ -22,14 +22,13 @@ const SHORT_MAX = 56;
 
 /** Fills the elements of a page that have these ids: doing why boredom-meter facts legend to-legend cells memory-title. */
 export class Panel {
-  cells: CellsView;
+  cells = new CellsView(byId("cells"), this.onPress);
   legend: HTMLElement[] = [];
   calm: WeakMap<Scene, SteadyStates> = new WeakMap();
   reason = -1;
 
   /** @param onPress - As in `CellsView`. */
-  constructor(onPress?: OnPress) {
-    this.cells = new CellsView(byId("cells"), onPress);
+  constructor(readonly onPress: OnPress) {
     inEachLanguage(() => this.fillLegend(byId("legend")));
     byId("to-legend").addEventListener("click", () => byId("reference").scrollIntoView({ block: "end" }));
   }
@@ -44,10 +43,7 @@ export class Panel {
     scene.shown = calm.shown(scene.states, exact);
   }
 
-  /**
-   * @param how - Whether to tell every move, and a memory to compare
-   *   with, and when or where it is.
-   */
+  /** @param how - Whether to tell every move, and a memory to compare with, and when or where it is. */
   show(scene: Scene, { exact, then, where }: { exact: boolean; then?: number[]; where?: string }) {
     const { node } = scene.state;
     const state = scene.shown.get(node) ?? scene.state;
@@ -91,7 +87,7 @@ export class Panel {
   }
 }
 
-export function showFacts(scene: Scene) {
+function showFacts(scene: Scene) {
   const { environment, state } = scene;
   const left = environment.food.length - state.eaten.reduce((sum, eaten) => sum + eaten, 0);
   setText(byId("fact-environment"), say("ofCount", { count: environment.number, all: environment.of }));
@@ -113,8 +109,6 @@ const WEIGHT = new Map([
 /** Gives the states to show, by node. */
 class SteadyStates {
   held: Map<number, { state: State; weight: number; until: number }> = new Map();
-
-  constructor() {}
 
   /**
    * @param states - As they are.
@@ -139,4 +133,58 @@ class SteadyStates {
 
 function weightOf(state: State) {
   return (state.lifted ? LIFTED_WEIGHT : WEIGHT.get(state.reason)) ?? 0;
+}
+
+/** Fields that use the keys themselves. */
+const FIELDS = "select, summary, textarea, input:not([type=range])";
+
+/**
+ * Chooses which of several robots the panel shows; hidden if there is only one. Fills the element `robots`. Keys: 1..9 for the robot of that number, [ and ] for the one before
+ * and after.
+ */
+export class RobotPicker {
+  element = byId("robots");
+  buttons: HTMLButtonElement[] = [];
+
+  constructor(public scene: Scene, readonly onPick: (node: number) => void) {
+    document.addEventListener("keydown", (event) => this.onKey(event));
+    inEachLanguage(() => this.fill(this.buttons.map(({ value }) => Number(value))));
+  }
+
+  show() {
+    const { states, node } = this.scene;
+    const nodes = states.length > 1 ? states.map((state) => state.node) : [];
+    if (nodes.join() !== this.buttons.map(({ value }) => value).join()) this.fill(nodes);
+    for (const button of this.buttons) button.setAttribute("aria-pressed", `${button.value === `${node}`}`);
+  }
+
+  fill(nodes: number[]) {
+    this.element.hidden = nodes.length === 0;
+    this.buttons = nodes.map((node) => this.makeButton(node));
+    this.element.replaceChildren(say("robot"), ...this.buttons);
+  }
+
+  makeButton(node: number) {
+    const button = buttonOf(`${node}`, () => this.onPick(node));
+    button.value = `${node}`;
+    button.setAttribute("aria-label", say("robotNumber", { node }));
+    return button;
+  }
+
+  onKey(event: KeyboardEvent) {
+    if (this.scene.states.length < 2 || !isForPage(event, FIELDS)) return;
+    const node = nodeFor(event.key, this.scene);
+    if (node === undefined) return;
+    event.preventDefault();
+    this.onPick(node);
+  }
+}
+
+/** The robot that a key stands for, if it stands for one. */
+function nodeFor(key: string, { states, index }: Scene) {
+  if (key === "[" || key === "]") {
+    const step = key === "]" ? 1 : states.length - 1;
+    return states[(index + step) % states.length].node;
+  }
+  return states.find(({ node }) => key === `${node}`)?.node;
 }

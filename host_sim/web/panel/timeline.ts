@@ -1,6 +1,6 @@
 /* The strip above the scrubber: a mark for every event that one can jump to. */
 
-import { byId, contextOf, made } from "../core/dom.js";
+import { byId, made, sizedContext } from "../core/dom.js";
 import { inEachLanguage, nameIn } from "../core/language.js";
 import { REASON } from "../generated.js";
 import { currentPalette, REASON_KEYS } from "../core/palette.js";
@@ -28,11 +28,7 @@ export function explainMarks() {
  * Draws a mark for each event; if several of a kind are within a pixel, only for the first one.
  * @param ticks - Those at the ends of the strip.
  */
-export function drawMarks(
-  canvas: HTMLCanvasElement,
-  events: RobotRun["events"],
-  { first, last }: { first: number, last: number },
-) {
+export function drawMarks(canvas: HTMLCanvasElement, events: RobotRun["events"], { first, last }: { first: number, last: number }) {
   const palette = currentPalette();
   const context = sizedContext(canvas);
   const [length, height] = [canvas.clientWidth - 2 * THUMB_PX, canvas.clientHeight];
@@ -47,12 +43,4 @@ export function drawMarks(
       context.fillRect(x - width / 2, height * (1 - share), width, height * share);
     }
   }
-}
-
-function sizedContext(canvas: HTMLCanvasElement) {
-  canvas.width = Math.round(canvas.clientWidth * devicePixelRatio);
-  canvas.height = Math.round(canvas.clientHeight * devicePixelRatio);
-  const context = contextOf(canvas);
-  context.scale(devicePixelRatio, devicePixelRatio);
-  return context;
 }

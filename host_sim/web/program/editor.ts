@@ -7,16 +7,13 @@ export class Editor {
   numbers = made("pre", [], { "aria-hidden": "true" });
   lit = made("div", [], { class: "line lit", hidden: "" });
   wrong = made("div", [], { class: "line wrong", hidden: "" });
-  field: HTMLTextAreaElement;
-  element: HTMLDivElement;
+  field = made("textarea", [], { id: "program-text", spellcheck: "false", autocapitalize: "off", autocomplete: "off" });
+  element = made("div", [this.numbers, this.lit, this.wrong, this.field], { class: "editor" });
   /** The lines of the marks, from 1; 0 for none. */
   lines = { lit: 0, wrong: 0 };
 
   /** @param onInput - Called when a person has changed the text. */
   constructor(onInput: () => void) {
-    const plain = { spellcheck: "false", autocapitalize: "off", autocomplete: "off" };
-    this.field = made("textarea", [], { id: "program-text", ...plain });
-    this.element = made("div", [this.numbers, this.lit, this.wrong, this.field], { class: "editor" });
     this.field.addEventListener("input", () => {
       this.number();
       onInput();

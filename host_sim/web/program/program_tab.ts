@@ -3,15 +3,13 @@
 import { buttonOf, byId, choiceOf, made, setText, termsOf } from "../core/dom.js";
 import { heard, inEachLanguage, speak, wordsOf } from "../core/language.js";
 import { filled } from "../core/phrases.js";
-import { RANDOM } from "../core/world_names.js";
-import { nextTick } from "../lab/run_events.js";
 import { experimentFrom } from "../lab/share.js";
 import { partingOf } from "../panel/divergence.js";
 import { Editor } from "./editor.js";
 import { linkedIn, tellFound } from "./link.js";
 import { ProgramSteps } from "./program_steps.js";
 import type { ShownRun } from "../lab/shown_run.js";
-import type { Lab } from "../lessons/course.js";
+import type { LabPage } from "../lab/lab_page.js";
 import type { ProgramState } from "../sim/native_program.js";
 import type { Experiment } from "../types.js";
 
@@ -20,25 +18,19 @@ const WHEELS = ["left", "right"];
 
 /** Fills the element panel-program. The part of the address behind # may have an experiment. */
 export class ProgramTab {
-  steps: ProgramSteps;
-  editor: Editor;
+  steps = new ProgramSteps(this.lab.simulator);
+  editor = new Editor(() => this.onInput());
   isChanged = false;
-  news: HTMLParagraphElement;
-  parting: HTMLParagraphElement;
-  variables: HTMLDListElement;
-  choice: HTMLSelectElement;
+  news = made("p", [], { id: "program-news", role: "status" });
+  parting = made("p", [], { id: "program-parting", role: "status" });
+  variables = made("dl", [], { id: "program-variables" });
+  choice = made("select", []);
   /** The runs whose parting is shown. */
   compared: unknown[] = [];
   /** The message about a link, in the language of the page. */
   note = () => "";
 
-  constructor(readonly lab: Lab) {
-    this.steps = new ProgramSteps(lab.simulator);
-    this.editor = new Editor(() => this.onInput());
-    this.news = made("p", [], { id: "program-news", role: "status" });
-    this.parting = made("p", [], { id: "program-parting", role: "status" });
-    this.variables = made("dl", [], { id: "program-variables" });
-    this.choice = made("select", []);
+  constructor(readonly lab: LabPage) {
     this.choose(FIRST); // before the editor is in the document, so that no layout is needed
     inEachLanguage(() => this.build());
     for (const event of ["click", "focus"]) byId("tab-program").addEventListener(event, () => this.show());
@@ -80,7 +72,7 @@ export class ProgramTab {
 
   choose(name: string) {
     this.choice.value = name;
-    this.editor.text = this.lab.programs[name];
+    this.editor.text = this.lab.parts.programs[name];
     this.onInput();
   }
 
@@ -124,24 +116,15 @@ export class ProgramTab {
     const { lab, own } = this;
     lab.setPlaying(false);
     if (!own?.data) return;
-    const tick = nextTick(own.data.robots[0], "decision", lab.tick, 1);
+    const tick = own.data.robots[0].nextTick("decision", lab.tick, 1);
     if (tick === undefined) return;
     this.steps.beginAt(tick);
     lab.go(tick);
   }
 
-  /** What the page shows, as a link. */
+  /** What the page shows, as a link with this program. */
   link() {
-    const { experiment } = this.octet ?? this.lab.lane;
-    history.replaceState(null, "", this.lab.link(experiment, { program: this.editor.text }));
-    const note = typeof (experiment.world ?? RANDOM) === "string" ? "copied" : "noWorld";
-    this.tell(note === "copied" ? "inAddress" : note);
-    navigator.clipboard?.writeText(location.href).then(() => this.tell(note), () => {});
-  }
-
-  tell(note: "inAddress" | "copied" | "noWorld") {
-    this.note = () => this.texts[note];
-    this.show();
+    this.lab.copyLink((this.octet ?? this.lab.lane).experiment, { program: this.editor.text });
   }
 
   /** Shows the experiment of a link; ignores any other hash. */

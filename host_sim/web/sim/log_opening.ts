@@ -66,10 +66,9 @@ function* recordedFrames(commands: RecordedRun["commands"], ticks: number) {
  * @param module - page.wasm, compiled.
  */
 export function worldIn(module: WebAssembly.Module, worlds: Worlds, text: string): World {
-  const world = parsed(text);
-  if (world?.format !== 1 || !Array.isArray(world.edits)) throw new Error(NO_WORLD);
+  const world = read(module, worlds, text);
+  if (world.format !== 1 || !Array.isArray(world.edits)) throw new Error(NO_WORLD);
   const arena = new Arena(new NativeRun(module, 1), worlds.random);
-  if (!isBody(module, worlds, world.body)) throw new Error(NO_WORLD);
   const isEdited = world.edits.every((edit: Record<string, unknown> | null, i: number) =>
     isEdit(arena, edit) && Number(edit?.tick) >= (world.edits[i - 1]?.tick ?? 0));
   if (!isCount(world.of) || !isCount(world.limit_ticks) || !isEdited) throw new Error(NO_WORLD);
@@ -84,19 +83,14 @@ function placeIn(module: WebAssembly.Module, worlds: Worlds, world: unknown): Ex
   return { name: `${name}`, ...checkedWorld(module, worlds.random, content) };
 }
 
-function isBody(module: WebAssembly.Module, worlds: Worlds, body: Experiment["body"]) {
-  if (body === undefined) return true;
+/** What a text has, with a body that can be made; not checked otherwise. */
+function read(module: WebAssembly.Module, worlds: Worlds, text: string) {
   try {
-    new Arena(new NativeRun(module, 1), worlds.random, { body });
-    return typeof body === "object" || [IDEAL, KIT].includes(body);
-  } catch {
-    return false;
-  }
-}
-
-function parsed(text: string) {
-  try {
-    return JSON.parse(text);
+    const world = JSON.parse(text);
+    const { body = IDEAL } = world;
+    if (typeof body === "object" || body === IDEAL || body === KIT) new Arena(new NativeRun(module, 1), worlds.random, { body });
+    else throw new Error(NO_WORLD);
+    return world;
   } catch {
     throw new Error(NO_WORLD);
   }

@@ -46,10 +46,7 @@ function write(native: NativeRun, key: number, value: unknown) {
 }
 
 /** Draws an environment. */
-export function drawLayout(
-  native: NativeRun,
-  { seed, number, robots }: { seed: number, number: number, robots: number },
-): Layout {
+export function drawLayout(native: NativeRun, { seed, number, robots }: { seed: number, number: number, robots: number }): Layout {
   const at = native.c.page_draw(seed, number, robots);
   const [bars, food, starts] = native.tablesAt(at, [4, 2, 3]);
   if (!starts.length) throw new Error(`no fair environment in 1000 draws for seed ${seed}, number ${number}`);

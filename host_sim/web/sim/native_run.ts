@@ -19,14 +19,13 @@ export const AXES = 3;
 
 /** A run's robots, with an empty memory each. */
 export class NativeRun {
-  c: Exports;
+  c = new WebAssembly.Instance(this.module).exports as unknown as Exports;
 
   /**
    * @param module - page.wasm, compiled.
    * @param robots - Number of robots, 1..PAGE_ROBOTS_MAX.
    */
-  constructor(module: WebAssembly.Module, robots: number) {
-    this.c = new WebAssembly.Instance(module).exports as unknown as Exports;
+  constructor(readonly module: WebAssembly.Module, robots: number) {
     if (!this.c.page_open(robots)) throw new Error("not enough memory for another run");
   }
 

@@ -39,12 +39,11 @@ function exchangesOf(log: string) {
 
 /** A flash image on its serial line. */
 class PicoRobot {
-  board: PicoBoard;
+  board = new PicoBoard(RP2040, this.image);
   text = "";
   said: string[] = [];
 
-  constructor(image: Uint8Array) {
-    this.board = new PicoBoard(RP2040, image);
+  constructor(readonly image: Uint8Array) {
     this.hearUntil(1, BOOT_NS);
   }
 

@@ -11,12 +11,11 @@ const ALL_CELLS = Array.from({ length: CELL_COUNT }, (_, cell) => cell);
 /** `wantsRanges` tells for each robot whether its behaviour asks for distances. */
 export class RobotCommands {
   setups: (RobotSetup & { seed: number })[];
-  wantsRanges: boolean[];
+  wantsRanges: boolean[] = [];
 
   /** @param experiment - How the robots are set up. */
   constructor(readonly native: NativeRun, { robots, seed }: Experiment) {
     this.setups = robots.map((setup, robot) => ({ ...setup, seed: setup.seed ?? seed + robot }));
-    this.wantsRanges = robots.map(() => false);
   }
 
   /** Starts all robots as they are set up. */

@@ -1,13 +1,11 @@
 /* Records a run as it is simulated, in the form in which a recorded run is shown. */
 
-import { COLUMNS, REASON, ROW, SENTENCES } from "../generated.js";
-import { LearningHistory } from "./learning_history.js";
+import { CELL_COUNT, COLUMNS, REASON, ROW, SENTENCES } from "../generated.js";
 import { AXES } from "./native_run.js";
 import { bodySentence } from "../core/phrases.js";
 import type { Columns } from "../core/packed_columns.js";
-import type { EnvironmentScene, Measures } from "../generated_types.js";
+import type { EnvironmentScene, Lesson, Measures, Trial } from "../generated_types.js";
 import type { EventKind, RobotRun, Run, News, WorldEdit } from "../types.js";
-import type { Note } from "./learning_history.js";
 import type { NativeRun } from "./native_run.js";
 
 /** A block of one robot's ticks, in the order of native/page.h. */
@@ -28,14 +26,12 @@ const SIDE_BITS = 2;
 
 /** Its `tracks` record the blocks of one robot each. */
 export class RunRecorder {
-  tracks: Track[];
+  tracks = this.robots.map((robot) => new Track(this.native, robot));
   scenes: [number, EnvironmentScene][] = [];
   eaten: [number, number[]][] = [];
   edits: Edited[] = [];
 
-  constructor(readonly measures: Measures, native: NativeRun, robots: number[]) {
-    this.tracks = robots.map((robot) => new Track(native, robot));
-  }
+  constructor(readonly measures: Measures, readonly native: NativeRun, readonly robots: number[]) {}
 
   /** Number of ticks so far. */
   get ticks() {
@@ -73,24 +69,18 @@ export class RunRecorder {
 
 /** One robot's part of it. */
 class Track {
-  node: number;
-  history: LearningHistory;
+  node = this.robot + 1;
+  history = new LearningHistory(this.native, this.robot);
   ticks = 0;
   eats = false;
-  columns: Columns;
-  memory: [number, number[]][];
-  beads: Beads;
+  columns: Columns = Object.fromEntries(NAMES.map((name) => [name, new Int32Array(FIRST_ROOM)]));
+  memory: RobotRun["memory"] = [[0, this.native.sides(this.robot)]];
+  beads: Beads = [[0, this.sureness]];
   trials: RobotRun["trials"] = [[0, null]];
   begun: Note[] = [];
   meals: number[] = [];
 
-  constructor(readonly native: NativeRun, readonly robot: number) {
-    this.node = robot + 1;
-    this.history = new LearningHistory(native, robot);
-    this.columns = Object.fromEntries(NAMES.map((name) => [name, new Int32Array(FIRST_ROOM)]));
-    this.memory = [[0, native.sides(robot)]];
-    this.beads = [[0, this.sureness]];
-  }
+  constructor(readonly native: NativeRun, readonly robot: number) {}
 
   /** How sure the robot is of each cell, where its behaviour keeps that: in the bits above those of the side. */
   get sureness() {
@@ -207,4 +197,69 @@ function sentenceOf(edit: Edited, edits: Edited[], robots: number) {
   const { tick, what, robot = 0 } = edit;
   const alike = edits.filter((it) => it.do === "body" && it.tick === tick && it.what === what).length;
   return `${alike === robots ? "" : `Robot ${robot + 1}: `}${bodySentence(what)}`;
+}
+
+/** What is known of a cell from a tick on: tick, cell, uses, learned, by_hand. */
+type Cell = RobotRun["cells"][number];
+
+/** A turn or a trial that began, or a trial that ended; `trial` is the last one, after it. */
+type Note = { tick: number; reason: number; cell: Cell; trial: Trial | null };
+
+/** In `struct history_note` and `struct history_lesson`, as 32-bit numbers; the ticks are doubles. */
+const NOTE_NUMBERS = 14;
+const LESSON_NUMBERS = 4;
+
+/** What a robot has learned, told by C: its turns and trials, and its lessons. Built from the blocks of a run, in order. */
+class LearningHistory {
+  lessons: Lesson[] = [];
+  cells: Cell[] = [];
+
+  constructor(readonly native: NativeRun, readonly robot: number) {
+    this.forgetCells(0);
+    native.c.page_history_begin(robot);
+  }
+
+  /**
+   * Adds the last block.
+   * @param tick - Its first one, from the start of the run.
+   */
+  take(tick: number, ticks: number) {
+    const count = this.native.c.page_history_take(this.robot, tick);
+    const notes = Array.from({ length: count }, (_, i) => this.noteAt(this.native.c.page_notes() + 4 * NOTE_NUMBERS * i));
+    this.cells.push(...notes.filter(({ reason }) => reason === REASON.REMEMBERED).map(({ cell }) => cell));
+    this.addLessons(tick + ticks - 1);
+    return notes;
+  }
+
+  /** Makes all cells unused from a tick on, and when they were learned unknown. */
+  forgetCells(tick: number) {
+    for (let cell = 0; cell < CELL_COUNT; cell += 1) this.cells.push([tick, cell, 0, -1, 0]);
+  }
+
+  /**
+   * Adds a lesson for each pattern whose turn has changed: it was told.
+   * @param tick - The next one.
+   */
+  relearn(tick: number) {
+    this.native.c.page_history_relearn(this.robot, tick);
+    this.addLessons(tick);
+  }
+
+  /** @param tick - The tick of new lessons. */
+  addLessons(tick: number) {
+    const { c } = this.native;
+    const numbers = this.native.numbersAt(c.page_lessons(this.robot), LESSON_NUMBERS * c.page_lesson_count(this.robot));
+    for (let at = 0; at < numbers.length; at += LESSON_NUMBERS) {
+      const [cell, side, uses, by_hand] = numbers.slice(at, at + LESSON_NUMBERS);
+      this.lessons.push({ node: this.robot + 1, tick, cell, side, by_hand });
+      this.cells.push([tick, cell, uses, tick, by_hand]);
+    }
+  }
+
+  noteAt(at: number): Note {
+    const [tick, , , learned, begun] = this.native.doublesAt(at, NOTE_NUMBERS / 2);
+    const [, , reason, pattern, uses, by_hand, , , , , cell, side, helped, frozen] = this.native.numbersAt(at, NOTE_NUMBERS);
+    const trial = begun < 0 ? null : { tick: begun, cell, side, helped: helped < 0 ? null : helped, frozen };
+    return { tick, reason, cell: [tick, pattern, uses, learned, by_hand], trial };
+  }
 }

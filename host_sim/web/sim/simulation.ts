@@ -17,12 +17,12 @@ const BLOCK_TICKS = 256;
 
 /** Takes robots through their environments. */
 export class Simulation {
-  world: { params: SimParams; written?: WrittenWorld };
-  native: NativeRun;
+  world = worldOf(this.experiment.world ?? RANDOM, this.worlds);
+  native = new NativeRun(this.module, this.experiment.robots.length);
   arena: Arena;
-  commands: RobotCommands;
-  changes: DueChanges;
-  robots: number[];
+  commands = new RobotCommands(this.native, this.experiment);
+  changes = new DueChanges(this.experiment.changes);
+  robots = [...this.experiment.robots.keys()];
   tick = 0;
   tours: number[] = [];
   log: Uint8Array[] | undefined;
@@ -33,16 +33,11 @@ export class Simulation {
    * @param module - page.wasm, compiled.
    * @param keepsLog - Whether to record every frame.
    */
-  constructor(module: WebAssembly.Module, readonly experiment: Experiment, worlds: Worlds, keepsLog = false) {
-    const { environments, seed, robots, changes } = experiment;
-    this.world = worldOf(experiment.world ?? RANDOM, worlds);
-    this.native = new NativeRun(module, robots.length);
+  constructor(readonly module: WebAssembly.Module, readonly experiment: Experiment, readonly worlds: Worlds, keepsLog = false) {
+    const { environments, seed, robots } = experiment;
     for (const [robot, { program }] of robots.entries()) if (program !== undefined) loadProgram(this.native, robot, program);
     drawFrom(this.native, this.world.params, this.world.written);
     this.arena = new Arena(this.native, this.world.params, experiment);
-    this.commands = new RobotCommands(this.native, experiment);
-    this.changes = new DueChanges(changes);
-    this.robots = [...robots.keys()];
     this.log = keepsLog ? [] : undefined;
     this.scene = { number: 0, of: environments, seed, first_tick: 0, start_tick: 0, bars: [], food: [] };
     this.stopAll(); // as in the handshake of tools/run
@@ -68,8 +63,7 @@ export class Simulation {
 
   /** Runs all that is left. */
   finish() {
-    const run = this.run();
-    while (!run.next().done) continue;
+    for (const _ of this.run()) continue;
   }
 
   /** What was recorded so far. */
@@ -124,13 +118,9 @@ export class Simulation {
     const ticks = this.native.c.page_run(this.tick, measures ? 1 : Math.min(next - this.tick, BLOCK_TICKS));
     this.keepLog();
     if (!ticks) throw new Error(`a robot does not answer tick ${this.tick}: it was not started, or was stopped`);
-    for (const robot of this.robots) this.record(robot, ticks);
+    for (const robot of this.robots) this.recorder.tracks[robot].add(this.native.block(robot, ticks));
     this.tick += ticks;
     this.recorder.eat(this.arena.eaten);
-  }
-
-  record(robot: number, ticks: number) {
-    this.recorder.tracks[robot].add(this.native.block(robot, ticks));
   }
 
   /** Tells the robots that want it how far away things are. */

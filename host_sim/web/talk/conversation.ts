@@ -8,29 +8,20 @@ import type { Said, WirePlace } from "../types.js";
 import type { Known, Script } from "./eliza.js";
 import type { Texts } from "./facts.js";
 
-/** A speaker: a script and, for its facts, the words of its language. */
-type Speaker = { script: Script; texts: Texts };
-
 type About = ConstructorParameters<typeof RobotFacts>[0];
 
 const PLACES_MAX = 100;
 
-/** Answers sentence by sentence. */
+/** A speaker, by a script and, for its facts, the words of its language. It answers sentence by sentence. */
 export class Conversation {
-  texts: Texts;
-  eliza: Eliza;
-  joined: RegExp | null;
+  eliza = new Eliza(structuredClone(this.script));
+  joined = this.texts.joined && new RegExp(`,(?=\\s+(?:${this.texts.joined.join("|")})\\s)`, "gi");
 
-  constructor({ script, texts }: Speaker) {
-    this.texts = texts;
-    this.eliza = new Eliza(structuredClone(script));
-    this.joined = texts.joined && new RegExp(`,(?=\\s+(?:${texts.joined.join("|")})\\s)`, "gi");
-  }
+  constructor(readonly script: Script, readonly texts: Texts) {}
 
   /** @param about - What is asked about; undefined where nothing is known. */
   answer(sentence: string, about: About | undefined): Said {
-    const facts = 
-      (about ? new RobotFacts(about, this.texts) : {}) as unknown as Record<string, ((words: string[]) => Known | null)>;
+    const facts = (about ? new RobotFacts(about, this.texts) : {}) as unknown as Record<string, ((words: string[]) => Known | null)>;
     const heard = this.joined ? sentence.replace(/(?<=[0-9])[.,](?=[0-9])/g, POINT).replace(this.joined, " ") : sentence;
     try {
       const { text, known } = this.eliza.answer(heard, (name, words) => facts[name.toLowerCase()]?.(words) ?? null);
@@ -52,11 +43,10 @@ export class Conversation {
 
 /** All speakers of a page that has the whole run. They are unpacked when one of them is first spoken to. */
 export class Conversations {
-  #all: Promise<Record<string, Conversation>> | undefined;
+  unpacked: ReturnType<typeof speakersInPage> | undefined;
 
   get all() {
-    this.#all ??= speakersInPage();
-    return this.#all;
+    return (this.unpacked ??= speakersInPage());
   }
 
   /** What is asked, and its answer; and where the robot was in the ticks on which it rests, in this environment. */
@@ -72,6 +62,6 @@ export class Conversations {
 
 async function speakersInPage() {
   const text = new TextDecoder().decode(await inflate(JSON.parse(byId("speakers").textContent ?? "")));
-  const speakers: [string, Speaker][] = Object.entries(JSON.parse(text));
-  return Object.fromEntries(speakers.map(([name, speaker]) => [name, new Conversation(speaker)]));
+  const speakers: [string, { script: Script; texts: Texts }][] = Object.entries(JSON.parse(text));
+  return Object.fromEntries(speakers.map(([name, { script, texts }]) => [name, new Conversation(script, texts)]));
 }

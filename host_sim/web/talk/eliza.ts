@@ -33,13 +33,11 @@ const CODES = new Map([[0, "0123456789"], [0o13, "='"], [0o20, "+ABCDEFGHI"], [0
 
 /** A conversation. It remembers sentences, and changes the turns of its script. */
 export class Eliza {
-  rules: Map<string, Rule>;
+  rules = new Map(Object.entries(this.script.rules));
   limit = 1;
   memories: string[] = [];
 
-  constructor(readonly script: Script) {
-    this.rules = new Map(Object.entries(script.rules));
-  }
+  constructor(readonly script: Script) {}
 
   /** Answers a sentence. */
   answer(sentence: string, ask: Ask): { text: string; known: Known[] } {
@@ -164,7 +162,7 @@ function putTogether(pieces: Piece[], found: string[][]) {
 }
 
 /** SLIP's hash of the last cell of a word, as in host_sim/talk/eliza.py. */
-export function slipHash(word: string, bits: number) {
+function slipHash(word: string, bits: number) {
   const letters = [...word];
   const last = letters.slice(Math.floor(Math.max(0, letters.length - 1) / 6) * 6).join("");
   const codes = [...last, ..."      "].slice(0, 6).map((it) => CODES.get(it) ?? (it.codePointAt(0) ?? 0) & 0o77);

@@ -2,7 +2,8 @@
 
 import { buttonOf, made, setText } from "../core/dom.js";
 import { inEachLanguage, LANGUAGES, languageCode, say } from "../core/language.js";
-import type { Meant, Scene } from "../draw/scene.js";
+import type { Meant } from "../draw/scene.js";
+import type { LabPage } from "../lab/lab_page.js";
 import type { Said, WirePlace } from "../types.js";
 
 /**
@@ -10,17 +11,6 @@ import type { Said, WirePlace } from "../types.js";
  * people had changed the run before.
  */
 export type Exchange = { who: string; sentence: string; said: Said; tick?: number; changes?: number };
-
-/**
- * The page, as far as the box knows it: `ask` has a sentence answered, now or later, by `TalkBox.answer`; `seek` shows a
- * tick, where the page can; `lightUp` draws the scene anew, with what is meant.
- */
-interface Page {
-  scene: Scene | undefined;
-  ask: (who: string, sentence: string) => void;
-  seek?: (tick: number) => void;
-  lightUp: () => void;
-}
 
 /** The speakers, and the language of each. */
 const SPEAKERS = { robot: "en", "robot-de": "de", eliza: "en", "eliza-de": "de" };
@@ -35,14 +25,12 @@ export class TalkBox {
   /** What speakers were taught to say. */
   taught: Set<string> = new Set();
   who = made("select", Object.keys(SPEAKERS).map((value) => made("option", [], { value })), { id: "talk-who" });
-  list: HTMLOListElement;
-  line: HTMLInputElement;
-  element: HTMLDivElement;
+  list = made("ol", [], { id: "talk-said", "aria-live": "polite", tabindex: "0" });
+  line = made("input", [], { id: "talk-line", maxlength: LENGTH_MAX, autocomplete: "off" });
+  element = made("div", [this.list], { id: "talk-box" });
 
-  constructor(parent: HTMLElement, readonly page: Page) {
+  constructor(parent: HTMLElement, readonly page: LabPage) {
     this.who.addEventListener("change", () => this.mean(undefined));
-    this.list = made("ol", [], { id: "talk-said", "aria-live": "polite", tabindex: "0" });
-    this.line = made("input", [], { id: "talk-line", maxlength: LENGTH_MAX, autocomplete: "off" });
     const to = made("span", []);
     const button = made("button", [], { class: "main" });
     const form = made("form", [made("label", [to, " ", this.who]), this.line, button], { class: "controls" });
@@ -51,7 +39,7 @@ export class TalkBox {
       this.page.ask(this.who.value, this.line.value);
       this.line.value = "";
     });
-    this.element = made("div", [this.list, form], { id: "talk-box" });
+    this.element.append(form);
     parent.append(this.element);
     inEachLanguage(() => this.name(to, button));
   }
@@ -105,12 +93,10 @@ export class TalkBox {
     this.page.lightUp();
   }
 
-  /** The last times on which an answer rests, as buttons if the page can show them. */
+  /** The last times on which an answer rests, as buttons. */
   times({ ticks }: Said) {
-    const { scene, seek } = this.page;
-    if (!scene) return [];
-    return ticks.slice(-TIMES_SHOWN).map((tick) =>
-      seek ? buttonOf(scene.clock(tick), () => this.page.seek?.(tick)) : made("span", [scene.clock(tick)], { class: "time" }));
+    const { scene } = this.page;
+    return scene ? ticks.slice(-TIMES_SHOWN).map((tick) => buttonOf(scene.clock(tick), () => this.page.seek(tick))) : [];
   }
 }
 

@@ -18,7 +18,8 @@ ANSWERS = """
 const [speakers, run, told, table] = texts.map((text) => JSON.parse(text));
 const data = await modules["core/run_data.ts"].RunData.from(run);
 const { Conversation } = modules["talk/conversation.ts"];
-const talks = Object.fromEntries(Object.entries(speakers).map(([name, it]) => [name, new Conversation(it)]));
+const made = ([name, { script, texts }]) => [name, new Conversation(script, texts)];
+const talks = Object.fromEntries(Object.entries(speakers).map(made));
 return table.map(([who, tick, sentence]) => {
   const { mark, text, ticks, cells, food } = talks[who].answer(sentence, { data, robot: 0, tick, told });
   return [mark, text, [ticks, cells, food]];
