@@ -51,6 +51,13 @@ TAB_PLACES = """() => [...new Set(Array.from({ length: Math.floor((octet.last - 
   return Math.round(document.querySelector("#tabs").getBoundingClientRect().top + scrollY);
 }))]"""
 
+# The same while one fault after the other is told, beside the verdict on a try.
+TOLD_PLACES = """() => [...new Set([...document.querySelector("#fault").options].map((fault) => {
+  octet.scene.news = octet.scene.news.length ? [] : [[octet.scene.environment.first_tick, `${fault.text}.`]];
+  octet.draw();
+  return Math.round(document.querySelector("#tabs").getBoundingClientRect().top + scrollY);
+}))]"""
+
 
 def fill(run: FakeRun) -> None:
     """Long words in every place."""
@@ -113,6 +120,7 @@ def test_tabs_stay_where_they_are_while_a_run_plays(recorded: Path, open_page, l
     for size in THREE_SIZES:
         resize(page, size)
         assert len(page.evaluate(TAB_PLACES)) == 1, size
+        assert len(page.evaluate(TOLD_PLACES)) == 1, size
 
 
 def test_small_or_covered_arena_is_found(recorded: Path, open_page):
