@@ -160,21 +160,15 @@ TRIED = (
 )
 
 
-@pytest.fixture(scope="module")
-def outcomes():
+def test_pin_fault_reaches_the_robot_which_tolerates_or_reports_it():
     (cells,) = groups(["article"], [PINS_LINK], [LOCKSTEP], lambda _: 10.0, PINS)
-    return {it.cell.fault: it for it in run_all([cell for cell in cells if cell.fault in ("", *TRIED)])}
+    outcomes = {it.cell.fault: it for it in run_all([cell for cell in cells if cell.fault in ("", *TRIED)])}
 
-
-@pytest.mark.parametrize("fault", TRIED)
-def test_pin_fault_reaches_the_robot_which_tolerates_or_reports_it(outcomes, fault):
-    outcome = outcomes[fault]
-    assert (outcome.reach, outcome.problems, outcome.end) == ("reached", [], "")
-    assert ("denied" in outcome.seen) == outcome.cell.denies
-
-
-def test_robot_stopped_by_a_bridge_fault_answers_to_the_end(outcomes):
-    assert outcomes["the bridge reports a fault"].recovered
+    for fault in TRIED:
+        outcome = outcomes[fault]
+        assert (outcome.reach, outcome.problems, outcome.end) == ("reached", [], ""), fault
+        assert ("denied" in outcome.seen) == outcome.cell.denies, fault
+    assert outcomes["the bridge reports a fault"].recovered  # it answers to the end
 
 
 def test_pin_faults_of_the_matrix_cover_all_pin_events():
