@@ -12,7 +12,7 @@ from host_sim.base.errors import UsageError
 from host_sim.base.files import COMPRESSED
 from host_sim.cli.parsing import file_path, number, settings, word_or_file
 from host_sim.protocol.words import NODE_MAX
-from host_sim.sim.access import PICO, check_robot
+from host_sim.sim.access import BOARDS, PICO, check_robot
 from host_sim.sim.option import Option, flag_of, option, options_of
 from host_sim.sim.run_config import C_FILE, PROGRAM_FILE, RunConfig
 from host_sim.transport.link import BIT_RATE
@@ -105,10 +105,10 @@ class RunOptions(RunConfig):
     @property
     def stages(self) -> list[str]:
         """The stages of tools/setup that the run needs."""
-        emulated = ["pico"] if self.board == PICO else ["images"]
+        emulated = [self.board or BOARDS[0]]
         if self.board != PICO or self.body == PINS:
             emulated.append("emulator")
-        robot = {"qemu": ["images"], "emulated": emulated}.get(self.robot, ["run"])
+        robot = {"qemu": ["qemu"], "emulated": emulated}.get(self.robot, ["run"])
         robot = ["run", *robot] if self.profile.endswith(C_FILE) and robot != ["run"] else robot
         if self.gdb:
             robot = {"spawn": ["debug"], "emulated": ["emulator", "debug-images"]}.get(self.robot, ["debug-images"])
