@@ -295,6 +295,8 @@ def _check_symbols(name: str, made: Path) -> None:
     for symbol, _, kind, _, _, _, section in rows:
         where, _, line = section.partition("\t")
         at = f"{name}:{line.rpartition(':')[2]}" if line else name
+        if symbol == "main":
+            raise UsageError(f"{at}: a robot has a main already, which calls own_begin and own_next: remove this one")
         if kind == "U" and not _ALLOWED.fullmatch(symbol):
             raise UsageError(f"{at}: a robot has no {symbol}: octet_brain.h names all that it has")
         if kind in "bBdDC" and _VARIABLE.fullmatch(where):
