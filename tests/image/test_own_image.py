@@ -106,6 +106,21 @@ def test_flash_builds_images_with_and_without_a_custom_behaviour(mine):
         starts_own()
 
 
+def test_flash_names_what_keeps_an_image_from_being_built(mine):
+    table = "static const unsigned char table[100000] = {1};\n"
+    mine.write_text(
+        TEMPLATE.replace("bool own_begin", f"{table}bool own_begin").replace(
+            "return true;", "return table[brain->own[0]] != 0;"
+        )
+    )
+
+    done = flashed("--profile", str(mine))
+
+    assert done.returncode == 1
+    assert "octet-blue_pill-bxcan cannot be built:" in done.stderr
+    assert "overflowed by" in done.stderr
+
+
 def test_builds_at_once_each_make_the_image_asked_for():
     nodes = ("2", "3", "4")
     running = [subprocess.Popen([*FLASH, "--node", node], stdout=subprocess.PIPE, text=True) for node in nodes]

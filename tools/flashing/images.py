@@ -2,7 +2,6 @@
 
 import os
 import re
-import shlex
 import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -111,7 +110,7 @@ def built(  # noqa: PLR0913 - what is built, and what is built into it
     with alone_in(folder):
         done = build_image(board.name, folder, *settings, target=image, root=root)
         if done.returncode != 0:
-            raise OctetError(f"{shlex.join(done.args)} failed; run it to see why")
+            raise OctetError(f"{image} cannot be built:\n{(done.stdout + done.stderr).strip()}")
         yield folder / f"{image}.elf"
 
 
