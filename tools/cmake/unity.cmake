@@ -19,15 +19,22 @@ function(octet_add_test name)
   set_tests_properties(${name} PROPERTIES FAIL_REGULAR_EXPRESSION "\n0 Tests;[1-9][0-9]* Ignored" TIMEOUT 60)
 endfunction()
 
-# octet_test(NAME LIBRARY...): a test program from test_NAME.c in the current folder.
-# octet_test_part(NAME LIBRARY...): NAME.c, which several tests link: it is compiled once.
-function(octet_test_part name)
-  add_library(${name} OBJECT ${name}.c)
+# octet_test_part(PATH LIBRARY...): PATH.c, which several tests link: it is compiled once.
+function(octet_test_part path)
+  get_filename_component(name ${path} NAME)
+  add_library(${name} OBJECT ${path}.c)
   target_link_libraries(${name} PRIVATE unity octet_warnings ${ARGN})
 endfunction()
 
-function(octet_test name)
-  add_executable(test_${name} test_${name}.c)
+# octet_test([FOLDER/]NAME LIBRARY...): a test program, FOLDER/test_NAME, from test_NAME.c in that folder.
+function(octet_test path)
+  get_filename_component(name ${path} NAME)
+  get_filename_component(folder ${path} DIRECTORY)
+  if(folder)
+    string(APPEND folder /)
+  endif()
+  add_executable(test_${name} ${folder}test_${name}.c)
+  set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/${folder})
   target_link_libraries(test_${name} PRIVATE unity octet_warnings ${ARGN})
   octet_add_test(${name} test_${name})
 endfunction()
