@@ -6,6 +6,7 @@ import subprocess
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import pairwise
 from pathlib import Path
 
 from host_sim.base.errors import OctetError
@@ -68,3 +69,10 @@ def build_image(
         return done
     build = ["cmake", "--build", os.fspath(folder), "--target", target]
     return subprocess.run(build, cwd=root, capture_output=True, text=True, check=False)
+
+
+def complaints(build: subprocess.CompletedProcess[str]) -> str:
+    """What CMake, compiler and linker say in a build that failed, without the steps and commands of ninja."""
+    lines = (build.stdout + build.stderr).splitlines()
+    told = (line for before, line in pairwise(["", *lines]) if not before.startswith("FAILED: "))  # a command
+    return "\n".join(line for line in told if not line.startswith(("[", "FAILED: ", "ninja: ")))

@@ -20,7 +20,7 @@ from typing import Any
 
 from host_sim.base.errors import OctetError, UsageError
 from host_sim.base.files import write_bytes
-from host_sim.base.image_build import alone_in, build_image
+from host_sim.base.image_build import alone_in, build_image, complaints
 from host_sim.base.paths import BUILD, PACKAGE, ROOT
 from host_sim.sim.in_process_link import OwnLink, Relay, read_source
 from host_sim.sim.world_record import Source
@@ -133,7 +133,7 @@ class OwnBrain:
                 write_bytes(source, text)
             done = build_image(board, folder, f"-DOCTET_OWN_BRAIN={source}", target=f"octet-{board}-{link}")
             if done.returncode:
-                told = self.named(done.stdout + done.stderr).strip()
+                told = self.named(complaints(done))
                 raise OctetError(f"the image of {board} with {self.name} cannot be built:\n{told}")
             made = folder / f"octet-{board}-{link}.elf"
             kept = self.folder / made.name

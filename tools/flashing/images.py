@@ -10,7 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.base.image_build import alone_in, build_image
+from host_sim.base.image_build import alone_in, build_image, complaints
 from host_sim.emulator.board_pins import HAL, board_files, settings
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -110,7 +110,7 @@ def built(  # noqa: PLR0913 - what is built, and what is built into it
     with alone_in(folder):
         done = build_image(board.name, folder, *settings, target=image, root=root)
         if done.returncode != 0:
-            raise OctetError(f"{image} cannot be built:\n{(done.stdout + done.stderr).strip()}")
+            raise OctetError(f"{image} cannot be built:\n{complaints(done)}")
         yield folder / f"{image}.elf"
 
 
