@@ -35,8 +35,11 @@ export class PicoPanel {
 
   /** Compares the frames of the selected run, from its beginning. */
   async start() {
+    this.progress = undefined;
+    this.button.disabled = true; // until there is something to stop
     const worker = new Worker(URL.createObjectURL(new Blob([await inflate(this.parts.worker)], { type: "text/javascript" })));
-    Object.assign(this, { worker, progress: undefined, why: () => "" });
+    this.button.disabled = false;
+    Object.assign(this, { worker, why: () => "" });
     worker.addEventListener("message", ({ data }) => this.take(data));
     this.show();
     try {
