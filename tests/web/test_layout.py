@@ -52,8 +52,8 @@ TAB_PLACES = """() => [...new Set(Array.from({ length: Math.floor((octet.last - 
 }))]"""
 
 # The same while one fault after the other is told, beside the verdict on a try.
-TOLD_PLACES = """() => [...new Set([...document.querySelector("#fault").options].map((fault) => {
-  octet.scene.news = octet.scene.news.length ? [] : [[octet.scene.environment.first_tick, `${fault.text}.`]];
+TOLD_PLACES = """() => [...new Set(["", ...document.querySelector("#fault").options].map((fault) => {
+  octet.scene.news = !fault ? [] : [[octet.scene.environment.first_tick, `${fault.text}.`]];
   octet.draw();
   return Math.round(document.querySelector("#tabs").getBoundingClientRect().top + scrollY);
 }))]"""

@@ -40,7 +40,7 @@ def add(commands: Subparsers) -> None:
         description="Calibrates a robot's sensors, motors and track, and stores the results in its flash.",
         epilog=_EXAMPLES,
         check=_check,
-        stages=lambda arguments: ["emulator", "images"] if arguments.robot == "emulated" else ["run"],
+        stages=lambda arguments: ["emulator", "blue_pill"] if arguments.robot == "emulated" else ["run"],
     )
     add_ = parser.add_argument
     add_("steps", nargs="*", metavar="STEP", help=f"{', '.join(STEPS)} (default: all)")

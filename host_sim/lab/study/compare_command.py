@@ -10,6 +10,7 @@ from host_sim.base.errors import UsageError, counted
 from host_sim.cli.parsing import DEFAULT, Subparsers, add_command, file_path, number, settings
 from host_sim.lab.study.study_command import add_workers, rehearse_all, with_progress, worker_stages, workers_of
 from host_sim.protocol.words import PROFILES
+from host_sim.sim.access import BOARDS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -91,7 +92,7 @@ def _check(arguments: argparse.Namespace) -> None:
 
 
 def _stages(arguments: argparse.Namespace) -> "Sequence[str]":
-    emulated = ["images", "emulator"] if arguments.robot == "emulated" else []
+    emulated = [BOARDS[0], "emulator"] if arguments.robot == "emulated" else []
     study = ["study"] if arguments.plots or Path(arguments.what[0]).is_dir() else []
     return [*emulated, *study, *worker_stages(arguments)] or ["run"]
 
